@@ -1,0 +1,1 @@
+"""Simulated PLC: task classes on a tick, function blocks, tags and networks."""

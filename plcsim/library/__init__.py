@@ -1,0 +1,1 @@
+"""Controller libraries, one folder each, named as B&R names it."""

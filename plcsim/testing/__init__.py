@@ -1,0 +1,1 @@
+"""What tests of plcsim projects use; never imported at run time."""
