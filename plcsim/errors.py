@@ -1,0 +1,66 @@
+"""Errors of plcsim.
+
+::
+
+    PlcError                         base of all
+    ├── ConfigurationError           plc.toml or a project folder is wrong; names file and field
+    ├── PageFault                    an address that no variable lies at
+    ├── PhaseError                   an act in a phase of the scan that does not allow it
+    ├── TagError                     no such tag, or a value it cannot take
+    ├── CycleTimeViolation           raised in a program that does not return, by the watchdog
+    └── ProgramError                 what a program raised, with program, unit, file and line
+"""
+
+from __future__ import annotations
+
+
+class PlcError(Exception):
+    """Base of all errors of this package."""
+
+
+class ConfigurationError(PlcError):
+    """A project cannot be loaded; the message names the file and the field."""
+
+
+class PageFault(PlcError):  # noqa: N818  # the field's term
+    """An access through an address at which no variable lies.
+
+    Attributes:
+        address: what was accessed.
+        size: bytes.
+    """
+
+    def __init__(self, address: int, size: int) -> None:
+        super().__init__(f"page fault: {size} bytes at address 16#{address:08X}")
+        self.address = address
+        self.size = size
+
+
+class PhaseError(PlcError):
+    """An act that the current phase of the scan does not allow."""
+
+
+class TagError(PlcError):
+    """A tag does not exist or cannot take a value."""
+
+
+class CycleTimeViolation(PlcError):  # noqa: N818  # the field's term
+    """Raised by the watchdog in a program that does not return."""
+
+
+class ProgramError(PlcError):
+    """What a program raised.
+
+    Attributes:
+        program: name of the program in plc.toml.
+        unit: INIT, CYCLIC or EXIT.
+        place: "file:line" of the program's own source, "" where there is none.
+        reason: what happened, in one line.
+    """
+
+    def __init__(self, program: str, unit: str, place: str, reason: str) -> None:
+        super().__init__(f"{program} {unit}: {reason}" + (f" ({place})" if place else ""))
+        self.program = program
+        self.unit = unit
+        self.place = place
+        self.reason = reason
