@@ -9,6 +9,7 @@ if TYPE_CHECKING:
 
     from plcsim.memory import Memory
     from plcsim.network.protocol import Network
+    from plcsim.task import Violation
 
 T = TypeVar("T")
 
@@ -22,10 +23,11 @@ class Context:
         release_ns: release time of the running task class, nanoseconds on the controller's clock.
             It is the only time a function block knows, so all timers of a cycle agree. The scan
             sets it before the first program of a cycle runs.
+        violation: the violation an exception program was called for, None before the first.
         options: settings of controller libraries: table [library.NAME] of plc.toml by NAME.
     """
 
-    __slots__ = ("_libraries", "memory", "network", "options", "release_ns")
+    __slots__ = ("_libraries", "memory", "network", "options", "release_ns", "violation")
 
     def __init__(
         self,
@@ -36,6 +38,7 @@ class Context:
         self.memory = memory
         self.network = network
         self.release_ns = 0
+        self.violation: Violation | None = None
         self.options = dict(options or {})
         self._libraries: dict[object, object] = {}
 

@@ -1,0 +1,113 @@
+"""Tags: the variables of programs as the outside names them, ``program.member[index].member``."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.errors import TagError
+from plcsim.memory import find
+from st_types.derived import ArrayType, StructType, resolve_alias
+from st_types.errors import ValueRangeError
+from st_types.values import encode
+from st_types.views import address_of, type_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from plcsim.memory import Memory
+    from plcsim.task import Task
+    from st_types.elementary import DataType
+
+
+class Tag(NamedTuple):
+    """A variable under the name by which it is read and written from outside.
+
+    Attributes:
+        path: such as ``"conveyor.motor.speed"``.
+        data_type: its type, aliases resolved.
+        address: PLC address of its first byte.
+    """
+
+    path: str
+    data_type: DataType[Any]
+    address: int
+
+
+class TagTable:
+    """All tags of a controller.
+
+    Args:
+        memory: where the variables lie.
+        tasks: the programs, whose names are the first part of a path.
+    """
+
+    def __init__(self, memory: Memory, tasks: Sequence[Task]) -> None:
+        self._memory = memory
+        self._tasks = {task.name.upper(): task for task in tasks}
+
+    def find(self, path: str) -> Tag:
+        """Return the tag ``path``; case does not matter.
+
+        Raises:
+            TagError: there is no such tag; the message offers names that are near.
+        """
+        name, _, rest = path.partition(".")
+        task = self._tasks.get(name.upper())
+        if task is None:
+            raise TagError(f"no program {name!r} for tag {path!r}{self._nearest(path)}")
+        try:
+            data_type, offset = find(type_of(task.variables), rest)
+        except KeyError as err:
+            raise TagError(f"no tag {path!r}: {err.args[0]}{self._nearest(path)}") from None
+        return Tag(path, data_type, address_of(task.variables) + offset)
+
+    def _nearest(self, path: str) -> str:
+        near = difflib.get_close_matches(path, [tag.path for tag in self], n=3)
+        return f"; did you mean {', '.join(near)}?" if near else ""
+
+    def read(self, tag: Tag) -> object:
+        """Return the plain value of a tag (see `st_types.values.decode`)."""
+        return self._memory.get(tag.data_type, tag.address)
+
+    def write(self, tag: Tag, value: object) -> None:
+        """Store a plain value.
+
+        Raises:
+            TagError: the tag cannot take the value.
+        """
+        self.store(tag, self.encode(tag, value))
+
+    def encode(self, tag: Tag, value: object) -> bytes:
+        """Return the bytes of a plain value for a tag, without storing them.
+
+        Raises:
+            TagError: the tag cannot take the value.
+        """
+        try:
+            return encode(tag.data_type, value)
+        except ValueRangeError as err:
+            raise TagError(f"tag {tag.path}: {err}") from None
+
+    def store(self, tag: Tag, data: bytes) -> None:
+        """Store bytes made by `encode`."""
+        self._memory.write(tag.address, data)
+
+    def __iter__(self) -> Iterator[Tag]:
+        """Iterate over all tags of elementary, enumeration and string types."""
+        for task in self._tasks.values():
+            start = address_of(task.variables)
+            yield from _leaves(task.name, type_of(task.variables), start)
+
+
+def _leaves(path: str, data_type: DataType[Any], address: int) -> Iterator[Tag]:
+    """Iterate over the tags below one variable; of an ARRAY only the first element's are named."""
+    data_type = resolve_alias(data_type)
+    if isinstance(data_type, StructType):
+        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+            yield from _leaves(f"{path}.{member.name}", member.data_type, address + offset)
+    elif isinstance(data_type, ArrayType):
+        first = ",".join(str(low) for low, _ in data_type.bounds)
+        yield from _leaves(f"{path}[{first}]", data_type.element, address)
+    else:
+        yield Tag(path, data_type, address)
