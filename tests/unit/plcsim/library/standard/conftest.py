@@ -1,0 +1,61 @@
+"""Blocks in a controller of their own, and timing diagrams as text.
+
+A diagram has one row a member and one column a call, 1 ms apart. ``_`` and ``#`` are FALSE and
+TRUE, a digit is a number. Rows of inputs are played, rows of outputs are compared.
+"""
+
+import pytest
+
+from plcsim.context import Context
+from plcsim.memory import PAGE, Memory
+from st_types.derived import Section
+from st_types.views import type_of
+
+MS = 1_000_000
+
+
+def new_block(block_class, release_ns=0):
+    context = Context(Memory(2 * PAGE), network=None)
+    context.release_ns = release_ns
+    return context.memory.new(block_class, context)
+
+
+def play_diagram(block_class, text):
+    """Return the diagram with its output rows replaced by what the block gives."""
+    rows = dict(line.split() for line in text.split("\n") if line.strip())
+    block = new_block(block_class)
+    section = {name: type_of(block).find(name)[0].section for name in rows}
+    played = {name: row if section[name] is Section.INPUT else "" for name, row in rows.items()}
+    for column in range(len(next(iter(rows.values())))):
+        inputs = {n: _value(r[column]) for n, r in rows.items() if section[n] is Section.INPUT}
+        block(**inputs)
+        for name in rows.keys() - inputs:
+            played[name] += _mark(getattr(block, name))
+        block.context.release_ns += MS
+    return "\n".join(f"{name:5} {row}" for name, row in played.items())
+
+
+def _value(mark):
+    return mark == "#" if mark in "_#" else int(mark)
+
+
+def _mark(value):
+    return "_#"[value] if isinstance(value, bool) else str(value)
+
+
+@pytest.fixture(scope="session")
+def new():
+    """``new(TON, release_ns=0)``: a block in a new controller."""
+    return new_block
+
+
+@pytest.fixture(scope="session")
+def agrees():
+    """``agrees(TON, diagram)``: the block gives the diagram."""
+
+    def agrees(block_class, text):
+        lines = [line.split() for line in text.split("\n") if line.strip()]
+        expected = "\n".join(f"{name:5} {row}" for name, row in lines)
+        assert play_diagram(block_class, expected) == expected
+
+    return agrees
