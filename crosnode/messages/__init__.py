@@ -1,0 +1,17 @@
+"""ROS 1 message and service types: definitions, md5 sums, codec, JSON."""
+
+from crosnode.messages.codec import Message
+from crosnode.messages.json_values import from_json, to_json
+from crosnode.messages.registry import MessageType, MessageTypes, ServiceType
+from crosnode.messages.values import Duration, Time
+
+__all__ = [
+    "Duration",
+    "Message",
+    "MessageType",
+    "MessageTypes",
+    "ServiceType",
+    "Time",
+    "from_json",
+    "to_json",
+]
