@@ -168,6 +168,19 @@ class MessageTypes:
             self._services[name] = ServiceType(self, name, text)
         return self._services[name]
 
+    def find(self, name: str) -> MessageType | ServiceType:
+        """Return the message type, or else the service type, ``name``; raises as ``message`` does.
+
+        ``pkg/srv/Name`` is a service where a message of the same name is.
+        """
+        short = "/".join(split_type_name(name))
+        wanted = "/srv/" in name or self._lacks(short)
+        if wanted and self._packages.read(short, Kind.SERVICE) is not None:
+            return self.service(short)
+        if self._lacks(short):
+            raise UnknownTypeError(f"No message or service type {short}.")
+        return self.message(short)
+
     def define(self, name: str, text: str) -> MessageType:
         """Add a message type by its text, before any folder; dependencies may follow in the text.
 
