@@ -94,6 +94,7 @@ class Controller:
     Attributes:
         state: BOOT, RUN, SERVICE or STOPPED.
         fault: what led to SERVICE, None otherwise.
+        stop_requested: `stop` was called since the last `boot`.
         violations: the latest records, at most `VIOLATIONS_KEPT`.
     """
 
@@ -125,6 +126,7 @@ class Controller:
         self.image.attach(self.scan)
         self._heartbeat = heartbeat or Heartbeat()
         self._boot_ns = self.clock.now_ns()
+        self.stop_requested = False
 
     def _task(self, setup: ProgramSetup | None) -> Task | None:
         if setup is None:
@@ -152,6 +154,7 @@ class Controller:
         if self.state is not State.BOOT:
             self._enter(Event.RESTART)
             self.fault = None
+            self.stop_requested = False
             self.context.restart()
         self._boot_ns = self.context.release_ns = self.clock.now_ns()
         self._heartbeat.changed(self.state)
@@ -167,7 +170,7 @@ class Controller:
 
     def run(self, until_ns: int | None = None, cycles: int | None = None) -> State:
         """Run the scan until it is stopped or fails; for the limits see `Scan.run`."""
-        if self.state is State.RUN:
+        if self.state is State.RUN and not self.stop_requested:
             self.scan.run(until_ns, cycles)
         return self.state
 
@@ -177,6 +180,7 @@ class Controller:
 
     def stop(self) -> None:
         """End `run` after the current cycle; a signal handler may call this."""
+        self.stop_requested = True
         self.scan.stop()
 
     def abort_program(self, reason: str) -> None:

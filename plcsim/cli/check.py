@@ -1,0 +1,72 @@
+"""``plcsim check PROJECT``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+
+from plcsim.clock import VirtualClock
+from plcsim.controller import Controller
+from plcsim.duration import format_duration
+from plcsim.network import VirtualNetwork
+from plcsim.project import load_setup, read_project
+from st_types.views import address_of, type_of
+
+if TYPE_CHECKING:
+    import argparse
+
+    from plcsim.task import TaskClass
+
+CHECK_IP = "192.168.0.10"
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    parser = subparsers.add_parser(
+        "check",
+        help="check a project without running it",
+        description="Load a project, lay out its memory, and show what would run. No unit of any "
+        "program runs.",
+        epilog="Exit codes: 0 the project is right, 1 it is not.",
+    )
+    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    parser.set_defaults(func=check)
+
+
+def check(options: argparse.Namespace) -> int:
+    """Check the project and print what it consists of."""
+    project = read_project(options.project)
+    clock = VirtualClock()
+    network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
+    controller = Controller(load_setup(project), network=network, clock=clock)
+    console = Console(highlight=False)
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
+        table.add_column(column, justify="left" if column == "program" else "right")
+    for task_class in controller.classes:
+        _add_rows(table, task_class, controller)
+    console.print(table)
+    console.print(
+        f"{project.name}: {len(controller.tasks)} programs, {controller.memory.used} of "
+        f"{controller.memory.size} bytes of PLC memory used, tick "
+        f"{format_duration(project.tick_ns)}"
+    )
+    return 0
+
+
+def _add_rows(table: Table, task_class: TaskClass, controller: Controller) -> None:
+    for task in task_class.tasks:
+        prefix = task.name.upper() + "."
+        tags = sum(tag.path.upper().startswith(prefix) for tag in controller.tags)
+        table.add_row(
+            f"#{task_class.number}",
+            format_duration(task_class.cycle_ns),
+            format_duration(task_class.tolerance_ns),
+            task.name,
+            f"16#{address_of(task.variables):08X}",
+            str(type_of(task.variables).size),
+            str(tags),
+        )

@@ -1,0 +1,51 @@
+"""``plcsim``: one command with a sub-command for each act.
+
+Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 the controller ended in SERVICE.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib.metadata import entry_points, version
+
+from plcsim.cli import check, new, run
+from plcsim.errors import PlcError
+from st_types.errors import TypeSystemError
+
+COMMANDS = "plcsim.commands"
+"""Entry point group: packages above plcsim bring commands of their own."""
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands, those of other packages included."""
+    parser = argparse.ArgumentParser(
+        prog="plcsim",
+        description="Runs PLC programs on Linux the way a B&R controller runs them.",
+        epilog="Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 ended in SERVICE.",
+    )
+    parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in (run, check, new):
+        command.register(subparsers)
+    for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
+        entry.load()(subparsers)
+    return parser
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run ``plcsim`` with ``arguments``, by default those of the process."""
+    options = build_parser().parse_args(arguments)
+    try:
+        code: int = options.func(options)
+    except (PlcError, TypeSystemError) as err:
+        print(f"plcsim: {err}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 0
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,65 @@
+"""``plcsim new NAME``."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import plcsim
+from plcsim.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    import argparse
+
+DEFAULT_EXAMPLE = "blinky"
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    examples = ", ".join(sorted(_examples())) or "none found"
+    parser = subparsers.add_parser(
+        "new",
+        help="start a project",
+        description="Make a folder NAME with a project that runs and tests itself, a copy of an "
+        f"example. Examples: {examples}.",
+    )
+    parser.add_argument("name", type=Path, metavar="NAME", help="folder to make")
+    parser.add_argument(
+        "--like",
+        metavar="EXAMPLE",
+        default=DEFAULT_EXAMPLE,
+        help=f"the example to start from (default: {DEFAULT_EXAMPLE})",
+    )
+    parser.set_defaults(func=new)
+
+
+def _examples() -> dict[str, Path]:
+    """Return the example projects: in the installed package, or beside it in a checkout."""
+    package = Path(plcsim.__file__).resolve().parent
+    for folder in (package / "_examples", package.parent / "programs"):
+        if folder.is_dir():
+            return {p.parent.name: p.parent for p in folder.glob("*/plc.toml")}
+    return {}
+
+
+def new(options: argparse.Namespace) -> int:
+    """Copy the example."""
+    target: Path = options.name
+    example = _examples().get(options.like)
+    if example is None:
+        known = ", ".join(sorted(_examples()))
+        raise ConfigurationError(f"--like {options.like}: no such example; there are {known}")
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_-]*", target.name):
+        raise ConfigurationError(f"{target.name!r} cannot be the name of a project")
+    if target.exists():
+        raise ConfigurationError(f"{target}: exists already; nothing was changed")
+    if not target.parent.is_dir():
+        raise ConfigurationError(f"{target}: there is no folder {target.parent}")
+    shutil.copytree(example, target, ignore=shutil.ignore_patterns("__pycache__", ".*"))
+    print(f"Made {target} from the example {options.like}. Try:")
+    print(f"    plcsim run {target}")
+    if (target / "tests").is_dir():
+        print(f"    python -m pytest {target}/tests")
+    return 0

@@ -1,0 +1,111 @@
+"""``plcsim run PROJECT``."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plcsim.cli.display import LiveTable, print_summary
+from plcsim.duration import parse_duration_ns
+from plcsim.errors import ConfigurationError
+from plcsim.project import read_project
+from plcsim.supervisor import Supervisor
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+ENDED_IN_SERVICE = 3
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    parser = subparsers.add_parser(
+        "run",
+        help="run a project",
+        description="Run a project until Ctrl-C, a limit, or a fault. Ctrl-C runs the EXITs; a "
+        "second one ends a program that hangs.",
+        epilog="Exit codes: 0 ran and stopped, 1 configuration error, 3 ended in SERVICE.",
+    )
+    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    parser.add_argument(
+        "--for",
+        dest="for_ns",
+        type=_duration,
+        metavar="TIME",
+        help='stop after TIME on the controller\'s clock, such as "10s"',
+    )
+    parser.add_argument(
+        "--cycles",
+        type=_positive,
+        metavar="N",
+        help="stop after N cycles of the task class with the lowest number",
+    )
+    parser.add_argument(
+        "--virtual",
+        action="store_true",
+        help="run on the virtual clock and network, as fast as the host can",
+    )
+    parser.add_argument(
+        "--report", type=Path, metavar="FILE", help="write the figures of the run as JSON"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(func=run)
+
+
+def _duration(text: str) -> int:
+    try:
+        return parse_duration_ns(text)
+    except ValueError as err:
+        raise argparse.ArgumentTypeError(str(err)) from None
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
+    return int(text)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the project and return the exit code."""
+    project = read_project(options.project)
+    _check_report_file(options.report)
+    with Supervisor(
+        project, virtual=options.virtual, for_ns=options.for_ns, cycles=options.cycles
+    ) as supervisor:
+        _forward_signals(supervisor)
+        if options.quiet:
+            result = supervisor.wait()
+        else:
+            with LiveTable(project, supervisor.page):
+                result = supervisor.wait()
+    return _finish(result, options)
+
+
+def _check_report_file(report: Path | None) -> None:
+    """Find out before the run that its report cannot be written."""
+    if report is not None and not report.parent.is_dir():
+        raise ConfigurationError(f"--report {report}: there is no folder {report.parent}")
+
+
+def _forward_signals(supervisor: Supervisor) -> None:
+    def stop(_number: int, _frame: FrameType | None) -> None:
+        supervisor.stop()
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
+
+
+def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
+    if "error" in result:
+        raise ConfigurationError(result["error"])
+    if options.report is not None:
+        options.report.write_text(json.dumps(result, indent=2) + "\n", "utf-8")
+    in_service = result["state"] == "SERVICE"
+    if not options.quiet or in_service:
+        sys.stdout.flush()
+        print_summary(result)
+    return ENDED_IN_SERVICE if in_service else 0

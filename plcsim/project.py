@@ -1,0 +1,327 @@
+"""A project on disk: plc.toml and a folder for each program.
+
+The keys of plc.toml and their defaults are listed in docs/project.md. Everything wrong is a
+ConfigurationError that names the file and the field.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
+from plcsim.duration import format_duration, parse_duration_ns
+from plcsim.errors import ConfigurationError
+from plcsim.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
+from plcsim.program_loader import ProgramLoader
+from plcsim.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+T = TypeVar("T")
+
+FILE_NAME = "plc.toml"
+
+DEFAULT_CYCLES_MS = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10}
+"""Cycle time of each class where none is given, as in a new Automation Studio project."""
+
+DEFAULT_TOLERANCE_OF_8_NS = 30_000_000_000
+"""Class 8 tolerates 30 s, again as in a new Automation Studio project; others their cycle time."""
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_SIZE = re.compile(r"(\d+)\s*(KiB|MiB)?")
+
+
+@dataclass(frozen=True)
+class ProgramEntry:
+    """A program in plc.toml: the name it runs under and the folder it lies in."""
+
+    name: str
+    source: str
+
+
+@dataclass(frozen=True)
+class TaskClassEntry:
+    """A table [task_class.N] of plc.toml."""
+
+    number: int
+    cycle_ns: int
+    tolerance_ns: int
+    first_release_ns: int
+    policy: Policy
+    host_policy: Policy
+    programs: tuple[ProgramEntry, ...]
+
+
+@dataclass(frozen=True)
+class Project:
+    """What plc.toml says; no program is loaded yet.
+
+    Attributes:
+        folder: where plc.toml lies.
+        name: from [plc], or the folder's.
+        tick_ns: all cycle times are multiples of it.
+        memory_size: bytes.
+        watchdog_ns: after this time at least, a CYCLIC that does not return is ended.
+        init_timeout_ns: the same for INIT and EXIT.
+        realtime: "auto", "off" or "require".
+        priority: of SCHED_FIFO.
+        cpu: the processor to stay on, None for any.
+        classes: in order of their numbers.
+        exception_program: runs for violations under the policy "exception".
+        options: tables [library.NAME] by NAME.
+    """
+
+    folder: Path
+    name: str
+    tick_ns: int
+    memory_size: int
+    watchdog_ns: int
+    init_timeout_ns: int
+    realtime: str
+    priority: int
+    cpu: int | None
+    classes: tuple[TaskClassEntry, ...]
+    exception_program: ProgramEntry | None
+    options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+
+    @property
+    def programs(self) -> tuple[ProgramEntry, ...]:
+        """All programs in configured order, the exception program last."""
+        last = (self.exception_program,) if self.exception_program else ()
+        return tuple(p for c in self.classes for p in c.programs) + last
+
+
+class _Table:
+    """A table of plc.toml whose keys are taken one by one; what is left over is an error."""
+
+    def __init__(self, file: Path, name: str, values: object) -> None:
+        self._file = file
+        self._name = name
+        if not isinstance(values, dict):
+            raise self.error("", "a table is expected")
+        self._values = dict(values)
+        self._known: list[str] = []
+
+    def error(self, key: str, text: str) -> ConfigurationError:
+        place = ".".join(part for part in (self._name, key) if part)
+        return ConfigurationError(f"{self._file}: {place}: {text}")
+
+    def take(self, key: str, kind: type[T], default: T) -> T:
+        self._known.append(key)
+        value = self._values.pop(key, default)
+        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+            raise self.error(key, f"{value!r} is not a {_KIND_NAMES[kind]}")
+        return value
+
+    def convert(self, key: str, default: T, convert: Callable[[str], T]) -> T:
+        text = self.take(key, str, "") if key in self._values else ""
+        self._known.append(key)
+        try:
+            return convert(text) if text else default
+        except ValueError as err:
+            raise self.error(key, str(err)) from None
+
+    def duration_ns(self, key: str, default_ns: int) -> int:
+        return self.convert(key, default_ns, parse_duration_ns)
+
+    def keys(self) -> list[str]:
+        return list(self._values)
+
+    def finish(self) -> None:
+        for key in self._values:
+            near = difflib.get_close_matches(key, self._known, n=1)
+            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(self._known)}"
+            raise self.error(key, f"unknown key; {hint}")
+
+
+_KIND_NAMES: dict[type, str] = {str: "string", int: "whole number", dict: "table", list: "list"}
+
+
+def read_project(path: Path) -> Project:
+    """Read plc.toml of a project folder, without loading any program.
+
+    Args:
+        path: the folder, or its plc.toml.
+
+    Raises:
+        ConfigurationError: something is missing or wrong; file and field are named.
+    """
+    file = path if path.name == FILE_NAME else path / FILE_NAME
+    try:
+        values = tomllib.loads(file.read_text("utf-8"))
+    except FileNotFoundError:
+        raise ConfigurationError(f"{file}: there is no such file; a project has one") from None
+    except (OSError, UnicodeDecodeError) as err:
+        raise ConfigurationError(f"{file}: cannot be read: {err}") from None
+    except tomllib.TOMLDecodeError as err:
+        raise ConfigurationError(f"{file}: {err}") from None
+    top = _Table(file, "", values)
+    plc = _Table(file, "plc", top.take("plc", dict, {}))
+    tick_ns = plc.duration_ns("tick", 1_000_000)
+    if tick_ns <= 0:
+        raise plc.error("tick", "must be above 0")
+    classes = _task_classes(file, top.take("task_class", dict, {}), tick_ns)
+    project = _plc_table(file.parent, plc, tick_ns, classes, top.take("library", dict, {}))
+    top.finish()
+    _check_names(file, project)
+    return project
+
+
+def _plc_table(
+    folder: Path,
+    plc: _Table,
+    tick_ns: int,
+    classes: tuple[TaskClassEntry, ...],
+    options: dict[str, Any],
+) -> Project:
+    exception = plc.take("exception_program", str, "")
+    realtime = plc.take("realtime", str, "auto")
+    if realtime not in ("auto", "off", "require"):
+        raise plc.error("realtime", f'{realtime!r} is not "auto", "off" or "require"')
+    priority = plc.take("priority", int, 50)
+    if not 1 <= priority <= 98:
+        raise plc.error("priority", f"{priority} is outside 1..98")
+    cpu = plc.take("cpu", int, -1)
+    project = Project(
+        folder=folder,
+        name=plc.take("name", str, folder.resolve().name),
+        tick_ns=tick_ns,
+        memory_size=plc.convert("memory", DEFAULT_SIZE, _memory_size),
+        watchdog_ns=plc.duration_ns("watchdog", 500_000_000),
+        init_timeout_ns=plc.duration_ns("init_timeout", 10_000_000_000),
+        realtime=realtime,
+        priority=priority,
+        cpu=None if cpu < 0 else cpu,
+        classes=classes,
+        exception_program=ProgramEntry(exception, exception) if exception else None,
+        options=options,
+    )
+    plc.finish()
+    for name, value in options.items():
+        if not isinstance(value, dict):
+            raise plc.error(f"library.{name}", "a table is expected")
+    return project
+
+
+def _memory_size(text: str) -> int:
+    match = _SIZE.fullmatch(text)
+    if match is None:
+        raise ValueError(f'{text!r} is not a size such as "16MiB"')
+    size = int(match[1]) * {"KiB": 1024, "MiB": 1024 * 1024, None: 1}[match[2]]
+    if size % PAGE or not 2 * PAGE <= size <= MAX_SIZE:
+        raise ValueError(f"{text!r} must be a multiple of {PAGE} bytes, at most {MAX_SIZE}")
+    return size
+
+
+def _task_classes(file: Path, tables: dict[str, Any], tick_ns: int) -> tuple[TaskClassEntry, ...]:
+    if not tables:
+        raise ConfigurationError(f"{file}: task_class: at least one, [task_class.1], is needed")
+    numbers = {str(n): n for n in range(LOWEST_CLASS, HIGHEST_CLASS + 1)}
+    for key in tables:
+        if key not in numbers:
+            raise ConfigurationError(
+                f"{file}: task_class.{key}: task classes are {LOWEST_CLASS} to {HIGHEST_CLASS}"
+            )
+    ordered = sorted(tables, key=lambda key: numbers[key])
+    return tuple(
+        _task_class(_Table(file, f"task_class.{key}", tables[key]), numbers[key], tick_ns)
+        for key in ordered
+    )
+
+
+def _task_class(table: _Table, number: int, tick_ns: int) -> TaskClassEntry:
+    cycle_ns = table.duration_ns("cycle", DEFAULT_CYCLES_MS[number] * 1_000_000)
+    if cycle_ns <= 0 or cycle_ns % tick_ns:
+        cycle, tick = format_duration(cycle_ns), format_duration(tick_ns)
+        raise table.error("cycle", f"{cycle} is not a multiple of the tick, {tick}")
+    tolerance_ns = DEFAULT_TOLERANCE_OF_8_NS if number == HIGHEST_CLASS else cycle_ns
+    entry = TaskClassEntry(
+        number=number,
+        cycle_ns=cycle_ns,
+        tolerance_ns=table.duration_ns("tolerance", tolerance_ns),
+        first_release_ns=table.duration_ns("first_release", cycle_ns // 2),
+        policy=table.convert("on_violation", Policy.SERVICE, _policy),
+        host_policy=table.convert("on_host_violation", Policy.LOG, _policy),
+        programs=tuple(_program(table, value) for value in table.take("programs", list, [])),
+    )
+    if not entry.programs:
+        raise table.error("programs", "at least one program is needed")
+    table.finish()
+    return entry
+
+
+def _policy(text: str) -> Policy:
+    try:
+        return Policy(text)
+    except ValueError:
+        raise ValueError(f'{text!r} is not "service", "log" or "exception"') from None
+
+
+def _program(table: _Table, value: object) -> ProgramEntry:
+    if isinstance(value, str):
+        value = {"name": value}
+    if not isinstance(value, dict) or not isinstance(value.get("name"), str):
+        raise table.error("programs", f"{value!r} is neither a name nor {{name=..., source=...}}")
+    name, source = value["name"], value.get("source", value["name"])
+    unknown = sorted(set(value) - {"name", "source"})
+    if unknown:
+        raise table.error("programs", f"{name}: unknown key {unknown[0]}")
+    if not _NAME.fullmatch(name):
+        raise table.error("programs", f"{name!r} is not an identifier")
+    if not isinstance(source, str) or Path(source).is_absolute() or ".." in Path(source).parts:
+        raise table.error("programs", f"{name}: source {source!r} is not a folder of the project")
+    return ProgramEntry(name, source)
+
+
+def _check_names(file: Path, project: Project) -> None:
+    seen: set[str] = set()
+    for program in project.programs:
+        if program.name.upper() in seen:
+            raise ConfigurationError(
+                f"{file}: programs: two programs are called {program.name}; "
+                f'give one a name of its own: {{name = "...", source = "{program.source}"}}'
+            )
+        seen.add(program.name.upper())
+    uses = [c for c in project.classes if Policy.EXCEPTION in (c.policy, c.host_policy)]
+    if uses and project.exception_program is None:
+        raise ConfigurationError(
+            f"{file}: task_class.{uses[0].number}: the policy exception needs plc.exception_program"
+        )
+
+
+def load_setup(project: Project) -> Setup:
+    """Load the programs of a project and return what a controller is made from.
+
+    Raises:
+        ConfigurationError: a program is missing or cannot be loaded; file and line are named.
+    """
+    loader = ProgramLoader(project.folder)
+
+    def setup_of(entry: ProgramEntry) -> ProgramSetup:
+        return ProgramSetup(entry.name, loader.load(entry.source))
+
+    return Setup(
+        classes=[
+            TaskClassSetup(
+                number=c.number,
+                cycle_ns=c.cycle_ns,
+                programs=[setup_of(p) for p in c.programs],
+                tolerance_ns=c.tolerance_ns,
+                first_release_ns=c.first_release_ns,
+                policy=c.policy,
+                host_policy=c.host_policy,
+            )
+            for c in project.classes
+        ],
+        memory_size=project.memory_size,
+        exception_program=setup_of(project.exception_program)
+        if project.exception_program
+        else None,
+        options=project.options,
+    )

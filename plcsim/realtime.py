@@ -1,0 +1,115 @@
+"""Real-time rights of the scan process, taken where the host gives them.
+
+With them a cycle waits for nobody: SCHED_FIFO, one processor, memory that is never paged out,
+timers without slack, a processor that does not sleep deeply, and no garbage collection while the
+scan runs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import resource
+from pathlib import Path
+from typing import NamedTuple
+
+from plcsim import garbage
+
+_MCL_CURRENT, _MCL_FUTURE = 1, 2
+_PR_SET_PDEATHSIG, _PR_SET_TIMERSLACK = 1, 29
+
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+class Rights(NamedTuple):
+    """What the host gave and what it refused, in words."""
+
+    granted: tuple[str, ...]
+    refused: tuple[str, ...]
+
+    @property
+    def complete(self) -> bool:
+        """True where the scheduler itself gave way; the rest only narrows the tail."""
+        return any(right.startswith("SCHED_FIFO") for right in self.granted)
+
+
+def die_with_parent(signal_number: int) -> None:
+    """Ask the kernel to send this process a signal when its parent ends."""
+    _libc.prctl(_PR_SET_PDEATHSIG, signal_number)
+
+
+def sharpen_timers() -> None:
+    """Let sleeps of this thread end without the 50 us of slack that Linux allows by default."""
+    _libc.prctl(_PR_SET_TIMERSLACK, 1)
+
+
+def acquire(priority: int, cpu: int | None) -> Rights:
+    """Take what rights there are for the calling thread.
+
+    Args:
+        priority: of SCHED_FIFO, 1 to 98.
+        cpu: the processor to stay on; None takes the last one allowed, if there are several.
+    """
+    granted: list[str] = []
+    refused: list[str] = []
+    sharpen_timers()
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+        granted.append(f"SCHED_FIFO {priority}")
+    except OSError as err:
+        refused.append(f"SCHED_FIFO: {err.strerror}")
+        return Rights(tuple(granted), tuple(refused))
+    chosen = scan_cpu(cpu)
+    if chosen is not None:
+        try:
+            os.sched_setaffinity(0, {chosen})
+            granted.append(f"CPU {chosen}")
+        except OSError as err:
+            refused.append(f"CPU {chosen}: {err.strerror}")
+    _lock_memory(granted, refused)
+    _stay_awake(granted, refused)
+    return Rights(tuple(granted), tuple(refused))
+
+
+def scan_cpu(cpu: int | None) -> int | None:
+    """Return the processor for the scan: the given one, or the last of several allowed."""
+    allowed = sorted(os.sched_getaffinity(0))
+    if cpu is not None:
+        return cpu
+    return allowed[-1] if len(allowed) > 1 else None
+
+
+def _lock_memory(granted: list[str], refused: list[str]) -> None:
+    """Lock all pages; only where no limit could make a later allocation fail."""
+    limit = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0]
+    if os.geteuid() != 0 and limit != resource.RLIM_INFINITY:
+        refused.append(f"locked memory: the limit is {limit // 1024} KiB")
+    elif _libc.mlockall(_MCL_CURRENT | _MCL_FUTURE) == 0:
+        granted.append("locked memory")
+    else:
+        refused.append(f"locked memory: {os.strerror(ctypes.get_errno())}")
+
+
+def _stay_awake(granted: list[str], refused: list[str]) -> None:
+    """Keep the processors out of deep sleep for as long as this process lives (Linux PM QoS)."""
+    device = Path("/dev/cpu_dma_latency")
+    try:
+        fd = os.open(device, os.O_WRONLY | os.O_CLOEXEC)
+        os.write(fd, (0).to_bytes(4, "little"))
+        granted.append("no deep sleep")
+    except OSError as err:
+        refused.append(f"no deep sleep: {err.strerror}")
+
+
+def keep_off(cpu: int | None) -> None:
+    """Keep the calling process off the processor of the scan, where there is another."""
+    others = os.sched_getaffinity(0) - {cpu}
+    if others:
+        with contextlib.suppress(OSError):
+            os.sched_setaffinity(0, others)
+
+
+def settle() -> None:
+    """Call after INIT: what was made so far is no garbage, and nothing is collected in a cycle."""
+    garbage.freeze()

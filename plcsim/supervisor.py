@@ -1,0 +1,200 @@
+"""The parent of the scan process: starts it, watches it, ends a program that never returns.
+
+The watchdog is a process of its own because a stuck program holds the scan's thread, and with
+real-time rights its processor too. It looks at the status page: the same heartbeat for too long
+while a program is active means that the program does not return. Then it sends a signal, which ends
+the program by an exception; where even that has no effect, because the program is stuck inside a
+call, it takes the Python stack and kills the scan process.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING, Any, Self
+
+from plcsim import realtime
+from plcsim.duration import format_duration
+from plcsim.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
+from plcsim.status_page import StatusPage
+from plcsim.system import State
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.project import Project, TaskClassEntry
+
+POLL_S = 0.02
+"""The watchdog looks this often."""
+
+PATIENCE_NS = 1_000_000_000
+"""After the signal, a program has this long to end before the process is killed."""
+
+_FRAME = re.compile(r'File "(.+)", line (\d+)')
+
+
+class Supervisor:
+    """Runs a project in a scan process of its own.
+
+    Use as a context manager; `wait` returns the result.
+
+    Args:
+        project: what plc.toml says.
+        virtual: run on the virtual clock and network.
+        for_ns: stop after this time of the controller's clock.
+        cycles: stop after as many cycles of the first class.
+    """
+
+    def __init__(
+        self,
+        project: Project,
+        *,
+        virtual: bool = False,
+        for_ns: int | None = None,
+        cycles: int | None = None,
+    ) -> None:
+        self.page = StatusPage()
+        self._project = project
+        self._classes = self._class_of_each_task(project)
+        self._result_fd = os.memfd_create("plcsim-result")
+        self._dump_fd = os.memfd_create("plcsim-dump")
+        fds = (self.page.fd, self._result_fd, self._dump_fd)
+        self._process = _start(RunOrder(str(project.folder), virtual, for_ns, cycles, *fds), fds)
+        self._seen = (-1, 0)
+        self._signalled_ns = 0
+        if not virtual and project.realtime != "off":
+            realtime.keep_off(realtime.scan_cpu(project.cpu))
+
+    @staticmethod
+    def _class_of_each_task(project: Project) -> list[TaskClassEntry | None]:
+        classes: list[TaskClassEntry | None] = [c for c in project.classes for _ in c.programs]
+        return [*classes, None] if project.exception_program else classes
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+        self.page.close()
+        os.close(self._result_fd)
+        os.close(self._dump_fd)
+
+    def stop(self) -> None:
+        """Ask the scan to stop; the EXITs run. A second request ends a program that hangs."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+
+    def wait(self, look: Callable[[], None] = lambda: None) -> dict[str, Any]:
+        """Wait for the end of the run, watching over it.
+
+        Args:
+            look: called about every `POLL_S` seconds.
+
+        Returns:
+            the report (see `plcsim.report`), or {"error": text} where the project is wrong.
+        """
+        while True:
+            try:
+                self._process.wait(POLL_S)
+                return self._outcome()
+            except subprocess.TimeoutExpired:
+                self._watch(time.monotonic_ns())
+            look()
+
+    def _watch(self, now_ns: int) -> None:
+        """Signal, and later kill, a program that has been running for too long."""
+        heartbeat = self.page.heartbeat
+        if heartbeat != self._seen[0] or self.page.active is None:
+            self._seen = (heartbeat, now_ns)
+            self._signalled_ns = 0
+        elif self._signalled_ns:
+            if now_ns - self._signalled_ns > PATIENCE_NS:
+                self._kill()
+        elif now_ns - self._seen[1] > self._limit_ns():
+            self._process.send_signal(STALLED)
+            self._signalled_ns = now_ns
+
+    def _limit_ns(self) -> int:
+        """Return how long the active unit may take."""
+        task_class = self._classes[self.page.active or 0]
+        if self.page.state is not State.RUN or task_class is None:
+            return self._project.init_timeout_ns
+        return max(self._project.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
+
+    def _kill(self) -> None:
+        """End a scan process whose program is stuck inside a call; keep where it is stuck."""
+        self._process.send_signal(DUMP)
+        time.sleep(POLL_S)
+        self._process.kill()
+
+    def _outcome(self) -> dict[str, Any]:
+        text = _read_all(self._result_fd)
+        if text:
+            result: dict[str, Any] = json.loads(text)
+            return result
+        return self._outcome_of_death()
+
+    def _outcome_of_death(self) -> dict[str, Any]:
+        """Return what is known of a scan process that could leave no report itself."""
+        active = self.page.active
+        name = "" if active is None else self._project.programs[active].name
+        code = self._process.returncode
+        reason = f"the scan process ended with {_code_name(code)}"
+        if self._signalled_ns:
+            limit = format_duration(self._limit_ns())
+            reason = f"did not return within {limit} and could not be interrupted"
+        place = self._place_of_death()
+        text = f"{name or 'scan'}: {reason}" + (f" ({place})" if place else "")
+        fault = {"kind": "program_error", "program": name, "unit": "", "place": place}
+        return {
+            "project": self._project.name,
+            "state": State.SERVICE.name,
+            "fault": {**fault, "text": reason},
+            "elapsed_ns": self.page.elapsed_ns,
+            "task_classes": [],
+            "violations": [],
+            "logbook": [
+                {
+                    "time_ns": self.page.elapsed_ns,
+                    "severity": "error",
+                    "source": name or "system",
+                    "text": text,
+                }
+            ],
+            "logbook_dropped": 0,
+        }
+
+    def _place_of_death(self) -> str:
+        """Return "file:line" of the innermost frame of the project's own files."""
+        folder = str(self._project.folder.resolve()) + os.sep
+        frames = _FRAME.findall(_read_all(self._dump_fd).decode("utf-8", "replace"))
+        return next((f"{file}:{line}" for file, line in frames if file.startswith(folder)), "")
+
+
+def _start(order: RunOrder, fds: tuple[int, ...]) -> subprocess.Popen[bytes]:
+    """Start the scan process, in a group of its own so that Ctrl-C reaches it through us only."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
+    try:
+        return subprocess.Popen(  # noqa: S603  # our own module
+            [sys.executable, "-m", "plcsim.scan_process", order.to_json()],
+            pass_fds=fds,
+            process_group=0,
+            stdin=subprocess.DEVNULL,
+        )
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _read_all(fd: int) -> bytes:
+    return os.pread(fd, os.fstat(fd).st_size, 0)
+
+
+def _code_name(code: int) -> str:
+    return signal.Signals(-code).name if code < 0 else f"exit code {code}"

@@ -1,0 +1,21 @@
+"""Blinky: a lamp that changes every half second."""
+
+from plcsim import Program
+from plcsim.library.standard import TON
+from st_types import BOOL, TIME, UDINT, var
+
+
+class Blinky(Program):
+    """One timer that starts itself again."""
+
+    lamp = var(BOOL)
+    changes = var(UDINT)
+    half_period = var(TIME, 500)
+    timer = var(TON)
+
+    def cyclic(self) -> None:
+        """Change the lamp when the timer has run down."""
+        self.timer(IN=not self.timer.Q, PT=self.half_period)
+        if self.timer.Q:
+            self.lamp = not self.lamp
+            self.changes += 1
