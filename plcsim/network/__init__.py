@@ -1,0 +1,38 @@
+"""TCP as function blocks need it: never blocking, never raising, on the host's or a virtual net.
+
+``OsNetwork`` uses the sockets of the host. ``VirtualNetwork`` simulates hosts on one net, in
+virtual time, with faults at will. Both pass the suite in ``tests/contracts/network_contract.py``.
+"""
+
+from plcsim.network.os_network import OsNetwork
+from plcsim.network.protocol import (
+    Accepted,
+    Address,
+    Network,
+    Opened,
+    Option,
+    OptionValue,
+    Outcome,
+    Received,
+    Sent,
+    Socket,
+)
+from plcsim.network.virtual_network import VirtualNetwork
+from plcsim.network.wire import Limits, Link
+
+__all__ = [
+    "Accepted",
+    "Address",
+    "Limits",
+    "Link",
+    "Network",
+    "Opened",
+    "Option",
+    "OptionValue",
+    "OsNetwork",
+    "Outcome",
+    "Received",
+    "Sent",
+    "Socket",
+    "VirtualNetwork",
+]

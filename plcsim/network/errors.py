@@ -1,0 +1,17 @@
+"""Errors of plcsim.network.
+
+::
+
+    NetworkError                     base of all
+    └── NetworkSetupError            a wrong virtual net, link or fault (also a ValueError)
+
+What happens on a net is never an exception: it is an ``Outcome``.
+"""
+
+
+class NetworkError(Exception):
+    """Base of all errors of this package."""
+
+
+class NetworkSetupError(NetworkError, ValueError):
+    """A virtual net, a link or a fault is described wrongly."""

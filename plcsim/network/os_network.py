@@ -1,0 +1,281 @@
+"""The network of the host: non-blocking sockets, each failure translated to an ``Outcome``."""
+
+from __future__ import annotations
+
+import errno
+import socket
+import struct
+from contextlib import suppress
+from typing import Final
+
+from plcsim.network.protocol import (
+    ANY_IP,
+    BUFFERS,
+    MAX_BACKLOG,
+    MAX_LINGER_S,
+    MAX_RECEIVE,
+    NO_ADDRESS,
+    Accepted,
+    Address,
+    Opened,
+    Option,
+    OptionValue,
+    Outcome,
+    Received,
+    Sent,
+    is_connectable,
+    is_ipv4,
+    legal_value,
+)
+
+_OUTCOMES: Final = {
+    errno.EAGAIN: Outcome.WOULD_BLOCK,
+    errno.EINPROGRESS: Outcome.WOULD_BLOCK,
+    errno.EALREADY: Outcome.WOULD_BLOCK,
+    errno.EINTR: Outcome.WOULD_BLOCK,
+    errno.ECONNRESET: Outcome.RESET,
+    errno.ECONNABORTED: Outcome.RESET,
+    errno.ETIMEDOUT: Outcome.TIMED_OUT,
+    errno.EPIPE: Outcome.NOT_CONNECTED,
+    errno.ENOTCONN: Outcome.NOT_CONNECTED,
+    errno.EISCONN: Outcome.ALREADY_CONNECTED,
+    errno.ECONNREFUSED: Outcome.REFUSED,
+    errno.EHOSTUNREACH: Outcome.UNREACHABLE,
+    errno.ENETUNREACH: Outcome.UNREACHABLE,
+    errno.ENETDOWN: Outcome.UNREACHABLE,
+    errno.EADDRINUSE: Outcome.IN_USE,
+    errno.EADDRNOTAVAIL: Outcome.NOT_LOCAL,
+    errno.EACCES: Outcome.DENIED,
+    errno.EPERM: Outcome.DENIED,
+    errno.EMFILE: Outcome.NO_RESOURCES,
+    errno.ENFILE: Outcome.NO_RESOURCES,
+    errno.ENOBUFS: Outcome.NO_RESOURCES,
+    errno.ENOMEM: Outcome.NO_RESOURCES,
+    errno.EINVAL: Outcome.INVALID,
+    errno.EBADF: Outcome.INVALID,
+    errno.EDOM: Outcome.INVALID,
+    errno.EOPNOTSUPP: Outcome.INVALID,
+    errno.ENOPROTOOPT: Outcome.INVALID,
+}
+
+_ENDS: Final = frozenset({Outcome.RESET, Outcome.TIMED_OUT, Outcome.UNREACHABLE})
+"""Outcomes after which a connection is gone for good."""
+
+_OPTIONS: Final = {
+    Option.KEEPALIVE: (socket.SOL_SOCKET, socket.SO_KEEPALIVE),
+    Option.SEND_BUFFER: (socket.SOL_SOCKET, socket.SO_SNDBUF),
+    Option.RECEIVE_BUFFER: (socket.SOL_SOCKET, socket.SO_RCVBUF),
+    Option.URGENT_INLINE: (socket.SOL_SOCKET, socket.SO_OOBINLINE),
+    Option.NO_DELAY: (socket.IPPROTO_TCP, socket.TCP_NODELAY),
+    Option.KEEP_COUNT: (socket.IPPROTO_TCP, socket.TCP_KEEPCNT),
+    Option.KEEP_IDLE: (socket.IPPROTO_TCP, socket.TCP_KEEPIDLE),
+    Option.KEEP_INTERVAL: (socket.IPPROTO_TCP, socket.TCP_KEEPINTVL),
+}
+
+_LINGER: Final = struct.Struct("ii")
+
+
+def _outcome(error: OSError) -> Outcome:
+    return _OUTCOMES.get(error.errno or 0, Outcome.SYSTEM)
+
+
+class OsSocket:
+    """A socket of the host. Made by ``OsNetwork.open`` and ``accept`` only."""
+
+    def __init__(self, os_socket: socket.socket, peer: Address | None = None) -> None:
+        os_socket.settimeout(0)
+        self._socket = os_socket
+        self._peer = peer
+        self._listening = False
+        self._target: Address | None = None
+        self._write_ended = False
+        self._lost: Outcome | None = None
+
+    @property
+    def listening(self) -> bool:
+        """True after a successful ``listen``."""
+        return self._listening
+
+    @property
+    def local(self) -> Address:
+        """The own address; ``NO_ADDRESS`` once closed."""
+        try:
+            return Address(*self._socket.getsockname())
+        except OSError:
+            return NO_ADDRESS
+
+    @property
+    def peer(self) -> Address | None:
+        """The other end's address while connected, else None."""
+        return self._peer
+
+    def listen(self, backlog: int) -> Outcome:
+        """See ``Socket.listen``."""
+        if self._target is not None or self._peer is not None:
+            return Outcome.INVALID
+        try:
+            self._socket.listen(min(backlog, MAX_BACKLOG))
+        except OSError as error:
+            return _outcome(error)
+        self._listening = True
+        return Outcome.OK
+
+    def accept(self) -> Accepted:
+        """See ``Socket.accept``."""
+        try:
+            os_socket, peer = self._socket.accept()
+        except OSError as error:
+            outcome = _outcome(error)
+            # accept(2): an error of the waiting connection itself means "try the next one".
+            return Accepted(Outcome.WOULD_BLOCK if outcome in _ENDS else outcome)
+        return Accepted(Outcome.OK, OsSocket(os_socket, Address(*peer)), Address(*peer))
+
+    def connect(self, peer: Address) -> Outcome:
+        """See ``Socket.connect``."""
+        if self._peer is not None:
+            return Outcome.ALREADY_CONNECTED
+        if self._listening:
+            return Outcome.INVALID
+        if not is_connectable(peer):
+            return Outcome.INVALID_ADDRESS
+        return self._connect(self._target or peer)
+
+    def _connect(self, peer: Address) -> Outcome:
+        # Linux answers a repeated connect() with the state of the first one.
+        error = self._socket.connect_ex(peer)
+        outcome = _OUTCOMES.get(error, Outcome.SYSTEM) if error else Outcome.OK
+        self._target = peer if outcome is Outcome.WOULD_BLOCK else None
+        if outcome is Outcome.OK and self.local == peer:
+            # TCP lets a free port connect to itself (RFC 9293, simultaneous open).
+            self.close()
+            return Outcome.REFUSED
+        if outcome is Outcome.OK:
+            self._peer = peer
+        return outcome
+
+    def send(self, data: bytes | memoryview, *, urgent: bool = False, direct: bool = False) -> Sent:
+        """See ``Socket.send``."""
+        if self._peer is None or self._write_ended:
+            return Sent(Outcome.NOT_CONNECTED)
+        flags = socket.MSG_NOSIGNAL
+        flags |= socket.MSG_OOB if urgent else 0
+        flags |= socket.MSG_DONTROUTE if direct else 0
+        try:
+            return Sent(Outcome.OK, self._socket.send(data, flags))
+        except OSError as error:
+            return Sent(self._connection_outcome(error))
+
+    def recv(self, size: int, *, peek: bool = False, urgent: bool = False) -> Received:
+        """See ``Socket.recv``."""
+        if size < 1:
+            return Received(Outcome.INVALID)
+        if self._peer is None:
+            return Received(Outcome.NOT_CONNECTED)
+        flags = (socket.MSG_PEEK if peek else 0) | (socket.MSG_OOB if urgent else 0)
+        try:
+            data = self._socket.recv(min(size, MAX_RECEIVE), flags)
+        except OSError as error:
+            if urgent and error.errno in (errno.EINVAL, errno.EAGAIN):
+                return Received(Outcome.NO_URGENT_DATA)
+            return Received(self._connection_outcome(error))
+        if data:
+            return Received(Outcome.OK, data)
+        # The kernel tells a reset once; later it looks like an orderly end.
+        return Received(self._lost or Outcome.CLOSED)
+
+    def _connection_outcome(self, error: OSError) -> Outcome:
+        """Translate, and keep in mind that the connection is lost."""
+        # EPIPE: the reset came after the peer's orderly end, or was told before.
+        outcome = Outcome.RESET if error.errno == errno.EPIPE else _outcome(error)
+        if outcome in _ENDS:
+            self._lost = self._lost or outcome
+        return self._lost or outcome
+
+    def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:
+        """See ``Socket.shutdown``."""
+        if self._peer is None:
+            return Outcome.NOT_CONNECTED
+        try:
+            if read:
+                self._socket.shutdown(socket.SHUT_RD)
+            if write:
+                self._socket.shutdown(socket.SHUT_WR)
+        except OSError as error:
+            return self._connection_outcome(error)
+        self._write_ended = self._write_ended or write
+        return Outcome.OK
+
+    def close(self) -> None:
+        """See ``Socket.close``."""
+        if self.linger():
+            # Linux waits in close() for the linger time even on a non-blocking socket.
+            self.set_linger(None)
+        self._peer = None
+        self._target = None
+        self._listening = False
+        with suppress(OSError):
+            self._socket.close()
+
+    def set_option(self, option: Option, value: int) -> Outcome:
+        """See ``Socket.set_option``."""
+        legal = legal_value(option, value)
+        if legal is None:
+            return Outcome.INVALID
+        try:
+            self._socket.setsockopt(*_OPTIONS[option], legal)
+        except OSError as error:
+            return _outcome(error)
+        return Outcome.OK
+
+    def option(self, option: Option) -> OptionValue:
+        """See ``Socket.option``."""
+        try:
+            value = self._socket.getsockopt(*_OPTIONS[option])
+        except OSError as error:
+            return OptionValue(_outcome(error))
+        # socket(7): the kernel doubles the buffer sizes that are set.
+        return OptionValue(Outcome.OK, value // 2 if option in BUFFERS else value)
+
+    def set_linger(self, seconds: int | None) -> Outcome:
+        """See ``Socket.set_linger``."""
+        if seconds is not None and not 0 <= seconds <= MAX_LINGER_S:
+            return Outcome.INVALID
+        value = _LINGER.pack(seconds is not None, seconds or 0)
+        try:
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, value)
+        except OSError as error:
+            return _outcome(error)
+        return Outcome.OK
+
+    def linger(self) -> int | None:
+        """See ``Socket.linger``."""
+        try:
+            raw = self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _LINGER.size)
+        except OSError:
+            return None
+        on, seconds = _LINGER.unpack(raw)
+        return int(seconds) if on else None
+
+
+class OsNetwork:
+    """The TCP of the host this process runs on."""
+
+    def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
+        """See ``Network.open``."""
+        if ip and not is_ipv4(ip):
+            return Opened(Outcome.INVALID_ADDRESS)
+        if not 0 <= port < 65_536:
+            return Opened(Outcome.INVALID)
+        try:
+            os_socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        except OSError as error:
+            return Opened(_outcome(error))
+        try:
+            os_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, int(reuse_address))
+            os_socket.bind((ip or ANY_IP, port))
+        except OSError as error:
+            os_socket.close()
+            outcome = _outcome(error)
+            no_port_left = port == 0 and outcome is Outcome.IN_USE
+            return Opened(Outcome.NO_RESOURCES if no_port_left else outcome)
+        return Opened(Outcome.OK, OsSocket(os_socket))

@@ -1,0 +1,153 @@
+from __future__ import annotations
+
+import errno
+import os
+import resource
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from plcsim.network import Address, OsNetwork, Outcome
+from plcsim.network.os_network import OsSocket
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+NET = OsNetwork()
+
+
+class Failing:
+    """A socket of the host on which every call fails as told."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+    def settimeout(self, _: float) -> None:
+        pass
+
+    def fail(self, *_: object) -> None:
+        raise OSError(self.number, os.strerror(self.number))
+
+    accept = send = recv = listen = setsockopt = getsockopt = shutdown = close = getsockname = fail
+
+
+def failing(number: int, *, connected: bool = True) -> OsSocket:
+    return OsSocket(Failing(number), Address("127.0.0.1", 1) if connected else None)
+
+
+@pytest.fixture
+def listener() -> Iterator[OsSocket]:
+    made = NET.open("127.0.0.1", 0).socket
+    made.listen(5)
+    yield made
+    made.close()
+
+
+@contextmanager
+def no_descriptors() -> Iterator[None]:
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (3, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+
+
+def connect(listener: OsSocket) -> OsSocket:
+    client = NET.open("", 0).socket
+    while (outcome := client.connect(listener.local)) is Outcome.WOULD_BLOCK:
+        time.sleep(0.0005)
+    assert outcome is Outcome.OK
+    return client
+
+
+def test_no_more_descriptors_to_open() -> None:
+    with no_descriptors():
+        assert NET.open("", 0).outcome is Outcome.NO_RESOURCES
+
+
+def test_no_more_descriptors_to_accept(listener: OsSocket) -> None:
+    client = connect(listener)
+    with no_descriptors():
+        assert listener.accept().outcome is Outcome.NO_RESOURCES
+    answer = listener.accept()
+    assert answer.outcome is Outcome.OK
+    answer.socket.close()
+    client.close()
+
+
+def test_descriptors_never_block_and_end_with_the_program(listener: OsSocket) -> None:
+    client = connect(listener)
+    server = listener.accept().socket
+    for made in (listener, client, server):
+        number = made._socket.fileno()
+        assert not os.get_blocking(number)
+        assert not os.get_inheritable(number)
+    client.close()
+    server.close()
+
+
+def test_a_failed_open_leaves_no_descriptor() -> None:
+    before = len(list(Path("/proc/self/fd").iterdir()))
+    assert NET.open("203.0.113.7", 0).outcome is Outcome.NOT_LOCAL
+    assert len(list(Path("/proc/self/fd").iterdir())) == before
+
+
+@pytest.mark.parametrize(
+    ("number", "outcome"),
+    [
+        (errno.EAGAIN, Outcome.WOULD_BLOCK),
+        (errno.EINTR, Outcome.WOULD_BLOCK),
+        (errno.ECONNRESET, Outcome.RESET),
+        (errno.EPIPE, Outcome.RESET),
+        (errno.ETIMEDOUT, Outcome.TIMED_OUT),
+        (errno.EHOSTUNREACH, Outcome.UNREACHABLE),
+        (errno.ENOBUFS, Outcome.NO_RESOURCES),
+        (errno.EIO, Outcome.SYSTEM),
+    ],
+)
+def test_failures_of_a_connection(number: int, outcome: Outcome) -> None:
+    assert failing(number).recv(1).outcome is outcome
+    assert failing(number).send(b"x").outcome is outcome
+    assert failing(number).shutdown(write=True) is outcome
+
+
+def test_a_lost_connection_stays_lost() -> None:
+    made = failing(errno.ETIMEDOUT)
+    assert made.recv(1).outcome is Outcome.TIMED_OUT
+    made._socket = Failing(errno.EPIPE)
+    assert made.send(b"x").outcome is Outcome.TIMED_OUT
+
+
+@pytest.mark.parametrize(
+    ("number", "outcome"),
+    [
+        (errno.ECONNABORTED, Outcome.WOULD_BLOCK),
+        (errno.ENETUNREACH, Outcome.WOULD_BLOCK),
+        (errno.EMFILE, Outcome.NO_RESOURCES),
+        (errno.EPROTO, Outcome.SYSTEM),
+    ],
+)
+def test_failures_of_accept(number: int, outcome: Outcome) -> None:
+    assert failing(number, connected=False).accept().outcome is outcome
+
+
+def test_failures_of_close_are_nobody_s() -> None:
+    made = failing(errno.EIO)
+    made.close()
+    assert made.peer is None
+
+
+def test_a_connection_by_loopback_is_refused_after_the_listener_is_gone(
+    listener: OsSocket,
+) -> None:
+    target = listener.local
+    listener.close()
+    client = NET.open("", 0).socket
+    while (outcome := client.connect(target)) is Outcome.WOULD_BLOCK:
+        time.sleep(0.0005)
+    assert outcome is Outcome.REFUSED
+    client.close()
