@@ -35,9 +35,13 @@ def parse_duration_ns(text: str) -> int:
 
 
 def format_duration(duration_ns: int) -> str:
-    """Return a duration in the largest unit that keeps it above 1, three decimals at most."""
+    """Return a duration in the largest unit that keeps it above 1, four digits at most.
+
+    Whole numbers of a unit are exact, however many digits they take.
+    """
     for unit in ("s", "ms", "us"):
-        if abs(duration_ns) >= _UNITS_NS[unit]:
-            number = f"{duration_ns / _UNITS_NS[unit]:.3f}".rstrip("0").rstrip(".")
+        whole, rest = divmod(duration_ns, _UNITS_NS[unit])
+        if whole:
+            number = whole if not rest else f"{duration_ns / _UNITS_NS[unit]:.4g}"
             return f"{number} {unit}"
     return f"{duration_ns} ns"

@@ -24,8 +24,13 @@ _STATE_STYLES = {"BOOT": "yellow", "RUN": "green", "SERVICE": "bold red", "STOPP
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in columns:
-        table.add_column(column, justify="left" if column == "programs" else "right")
+        last = column == "programs"
+        table.add_column(column, justify="left" if last else "right", no_wrap=not last)
     return table
+
+
+def _pair(first_ns: int, second_ns: int) -> str:
+    return f"{format_duration(first_ns)} / {format_duration(second_ns)}"
 
 
 class LiveTable:
@@ -66,8 +71,8 @@ class LiveTable:
             (self._project.name, "bold"), "  ", (state, _STATE_STYLES[state]), f"  {elapsed}"
         )
         table = _table(
-            "class", "cycle", "cycles", "missed", "violations", "execution", "longest", "lateness",
-            "longest", "programs",
+            "class", "cycle", "cycles", "missed", "viol.", "execution / max", "lateness / max",
+            "programs",
         )  # fmt: skip
         for c in self._project.classes:
             s = self._page.of_class(c.number)
@@ -77,10 +82,8 @@ class LiveTable:
                 str(s.cycles),
                 str(s.missed),
                 str(s.violations),
-                format_duration(s.execution_ns),
-                format_duration(s.longest_execution_ns),
-                format_duration(s.lateness_ns),
-                format_duration(s.longest_lateness_ns),
+                _pair(s.execution_ns, s.longest_execution_ns),
+                _pair(s.lateness_ns, s.longest_lateness_ns),
                 ", ".join(p.name for p in c.programs),
             )
         return Group(head, table)
@@ -103,6 +106,8 @@ def print_summary(result: dict[str, Any]) -> None:
     )
     if result["task_classes"]:
         console.print(_summary_table(result["task_classes"]))
+        if blame := _blame(result["task_classes"]):
+            console.print(blame)
     if result["fault"]:
         console.print(Text(f"SERVICE: {_fault_text(result['fault'])}", style="bold red"))
     entries = [e for e in result["logbook"] if e["severity"] != "information"]
@@ -115,8 +120,8 @@ def print_summary(result: dict[str, Any]) -> None:
 
 def _summary_table(classes: list[dict[str, Any]]) -> Table:
     table = _table(
-        "class", "cycle", "cycles", "missed", "program/host/preempted", "execution p50", "p99",
-        "lateness p50", "p99", "programs",
+        "class", "cycle", "cycles", "missed", "viol.", "execution p50 / p99", "lateness p50 / p99",
+        "programs",
     )  # fmt: skip
     for c in classes:
         violations = c["violations"]
@@ -125,14 +130,21 @@ def _summary_table(classes: list[dict[str, Any]]) -> Table:
             format_duration(c["cycle_ns"]),
             str(c["cycles"]),
             str(c["missed_grid_points"]),
-            "/".join(str(violations[cause]) for cause in ("program", "host", "preempted")),
-            format_duration(c["execution_ns"]["p50"]),
-            format_duration(c["execution_ns"]["p99"]),
-            format_duration(c["lateness_ns"]["p50"]),
-            format_duration(c["lateness_ns"]["p99"]),
+            str(sum(violations.values())),
+            _pair(c["execution_ns"]["p50"], c["execution_ns"]["p99"]),
+            _pair(c["lateness_ns"]["p50"], c["lateness_ns"]["p99"]),
             ", ".join(p["name"] for p in c["programs"]),
         )
     return table
+
+
+def _blame(classes: list[dict[str, Any]]) -> str:
+    """Return how many violations there were by cause, "" where there were none."""
+    causes = ("program", "host", "preempted")
+    counts = {cause: sum(c["violations"][cause] for c in classes) for cause in causes}
+    if not any(counts.values()):
+        return ""
+    return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())
 
 
 def _fault_text(fault: dict[str, Any]) -> str:
