@@ -35,13 +35,13 @@ def parse_duration_ns(text: str) -> int:
 
 
 def format_duration(duration_ns: int) -> str:
-    """Return a duration in the largest unit that keeps it above 1, four digits at most.
+    """Return a duration in the largest unit that keeps it above 1, three digits at most.
 
     Whole numbers of a unit are exact, however many digits they take.
     """
     for unit in ("s", "ms", "us"):
         whole, rest = divmod(duration_ns, _UNITS_NS[unit])
         if whole:
-            number = whole if not rest else f"{duration_ns / _UNITS_NS[unit]:.4g}"
+            number = whole if not rest else f"{duration_ns / _UNITS_NS[unit]:.3g}"
             return f"{number} {unit}"
     return f"{duration_ns} ns"

@@ -71,7 +71,7 @@ class LiveTable:
             (self._project.name, "bold"), "  ", (state, _STATE_STYLES[state]), f"  {elapsed}"
         )
         table = _table(
-            "class", "cycle", "cycles", "missed", "viol.", "execution / max", "lateness / max",
+            "class", "cycle", "cycles", "missed", "viol.", "exec. / max", "late / max",
             "programs",
         )  # fmt: skip
         for c in self._project.classes:
@@ -120,7 +120,7 @@ def print_summary(result: dict[str, Any]) -> None:
 
 def _summary_table(classes: list[dict[str, Any]]) -> Table:
     table = _table(
-        "class", "cycle", "cycles", "missed", "viol.", "execution p50 / p99", "lateness p50 / p99",
+        "class", "cycle", "cycles", "missed", "viol.", "exec. p50 / p99", "late p50 / p99",
         "programs",
     )  # fmt: skip
     for c in classes:
