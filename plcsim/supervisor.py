@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 from plcsim import realtime
 from plcsim.duration import format_duration
+from plcsim.report import SCHEMA
 from plcsim.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
 from plcsim.status_page import StatusPage
 from plcsim.system import State
@@ -65,6 +66,8 @@ class Supervisor:
         self._dump_fd = os.memfd_create("plcsim-dump")
         fds = (self.page.fd, self._result_fd, self._dump_fd)
         self._process = _start(RunOrder(str(project.folder), virtual, for_ns, cycles, *fds), fds)
+        self._virtual = virtual
+        self._stops = 0
         self._seen = (-1, 0)
         self._signalled_ns = 0
         if not virtual and project.realtime != "off":
@@ -87,9 +90,15 @@ class Supervisor:
         os.close(self._dump_fd)
 
     def stop(self) -> None:
-        """Ask the scan to stop; the EXITs run. A second request ends a program that hangs."""
+        """Ask the scan to stop; the EXITs run.
+
+        A second request ends a program that hangs. A third one, or one while the programs are still
+        being loaded, kills the scan process.
+        """
+        self._stops += 1
         if self._process.poll() is None:
-            self._process.send_signal(signal.SIGINT)
+            kill = self._stops > 2 or not self.page.heartbeat
+            self._process.send_signal(signal.SIGKILL if kill else signal.SIGINT)
 
     def wait(self, look: Callable[[], None] = lambda: None) -> dict[str, Any]:
         """Wait for the end of the run, watching over it.
@@ -147,13 +156,19 @@ class Supervisor:
         name = "" if active is None else self._project.programs[active].name
         code = self._process.returncode
         reason = f"the scan process ended with {_code_name(code)}"
-        if self._signalled_ns:
+        if self._stops:
+            reason = "killed because it did not stop"
+        elif self._signalled_ns:
             limit = format_duration(self._limit_ns())
             reason = f"did not return within {limit} and could not be interrupted"
         place = self._place_of_death()
         text = f"{name or 'scan'}: {reason}" + (f" ({place})" if place else "")
         fault = {"kind": "program_error", "program": name, "unit": "", "place": place}
         return {
+            "schema": SCHEMA,
+            "clock": "virtual" if self._virtual else "monotonic",
+            "realtime_rights": [],
+            "memory_bytes": 0,
             "project": self._project.name,
             "state": State.SERVICE.name,
             "fault": {**fault, "text": reason},
