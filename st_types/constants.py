@@ -145,8 +145,12 @@ def _modulo(a: Number, b: Number) -> Number:
 
 def _power(a: Number, b: Number) -> Number:
     rough = math.pow(a, b)
-    is_exact = isinstance(a, int) and isinstance(b, int) and b >= 0
-    return a**b if is_exact and abs(rough) <= MAX_INTEGER else rough
+    if isinstance(a, float) or isinstance(b, float) or b < 0:
+        return rough
+    if abs(rough) > 2 * MAX_INTEGER:
+        raise OverflowError
+    exact: int = a**b
+    return exact
 
 
 def _invert(a: Number) -> Number:

@@ -180,8 +180,9 @@ class ExpressionParser(TokenReader):
         operator = self.keyword
         if operator in _PREFIX_OPERATORS:
             return Unary(self._step(), operator, self._binary(UNARY_PRECEDENCE))
+        takes_postfix = kind_of(self.text) in (TokenKind.IDENTIFIER, TokenKind.OPERATOR)
         operand = self._primary()
-        return operand if isinstance(operand, Literal | DirectAddress) else self._postfix(operand)
+        return self._postfix(operand) if takes_postfix else operand
 
     def _primary(self) -> Expression:
         at, text = self.index, self.text

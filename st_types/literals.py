@@ -136,7 +136,7 @@ def string_literal(value: str, *, wide: bool = False) -> str:
 def _escape(character: str, quote: str) -> str:
     if character in ("$", quote):
         return "$" + character
-    if character.isprintable():
+    if character.isprintable() or ord(character) > (0xFF if quote == "'" else 0xFFFF):
         return character
     return f"${ord(character):02X}" if quote == "'" else f"${ord(character):04X}"
 

@@ -97,7 +97,7 @@ def print_declaration(node: Declaration, indent: str = "") -> str:
     specification = print_specification(node.specification, indent)
     words = (f"{indent}{node.name}{address} :", *node.pragmas, specification, node.edge)
     initial = f" := {print_initial(node.initial)}" if node.initial is not None else ""
-    text = " ".join(filter(None, words)) + initial + ";"
+    text = " ".join(filter(None, words)).replace(": \n", ":\n", 1) + initial + ";"
     lead = _own_lines(comments_before(node.before), indent)
     return lead + " ".join((text, *comments_behind(node.behind))) + "\n"
 
@@ -123,7 +123,8 @@ def print_specification(node: TypeSpecification, indent: str = "") -> str:
 
 def _range(low: Expression, high: Expression) -> str:
     text = print_expression(low)
-    blank = "" if text.isidentifier() or text.isdecimal() else " "
+    # A real, an address or a date would swallow the dots.
+    blank = " " if text.endswith(".") or "%" in text or "#" in text else ""
     return f"{text}{blank}..{print_expression(high)}"
 
 
