@@ -1,17 +1,15 @@
 """TCPROS, the protocol of ROS 1 topics and services, without input and output."""
 
+from crosnode.connection import Closed, Failed, State
 from crosnode.tcpros.connection import (
-    Closed,
-    Connection,
     Event,
-    Failed,
     HeaderReceived,
     Limits,
     MessageReceived,
     Refused,
     ReplyReceived,
     RequestReceived,
-    State,
+    TcprosConnection,
     TypeInfo,
 )
 from crosnode.tcpros.header import ANY
@@ -21,7 +19,6 @@ from crosnode.tcpros.topic import PublisherConnection, SubscriberConnection
 __all__ = [
     "ANY",
     "Closed",
-    "Connection",
     "Event",
     "Failed",
     "HeaderReceived",
@@ -35,5 +32,6 @@ __all__ = [
     "ServiceServerConnection",
     "State",
     "SubscriberConnection",
+    "TcprosConnection",
     "TypeInfo",
 ]

@@ -1,22 +1,13 @@
-"""What all TCPROS roles share: states, acts, events, and the step from bytes to events.
-
-A connection is a pure object. The owner hands it received bytes (``receive_data``), takes events
-one by one (``next_event``) and writes what ``data_to_send`` gives; how many events it takes in a
-step is its own bound. Each role has one table of transitions, and all of them go through it.
-
-Rules: a peer that breaks the protocol gives a ``Failed`` event and the state CLOSED, never an
-exception; this program using a connection out of turn raises ``LocalProtocolError``. In state
-CLOSED the owner writes what is left to send, then closes the socket.
-"""
+"""What all TCPROS roles share: the header first, events parsed from bytes after it."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from enum import Enum, auto
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
-from crosnode.errors import LocalProtocolError, TcprosError
+from crosnode.connection import Act, Closed, Connection, Failed, State
+from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
 
@@ -46,31 +37,6 @@ class TypeInfo(NamedTuple):
     name: str
     md5sum: str
     definition: str = ""
-
-
-class State(Enum):
-    """States of all roles; a role uses those in its table."""
-
-    HANDSHAKE = auto()  # waiting for the header of the peer
-    DECISION = auto()  # waiting for this program to accept or refuse
-    STREAMING = auto()  # messages flow
-    IDLE = auto()  # a client may send a request
-    REQUEST = auto()  # a server waits for a request
-    REPLY = auto()  # a call is running
-    CLOSED = auto()
-
-
-class Act(Enum):
-    """What moves a connection from state to state."""
-
-    HEADER = auto()
-    ACCEPT = auto()
-    REFUSE = auto()
-    MESSAGE = auto()
-    REQUEST = auto()
-    REPLY = auto()
-    LAST = auto()  # the only reply of a connection that is not persistent, or of a probe
-    END = auto()  # the peer closed or broke the protocol, time ran out, or this program closes
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,25 +75,12 @@ class Refused:
     error: str
 
 
-@dataclass(frozen=True, slots=True)
-class Failed:
-    """The connection is over because the peer broke the protocol or a time limit."""
-
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class Closed:
-    """The peer closed between two messages."""
-
-
 Event: TypeAlias = (
     HeaderReceived | MessageReceived | RequestReceived | ReplyReceived | Refused | Failed | Closed
 )
-Table: TypeAlias = "Mapping[State, Mapping[Act, State]]"
 
 
-class Connection(ABC):
+class TcprosConnection(Connection, ABC):
     """One end of a TCPROS connection.
 
     Args:
@@ -135,32 +88,15 @@ class Connection(ABC):
         now_ns: time of the step in which the connection was made.
     """
 
-    TABLE: ClassVar[Table]
     PAUSED: ClassVar[frozenset[State]] = frozenset({State.DECISION, State.CLOSED})
     TIMED: ClassVar[frozenset[State]] = frozenset({State.HANDSHAKE})
 
     def __init__(self, limits: Limits, now_ns: int) -> None:
+        super().__init__(State.HANDSHAKE, limits.timeout_ns, now_ns)
         self.limits = limits
-        self.state = State.HANDSHAKE
         self.header: dict[str, str] = {}
         self._reader = ByteReader()
-        self._outbox: list[bytes | memoryview] = []
-        self._since_ns = now_ns
-        self._is_drained = True
         self._parser = self._parse()
-
-    @property
-    def wants_data(self) -> bool:
-        """False while received bytes could only wait: the owner should not read.
-
-        So no more is held than one incomplete block and what was read last.
-        """
-        return self._is_drained and self.state not in self.PAUSED
-
-    @property
-    def deadline_ns(self) -> int | None:
-        """When ``handle_timer`` ends the connection, None where the peer may take its time."""
-        return self._since_ns + self.limits.timeout_ns if self.state in self.TIMED else None
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
@@ -186,41 +122,14 @@ class Connection(ABC):
         self._is_drained = event is None
         return event
 
-    def handle_timer(self, now_ns: int) -> Failed | None:
-        """End the connection where its deadline has passed."""
-        deadline_ns = self.deadline_ns
-        if deadline_ns is None or now_ns < deadline_ns:
-            return None
-        return self._fail(f"silent for {self.limits.timeout_ns} ns")
-
-    def data_to_send(self) -> list[bytes | memoryview]:
-        """Return what is to be written, in order, and forget it."""
-        data, self._outbox = self._outbox, []
-        return data
-
     def close(self) -> None:
         """End the connection from this side."""
-        self._end()
+        super().close()
+        self._reader.clear()
 
     @abstractmethod
     def _parse(self) -> Generator[Event | None, None, None]:
         """Turn bytes into events; yield None where bytes are missing."""
-
-    def _move(self, act: Act) -> None:
-        try:
-            self.state = self.TABLE[self.state][act]
-        except KeyError:
-            message = f"{type(self).__name__}: {act.name} in state {self.state.name}"
-            raise LocalProtocolError(message) from None
-
-    def _end(self) -> None:
-        if self.state is not State.CLOSED:
-            self._move(Act.END)
-            self._reader.clear()
-
-    def _fail(self, reason: str) -> Failed:
-        self._end()
-        return Failed(reason)
 
     def _read_header(self) -> Generator[None, None, dict[str, str]]:
         body = yield from self._reader.block(self.limits.max_header, "header")
@@ -234,7 +143,7 @@ class Connection(ABC):
         self._outbox.append(encode_header(fields))
 
 
-class ClientConnection(Connection):
+class ClientConnection(TcprosConnection):
     """The end that connects: its header is sent at once, and the answer read."""
 
     def __init__(self, fields: Mapping[str, str], limits: Limits, now_ns: int) -> None:
@@ -246,7 +155,7 @@ class ClientConnection(Connection):
     ) -> Generator[None, None, HeaderReceived | Refused]:
         fields = yield from self._read_header()
         if "error" in fields:
-            self._end()
+            self.close()
             return Refused(fields["error"])
         if not sums_agree(md5sum, fields.get("md5sum", md5sum)):
             raise TcprosError(f"md5sum {fields['md5sum']} answers our {md5sum}")
@@ -254,7 +163,7 @@ class ClientConnection(Connection):
         return HeaderReceived(fields)
 
 
-class ServerConnection(Connection):
+class ServerConnection(TcprosConnection):
     """The end that was connected to: it reads a header, then accepts or refuses."""
 
     REQUIRED: ClassVar[tuple[str, ...]]

@@ -9,18 +9,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
+from crosnode.connection import Act, Closed, State, Table
 from crosnode.errors import TcprosError
 from crosnode.tcpros.connection import (
-    Act,
     ClientConnection,
-    Closed,
     Event,
     Limits,
     ReplyReceived,
     RequestReceived,
     ServerConnection,
-    State,
-    Table,
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
@@ -107,7 +104,7 @@ class ServiceServerConnection(ServerConnection):
             body = yield from self._read_message()
             self._move(Act.REQUEST)
             yield RequestReceived(body)
-        self._end()
+        self.close()
         yield Closed()
 
 
@@ -167,5 +164,5 @@ class ServiceClientConnection(ClientConnection):
             body = yield from self._read_message()
             self._move(Act.REPLY if self._persistent else Act.LAST)
             yield ReplyReceived(ok != b"\x00", body)
-        self._end()
+        self.close()
         yield Closed()

@@ -9,16 +9,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
+from crosnode.connection import Act, Closed, State, Table
 from crosnode.tcpros.connection import (
-    Act,
     ClientConnection,
-    Closed,
     Event,
     Limits,
     MessageReceived,
     ServerConnection,
-    State,
-    Table,
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
@@ -80,7 +77,7 @@ class PublisherConnection(ServerConnection):
         yield (yield from self._read_offer())
         while (yield from self._reader.more()):
             self._reader.clear()
-        self._end()
+        self.close()
         yield Closed()
 
 
@@ -125,5 +122,5 @@ class SubscriberConnection(ClientConnection):
             body = yield from self._read_message()
             self._move(Act.MESSAGE)
             yield MessageReceived(body)
-        self._end()
+        self.close()
         yield Closed()

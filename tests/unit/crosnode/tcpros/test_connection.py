@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from crosnode.connection import Act
 from crosnode.errors import LocalProtocolError
 from crosnode.tcpros import (
-    Connection,
     Event,
     Failed,
     HeaderReceived,
@@ -20,7 +20,7 @@ from crosnode.tcpros import (
     SubscriberConnection,
     TypeInfo,
 )
-from crosnode.tcpros.connection import Act
+from crosnode.tcpros.connection import TcprosConnection as Connection
 from crosnode.tcpros.header import encode_header
 from crosnode.tcpros.reader import length_of
 

@@ -16,7 +16,7 @@ from crosnode.tcpros import (
     State,
     TypeInfo,
 )
-from crosnode.tcpros.connection import Connection
+from crosnode.tcpros.connection import TcprosConnection as Connection
 from crosnode.tcpros.header import encode_header
 
 TWO_INTS = TypeInfo("roscpp_tutorials/TwoInts", "6a2e")

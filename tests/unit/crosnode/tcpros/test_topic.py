@@ -15,7 +15,7 @@ from crosnode.tcpros import (
     SubscriberConnection,
     TypeInfo,
 )
-from crosnode.tcpros.connection import Connection
+from crosnode.tcpros.connection import TcprosConnection as Connection
 from crosnode.tcpros.header import encode_header
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")

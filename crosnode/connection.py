@@ -1,0 +1,121 @@
+"""What the ends of all connections share, TCPROS and XML-RPC: states, acts, time, bytes to send.
+
+A connection is a pure object. The owner hands it received bytes (``receive_data``), takes events
+one by one (``next_event``) and writes what ``data_to_send`` gives; how many events it takes in a
+step is its own bound. Each role has one table of transitions, and all of them go through it.
+
+Rules: a peer that breaks the protocol gives a ``Failed`` event and the state CLOSED, never an
+exception; this program using a connection out of turn raises ``LocalProtocolError``. In state
+CLOSED the owner writes what is left to send, then closes the socket.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import ClassVar, TypeAlias
+
+from crosnode.errors import LocalProtocolError
+
+
+class State(Enum):
+    """States of all roles; a role uses those in its table."""
+
+    HANDSHAKE = auto()  # waiting for the header of the peer
+    DECISION = auto()  # waiting for this program to accept or refuse
+    STREAMING = auto()  # messages flow
+    IDLE = auto()  # a client may send a request
+    REQUEST = auto()  # a server waits for a request
+    REPLY = auto()  # a call is running
+    CLOSED = auto()
+
+
+class Act(Enum):
+    """What moves a connection from state to state."""
+
+    HEADER = auto()
+    ACCEPT = auto()
+    REFUSE = auto()
+    MESSAGE = auto()
+    REQUEST = auto()
+    REPLY = auto()
+    LAST = auto()  # the only reply of a connection that is not persistent, or of a probe
+    END = auto()  # the peer closed or broke the protocol, time ran out, or this program closes
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """The connection is over because the peer broke the protocol or a time limit."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """The peer closed between two messages."""
+
+
+Table: TypeAlias = Mapping[State, Mapping[Act, State]]
+
+
+class Connection:
+    """One end of a connection.
+
+    Args:
+        state: the first state.
+        timeout_ns: nanoseconds the peer may take for its part in a timed state.
+        now_ns: time of the step in which the connection was made.
+    """
+
+    TABLE: ClassVar[Table]
+    PAUSED: ClassVar[frozenset[State]] = frozenset({State.CLOSED})
+    TIMED: ClassVar[frozenset[State]] = frozenset()
+
+    def __init__(self, state: State, timeout_ns: int, now_ns: int) -> None:
+        self.state = state
+        self._timeout_ns = timeout_ns
+        self._since_ns = now_ns
+        self._is_drained = True
+        self._outbox: list[bytes | memoryview] = []
+
+    @property
+    def wants_data(self) -> bool:
+        """False while received bytes could only wait: the owner should not read.
+
+        So no more is held than one incomplete message and what was read last.
+        """
+        return self._is_drained and self.state not in self.PAUSED
+
+    @property
+    def deadline_ns(self) -> int | None:
+        """When ``handle_timer`` ends the connection, None where the peer may take its time."""
+        return self._since_ns + self._timeout_ns if self.state in self.TIMED else None
+
+    def handle_timer(self, now_ns: int) -> Failed | None:
+        """End the connection where its deadline has passed."""
+        deadline_ns = self.deadline_ns
+        if deadline_ns is None or now_ns < deadline_ns:
+            return None
+        return self._fail(f"silent for {self._timeout_ns} ns")
+
+    def data_to_send(self) -> list[bytes | memoryview]:
+        """Return what is to be written, in order, and forget it."""
+        data, self._outbox = self._outbox, []
+        return data
+
+    def close(self) -> None:
+        """End the connection from this side."""
+        if self.state is not State.CLOSED:
+            self._move(Act.END)
+
+    def _move(self, act: Act) -> None:
+        try:
+            self.state = self.TABLE[self.state][act]
+        except KeyError:
+            message = f"{type(self).__name__}: {act.name} in state {self.state.name}"
+            raise LocalProtocolError(message) from None
+
+    def _fail(self, reason: str) -> Failed:
+        self.close()
+        return Failed(reason)
