@@ -8,6 +8,7 @@ either.
 from __future__ import annotations
 
 import mmap
+import re
 from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 
 from plcsim.errors import ConfigurationError, PageFault
@@ -75,7 +76,7 @@ class Memory:
         data_type = type_of(view)
         address = self.allocate(data_type.size, data_type.alignment)
         self._map[address : address + data_type.size] = initial_image(data_type)
-        return view.bind(self._map, address, address, context)
+        return cast("S", view_of(data_type, self._map, address, address, context))
 
     def check(self, address: int, size: int) -> None:
         """Raise PageFault unless all ``size`` bytes at ``address`` are valid."""
@@ -147,6 +148,10 @@ class Memory:
         self.write(address, encode(data_type, value))
 
 
+_STEP = re.compile(r"\w+|\[[^][]*\]")
+_PATH = re.compile(rf"({_STEP.pattern})(\.\w+|\[[^][]*\])*")
+
+
 def find(data_type: DataType[object], path: str) -> tuple[DataType[Any], int]:
     """Return the type and the offset in bytes of ``path`` inside a variable.
 
@@ -155,13 +160,14 @@ def find(data_type: DataType[object], path: str) -> tuple[DataType[Any], int]:
         path: such as ``"motor.speed"``, ``"axes[3].name"``, ``"grid[1, 2]"``; "" is the variable.
 
     Raises:
-        KeyError: there is no such member, or an index is wrong; the argument says which.
+        KeyError: there is no such member, an index is wrong, or it is not a path; the argument
+            says which.
     """
+    if path and not _PATH.fullmatch(path):
+        raise KeyError(f"{path} is not a path such as axes[3].name")
     found = resolve_alias(data_type)
     offset = 0
-    for step in path.replace("[", ".[").split(".") if path else ():
-        if not step:
-            continue
+    for step in _STEP.findall(path):
         if step.startswith("["):
             found, inner = _element(found, step)
         elif isinstance(found, StructType):

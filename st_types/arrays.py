@@ -5,16 +5,26 @@ from __future__ import annotations
 import ctypes
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from st_types.derived import ArrayType, StringType, resolve_alias
+from st_types.derived import ArrayType, StringType, StructType, resolve_alias
 from st_types.errors import ValueRangeError
 from st_types.values import encode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from st_types.elementary import DataType
+
 V = TypeVar("V")
 
 Index = int | tuple[int, ...]
+
+
+def _same_type(one: DataType[object], other: DataType[object]) -> bool:
+    """True for one type; STRING[20] twice, or an ARRAY of as many such elements, is one, too."""
+    one, other = resolve_alias(one), resolve_alias(other)
+    if isinstance(one, ArrayType) and isinstance(other, ArrayType):
+        return one.count == other.count and _same_type(one.element, other.element)
+    return one is other or (one.name == other.name and not isinstance(one, StructType))
 
 
 class Array(Generic[V]):
@@ -78,13 +88,16 @@ class Array(Generic[V]):
         return f"{self.data_type}({list(self)!r})"
 
     def assign(self, value: object) -> None:
-        """Copy another ARRAY of the same type, or a sequence; missing elements are initialised.
+        """Copy another ARRAY of as many such elements, or a sequence of values.
+
+        Elements that a sequence does not give are initialised.
 
         Raises:
-            ValueRangeError: an element does not fit, or there are too many.
+            ValueRangeError: an element does not fit, there are too many, or the ARRAY is of another
+                type.
         """
         if isinstance(value, Array):
-            if value.data_type.size != self.data_type.size:
+            if not _same_type(value.data_type, self.data_type):
                 raise ValueRangeError(f"{self.data_type} cannot take {value.data_type}.")
             data = bytes(value)
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from operator import index
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from st_types.derived import (
@@ -71,7 +72,7 @@ def _enumeration_slot(data_type: EnumerationType[Any]) -> Slot:
     if data_type.members is None:
         return Slot(ctypes.c_int32)
     by_value: dict[int, object] = {int(m): m for m in data_type.members}
-    return Slot(ctypes.c_int32, lambda raw: by_value.get(raw, raw), int)
+    return Slot(ctypes.c_int32, lambda raw: by_value.get(raw, raw), index)
 
 
 def _string_slot(length: int) -> Slot:
@@ -87,6 +88,8 @@ def _wstring_slot(length: int) -> Slot:
     units = ctypes.c_uint16 * (length + 1)
 
     def store(value: str) -> object:
+        if not isinstance(value, str):
+            raise ValueRangeError(f"{value!r} is not a WSTRING.")
         data = encode_wstring(value, length)
         return units.from_buffer_copy(data.ljust(2 * (length + 1), b"\0"))
 

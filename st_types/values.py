@@ -88,7 +88,7 @@ def _encode_real(data_type: ElementaryType[float], value: object) -> bytes:
     if not isinstance(value, int | float | None):
         raise ValueRangeError(f"{value!r} is not a {data_type}.")
     try:
-        return struct.pack("<" + data_type.code, value or 0)
+        return struct.pack("<" + data_type.code, 0 if value is None else value)
     except (OverflowError, struct.error):
         raise ValueRangeError(f"{value!r} is too large for a {data_type}.") from None
 

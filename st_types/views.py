@@ -146,7 +146,7 @@ class _StructMeta(_CStructMeta):
             data_type = body.get("_plc_type") or _declared_type(name, base, declared)
             body = {k: v for k, v in body.items() if k not in declared}
             body |= _structure_body(data_type, body)
-        made = super().__new__(mcs, name, bases, body)
+        made: Any = super().__new__(mcs, name, bases, body)
         if inherited:
             made._plc_type = _kind(base)(name, inherited)
         if base is not None:
@@ -259,9 +259,7 @@ class Struct(ctypes.Structure, metaclass=_StructMeta):
             address: what ADR() gives for this variable; 0 where it has no PLC address.
             context: what function blocks inside the variable are to work with.
         """
-        view: Self = cls.from_buffer(buffer, offset)
-        view._plc_attach(buffer, offset, address, context)
-        return view
+        return _bind(cls, buffer, offset, address, context)
 
     def _plc_attach(self, buffer: Any, offset: int, address: int, context: object) -> None:
         self._plc_address = address
@@ -279,6 +277,13 @@ class Struct(ctypes.Structure, metaclass=_StructMeta):
 
     def _members(self) -> Iterator[Member]:
         return iter(getattr(self, "_plc_type", _EMPTY).members)
+
+
+def _bind(view: type[S], buffer: Any, offset: int, address: int, context: object) -> S:
+    # Looked up on the metaclass, because a declared member may be called from_buffer or bind.
+    bound: S = _CStructMeta.from_buffer(view, buffer, offset)
+    bound._plc_attach(buffer, offset, address, context)
+    return bound
 
 
 class DataBlock(Struct):
@@ -352,7 +357,8 @@ def view_of(
     """Return a view of a STRUCT, data block or ARRAY; arguments as for `Struct.bind`."""
     if isinstance(data_type, ArrayType):
         return _array_of(data_type, buffer, offset, address, context)
-    return view_class(cast("StructType[Any]", data_type)).bind(buffer, offset, address, context)
+    view = view_class(cast("StructType[Any]", data_type))
+    return _bind(view, buffer, offset, address, context)
 
 
 def _array_of(
