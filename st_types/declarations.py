@@ -137,14 +137,9 @@ class DeclarationParser(SpecificationParser):
 
     def _qualifiers(self) -> tuple[str, ...]:
         start = self.index
-        while self.keyword in QUALIFIERS and not self._is_name():
+        while self.keyword in QUALIFIERS and not self.is_name():
             self.index += 1
         return tuple(text.upper() for text in self.texts[start : self.index])
-
-    def _is_name(self) -> bool:
-        """Return True where a keyword stands as the name of a declaration."""
-        following, second = self.texts[self.index + 1 : self.index + 3]
-        return following in (":", ",") or (following.upper() == "AT" and second.startswith("%"))
 
     def _function_block(self) -> FunctionBlockDeclaration:
         at = self.index

@@ -39,9 +39,15 @@ VARIABLE_SECTIONS = frozenset(
 END_KEYWORDS = frozenset(
     ["END_TYPE", "END_VAR", "END_STRUCT", "END_FUNCTION", "END_FUNCTION_BLOCK"]
 )
+_EDGES = ("R_EDGE", "F_EDGE")
+_SINGLE_ENDS = frozenset(["END_TYPE", "END_VAR"])
+"""Ends of blocks that lie in no other list of declarations: one taken for the other ends both."""
+
 ITEM_KEYWORDS = frozenset(["TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM"]) | VARIABLE_SECTIONS
 BLOCK_KEYWORDS = ITEM_KEYWORDS | END_KEYWORDS
 """Where a list of declarations ends, unless a colon follows: then it is a name."""
+
+_NO_BASE = BLOCK_KEYWORDS.union(_EDGES)
 
 
 class SpecificationParser(InitialParser):
@@ -68,18 +74,24 @@ class SpecificationParser(InitialParser):
             elif name == ";":
                 self.index += 1
                 continue
-            elif not name or name.upper() in BLOCK_KEYWORDS:
+            elif not name or (name.upper() in BLOCK_KEYWORDS and not self.is_name()):
                 break
             depth = self.depth
             try:
                 self._declaration(found)
             except UnexpectedTokenError as err:
                 self.recover(err, depth, index)
-        if texts[self.index].upper() == end:
-            self.index += 1
-        else:
+        keyword = texts[self.index].upper()
+        if keyword != end:
             self.diagnostics.error(self.gap_offset(), f"expected {end}, found {self.found()}")
+        if keyword == end or (keyword in _SINGLE_ENDS and end in _SINGLE_ENDS):
+            self.index += 1
         return found
+
+    def is_name(self) -> bool:
+        """Return True where a keyword stands as the name of a declaration."""
+        following, second = self.texts[self.index + 1 : self.index + 3]
+        return following in (":", ",") or (following.upper() == "AT" and second.startswith("%"))
 
     def _short_declaration(self, into: list[Declaration]) -> bool:
         """Parse ``name : type;``, as most declarations are; False if it is not as simple."""
@@ -153,7 +165,7 @@ class SpecificationParser(InitialParser):
         return others, address
 
     def _edge(self) -> str:
-        if self.keyword not in ("R_EDGE", "F_EDGE"):
+        if self.keyword not in _EDGES:
             return ""
         self.index += 1
         return self.texts[self.index - 1].upper()
@@ -179,7 +191,7 @@ class SpecificationParser(InitialParser):
             found = rule(self)
             self.leave()
             return found
-        if not text.isidentifier():
+        if not text.isidentifier() or text.upper() in END_KEYWORDS:
             self.fail("expected a type")
         self.index += 1
         if self.texts[self.index] == "(":
@@ -240,7 +252,7 @@ class SpecificationParser(InitialParser):
                     break
             values.append(self._enumeration_value())
         base = ""
-        if self.text.isidentifier() and self.keyword not in BLOCK_KEYWORDS:
+        if self.text.isidentifier() and self.keyword not in _NO_BASE:
             base = self.expect_name("of a type")
         return EnumerationSpecification(at, values, base)
 
