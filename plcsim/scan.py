@@ -85,6 +85,7 @@ class Scan:
         self.phase = Phase.SLEEP
         self.running = False
         self.halted = False
+        self.paused = False
         self.active: Task | None = None
         self.origin_ns = 0
         self._clock = clock
@@ -113,20 +114,27 @@ class Scan:
         """End `run` after the current cycle; may be called by a signal handler."""
         self.running = False
 
+    def pause(self) -> None:
+        """End this `run` after the current cycle; the next `run` goes on from there."""
+        self.paused = True
+
     def halt(self) -> None:
         """End `run` at once: no other program starts any more."""
         self.running = False
         self.halted = True
 
     def run(self, until_ns: int | None = None, cycles: int | None = None) -> None:
-        """Run until stopped, until a time, or for a number of cycles of the first class.
+        """Run until stopped or paused, until a time, or for cycles of the first class.
 
         Args:
             until_ns: releases at or after this time of the clock are not run.
             cycles: cycles of the class with the lowest number, counted from now.
         """
         last = None if cycles is None else self.classes[0].cycles + cycles
+        self.paused = False
         while self.running and (last is None or self.classes[0].cycles < last):
+            if self.paused:
+                return
             due = self._due(self._clock.now_ns(), len(self.classes))
             if due is not None and (until_ns is None or due.release_ns < until_ns):
                 self._run_class(due)
