@@ -1,0 +1,42 @@
+"""XML-RPC over HTTP, the protocol of the ROS 1 master and slave APIs, without input and output."""
+
+from crosnode.xmlrpc.connection import (
+    CallReceived,
+    Event,
+    FaultReceived,
+    Limits,
+    ResponseReceived,
+    XmlRpcClientConnection,
+    XmlRpcConnection,
+    XmlRpcServerConnection,
+)
+from crosnode.xmlrpc.multicall import run_multicall, split_multicall
+from crosnode.xmlrpc.values import (
+    Call,
+    Fault,
+    Response,
+    Value,
+    ValueLimits,
+    ValueParser,
+    check_value,
+)
+
+__all__ = [
+    "Call",
+    "CallReceived",
+    "Event",
+    "Fault",
+    "FaultReceived",
+    "Limits",
+    "Response",
+    "ResponseReceived",
+    "Value",
+    "ValueLimits",
+    "ValueParser",
+    "XmlRpcClientConnection",
+    "XmlRpcConnection",
+    "XmlRpcServerConnection",
+    "check_value",
+    "run_multicall",
+    "split_multicall",
+]

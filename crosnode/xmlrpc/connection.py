@@ -1,0 +1,301 @@
+"""The two ends of an XML-RPC connection over HTTP/1.1, kept alive between calls; HTTP by h11."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
+
+import h11
+
+from crosnode.connection import Act, Closed, Connection, Failed, State, Table
+from crosnode.errors import LocalProtocolError, XmlRpcError
+from crosnode.xmlrpc.values import (
+    Call,
+    Fault,
+    Response,
+    Value,
+    ValueLimits,
+    ValueParser,
+    dump_call,
+    dump_fault,
+    dump_response,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+SERVER: Final[Table] = {
+    State.REQUEST: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
+    State.REPLY: {Act.REPLY: State.REQUEST, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
+    State.CLOSED: {},
+}
+
+CLIENT: Final[Table] = {
+    State.IDLE: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
+    State.REPLY: {Act.REPLY: State.IDLE, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
+    State.CLOSED: {},
+}
+
+PARSE_ERROR: Final = -32700
+"""Fault code for a document that cannot be read (xmlrpc-epi, fault code interoperability)."""
+
+Role: TypeAlias = type[h11.CLIENT] | type[h11.SERVER]
+
+_CONTENT_TYPE: Final = ("Content-Type", "text/xml")
+
+
+class Limits(NamedTuple):
+    """What one connection may take.
+
+    Attributes:
+        values: size and shape of a document.
+        max_head: bytes of the HTTP request or status line and headers.
+        timeout_ns: nanoseconds a peer may take for a request, or a server for its reply.
+    """
+
+    values: ValueLimits = ValueLimits()
+    max_head: int = 16384
+    timeout_ns: int = 10_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class CallReceived:
+    """A peer calls a method."""
+
+    method: str
+    params: list[Value]
+
+
+@dataclass(frozen=True, slots=True)
+class ResponseReceived:
+    """The answer of a server."""
+
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class FaultReceived:
+    """The server answers with a fault."""
+
+    code: int
+    text: str
+
+
+Event: TypeAlias = CallReceived | ResponseReceived | FaultReceived | Failed | Closed
+
+
+class XmlRpcConnection(Connection):
+    """What both ends share; see ``Connection`` for its use.
+
+    Args:
+        role: h11.CLIENT or h11.SERVER.
+        state: the first state.
+        limits: see ``Limits``.
+        now_ns: time of the step in which the connection was made.
+    """
+
+    def __init__(self, role: Role, state: State, limits: Limits, now_ns: int) -> None:
+        super().__init__(state, limits.timeout_ns, now_ns)
+        self.limits = limits
+        self._http = h11.Connection(role, max_incomplete_event_size=limits.max_head)
+        self._values = ValueParser(limits.values)
+
+    def receive_data(self, data: bytes | bytearray | memoryview) -> None:
+        """Take received bytes; then call ``next_event`` until it gives None."""
+        if data and self.state is not State.CLOSED:
+            self._receive(bytes(data))
+            self._is_drained = False
+
+    def receive_eof(self) -> None:
+        """Take the end of the stream; then call ``next_event`` as for bytes."""
+        if self.state is not State.CLOSED:
+            self._receive(b"")
+
+    def next_event(self, now_ns: int) -> Event | None:
+        """Return the next event, None where none can be had from the bytes so far."""
+        if self.state in self.PAUSED:
+            return None
+        event = self._next_event(now_ns)
+        self._is_drained = event is None
+        return event
+
+    def _receive(self, data: bytes) -> None:
+        try:
+            self._http.receive_data(data)
+        except RuntimeError as error:  # bytes behind the end of the stream
+            raise LocalProtocolError(str(error)) from error
+
+    def _next_event(self, now_ns: int) -> Event | None:
+        """Do what the next HTTP events say, until one of ours comes of them."""
+        try:
+            while True:
+                http_event = self._http.next_event()
+                if http_event in (h11.NEED_DATA, h11.PAUSED):
+                    return None
+                if event := self._handle(http_event, now_ns):
+                    return event
+        except h11.RemoteProtocolError as error:
+            return self._refuse(f"not HTTP: {error}", http_status=error.error_status_hint)
+        except XmlRpcError as error:
+            return self._refuse(str(error), http_status=200)
+
+    def _handle(self, http_event: object, now_ns: int) -> Event | None:
+        if isinstance(http_event, h11.Data):
+            self._values.feed(http_event.data)
+            return None
+        if isinstance(http_event, h11.EndOfMessage):
+            document = self._values.close()
+            self._values = ValueParser(self.limits.values)
+            return self._document(document, now_ns)
+        if isinstance(http_event, h11.ConnectionClosed):
+            self.close()
+            return Closed()
+        return self._head(http_event)
+
+    def _head(self, http_event: object) -> Event | None:
+        """Check a request or status line."""
+        raise NotImplementedError
+
+    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
+        """Make an event of a document and move on."""
+        raise NotImplementedError
+
+    def _refuse(self, reason: str, *, http_status: int) -> Failed:
+        """End the connection; a server says why, with the HTTP status."""
+        return self._fail(reason)
+
+    def _end_call(self) -> None:
+        """Make ready for the next call, where both ends keep the connection alive."""
+        if self._http.our_state is h11.DONE and self._http.their_state is h11.DONE:
+            self._http.start_next_cycle()
+            self._move(Act.REPLY)
+        else:
+            self._move(Act.LAST)
+
+    def _send(self, *http_events: h11.Event) -> None:
+        for http_event in http_events:
+            if data := self._http.send(http_event):
+                self._outbox.append(data)
+
+
+class XmlRpcServerConnection(XmlRpcConnection):
+    """The end that is called. Events: CallReceived, Closed or Failed.
+
+    After CallReceived the owner calls ``respond`` or ``fault``, in the same step or a later one. A
+    request that cannot be read is answered with a fault or an HTTP status, and ends the connection.
+    A new connection must ask in time, one that has asked before may be idle.
+    """
+
+    TABLE: ClassVar[Table] = SERVER
+    PAUSED: ClassVar[frozenset[State]] = frozenset({State.REPLY, State.CLOSED})
+    TIMED: ClassVar[frozenset[State]] = frozenset({State.REQUEST})
+
+    def __init__(self, limits: Limits, now_ns: int) -> None:
+        super().__init__(h11.SERVER, State.REQUEST, limits, now_ns)
+        self._is_idle = False
+
+    @property
+    def deadline_ns(self) -> int | None:
+        """As in ``Connection``; None between two calls."""
+        return None if self._is_idle else super().deadline_ns
+
+    def next_event(self, now_ns: int) -> Event | None:
+        """Return the next event, None where none can be had from the bytes so far."""
+        event = super().next_event(now_ns)
+        if event is None and self._is_idle and self._is_within_request:
+            self._is_idle, self._since_ns = False, now_ns
+        return event
+
+    @property
+    def _is_within_request(self) -> bool:
+        """True from the first byte of a request on."""
+        return self._http.their_state is not h11.IDLE or bool(self._http.trailing_data[0])
+
+    def respond(self, value: Value) -> None:
+        """Answer the call with a value.
+
+        Raises:
+            MessageValueError: XML-RPC cannot carry it; the call is still to be answered.
+        """
+        self._answer(dump_response(value))
+
+    def fault(self, code: int, text: str) -> None:
+        """Answer the call with a fault."""
+        self._answer(dump_fault(Fault(code, text)))
+
+    def _answer(self, document: bytes) -> None:
+        if self.state is not State.REPLY:
+            raise LocalProtocolError(f"an answer in state {self.state.name}")
+        self._send_document(document, 200)
+        self._end_call()
+        self._is_idle = True
+
+    def _send_document(self, document: bytes, status: int, *headers: tuple[str, str]) -> None:
+        length = ("Content-Length", str(len(document)))
+        response = h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
+        self._send(response, h11.Data(data=document), h11.EndOfMessage())
+
+    def _head(self, http_event: object) -> Event | None:
+        assert isinstance(http_event, h11.Request)
+        if http_event.method != b"POST":
+            raise h11.RemoteProtocolError("only POST is served", error_status_hint=405)
+        if self._http.they_are_waiting_for_100_continue:
+            self._send(h11.InformationalResponse(status_code=100, headers=[]))
+        return None
+
+    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
+        if not isinstance(document, Call):
+            raise XmlRpcError("a reply, where a call was expected")
+        self._move(Act.REQUEST)
+        self._since_ns = now_ns
+        return CallReceived(document.method, document.params)
+
+    def _refuse(self, reason: str, *, http_status: int) -> Failed:
+        if self._http.our_state in (h11.IDLE, h11.SEND_RESPONSE):
+            document = dump_fault(Fault(PARSE_ERROR, reason))
+            self._send_document(document, http_status, ("Connection", "close"))
+        return self._fail(reason)
+
+
+class XmlRpcClientConnection(XmlRpcConnection):
+    """The end that calls. Events: ResponseReceived, FaultReceived, Closed or Failed.
+
+    Args:
+        host: what the ``Host`` header says: name or number, and port.
+        limits: see ``Limits``.
+        now_ns: time of the step.
+    """
+
+    TABLE: ClassVar[Table] = CLIENT
+    TIMED: ClassVar[frozenset[State]] = frozenset({State.REPLY})
+
+    def __init__(self, host: str, limits: Limits, now_ns: int) -> None:
+        super().__init__(h11.CLIENT, State.IDLE, limits, now_ns)
+        self._host = host
+
+    def call(self, method: str, params: Sequence[Value], now_ns: int) -> None:
+        """Call a method; the reply must come within the time limit.
+
+        Raises:
+            MessageValueError: XML-RPC cannot carry a parameter; nothing is sent.
+        """
+        document = dump_call(method, tuple(params))
+        self._move(Act.REQUEST)
+        self._since_ns = now_ns
+        headers = [("Host", self._host), _CONTENT_TYPE, ("Content-Length", str(len(document)))]
+        request = h11.Request(method="POST", target="/RPC2", headers=headers)
+        self._send(request, h11.Data(data=document), h11.EndOfMessage())
+
+    def _head(self, http_event: object) -> Event | None:
+        if isinstance(http_event, h11.Response) and http_event.status_code != 200:
+            raise XmlRpcError(f"HTTP status {http_event.status_code}")
+        return None
+
+    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
+        if isinstance(document, Call):
+            raise XmlRpcError("a call, where a reply was expected")
+        self._end_call()
+        self._since_ns = now_ns
+        if isinstance(document, Fault):
+            return FaultReceived(*document)
+        return ResponseReceived(document.value)

@@ -1,0 +1,54 @@
+"""``system.multicall``: many calls in one, which rospy uses to unregister.
+
+The parameter is one list of structs ``{methodName, params}``. The value is a list with, for each
+call, either a list of its one value or a fault struct ``{faultCode, faultString}``.
+Source: the proposal by Eric Kidd that all XML-RPC libraries follow.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from crosnode.xmlrpc.values import Call, Fault, Response, Value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+METHOD: Final = "system.multicall"
+MAX_CALLS: Final = 1000
+
+INVALID_PARAMETERS: Final = -32602
+"""Fault code, as in xmlrpc-epi's fault code interoperability."""
+
+
+def split_multicall(params: list[Value]) -> list[Call | Fault]:
+    """Return the calls in one call's parameters, with a fault in the place of each that is none."""
+    if len(params) != 1 or not isinstance(params[0], list):
+        return [Fault(INVALID_PARAMETERS, f"{METHOD} takes one list of structs")]
+    if len(params[0]) > MAX_CALLS:
+        return [Fault(INVALID_PARAMETERS, f"{METHOD} takes at most {MAX_CALLS} calls")]
+    return [_call(entry) for entry in params[0]]
+
+
+def _call(entry: Value) -> Call | Fault:
+    method = entry.get("methodName") if isinstance(entry, dict) else None
+    params = entry.get("params", []) if isinstance(entry, dict) else None
+    if not isinstance(method, str) or not isinstance(params, list):
+        return Fault(INVALID_PARAMETERS, "expected a struct of methodName and params")
+    if method == METHOD:
+        return Fault(INVALID_PARAMETERS, f"{METHOD} within {METHOD}")
+    return Call(method, params)
+
+
+def run_multicall(params: list[Value], answer: Callable[[Call], Response | Fault]) -> list[Value]:
+    """Answer all calls in order and return the value of the whole."""
+    return [
+        _packed(call if isinstance(call, Fault) else answer(call))
+        for call in split_multicall(params)
+    ]
+
+
+def _packed(reply: Response | Fault) -> Value:
+    if isinstance(reply, Fault):
+        return {"faultCode": reply.code, "faultString": reply.text}
+    return [reply.value]

@@ -1,0 +1,290 @@
+"""Calls and answers over HTTP, whole and in pieces."""
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crosnode.connection import Act, Closed, Failed, State
+from crosnode.errors import LocalProtocolError, MessageValueError
+from crosnode.xmlrpc import (
+    CallReceived,
+    Event,
+    FaultReceived,
+    Limits,
+    ResponseReceived,
+    ValueLimits,
+    XmlRpcClientConnection,
+    XmlRpcConnection,
+    XmlRpcServerConnection,
+)
+from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER
+from crosnode.xmlrpc.values import dump_call
+
+LIMITS = Limits(values=ValueLimits(max_size=2000), max_head=1000, timeout_ns=1000)
+
+
+def server() -> XmlRpcServerConnection:
+    return XmlRpcServerConnection(LIMITS, 0)
+
+
+def client() -> XmlRpcClientConnection:
+    return XmlRpcClientConnection("host:11311", LIMITS, 0)
+
+
+def sent(connection: XmlRpcConnection) -> bytes:
+    return b"".join(connection.data_to_send())
+
+
+def request(body: bytes, *headers: str, version: str = "1.1") -> bytes:
+    head = [f"POST / HTTP/{version}", "Host: h:1", f"Content-length: {len(body)}", *headers]
+    return "\r\n".join(head).encode() + b"\r\n\r\n" + body
+
+
+GET_PID = dump_call("getPid", ["/n"])
+
+
+def test_two_calls_on_one_connection() -> None:
+    ours, theirs = client(), server()
+    for value in ([1, "", 42], "x"):
+        ours.call("getPid", ["/n"], 0)
+        theirs.receive_data(sent(ours))
+        assert theirs.next_event(0) == CallReceived("getPid", ["/n"])
+        assert theirs.next_event(0) is None
+        theirs.respond(value)
+        ours.receive_data(sent(theirs))
+        assert ours.next_event(0) == ResponseReceived(value)
+        assert (ours.state, theirs.state) == (State.IDLE, State.REQUEST)
+    ours.close()
+    theirs.receive_eof()
+    assert theirs.next_event(0) == Closed()
+
+
+def test_fault() -> None:
+    ours, theirs = client(), server()
+    ours.call("nonsense", [], 0)
+    theirs.receive_data(sent(ours))
+    theirs.next_event(0)
+    theirs.fault(1, "no such method")
+    ours.receive_data(sent(theirs))
+    assert ours.next_event(0) == FaultReceived(1, "no such method")
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        request(GET_PID),
+        request(GET_PID, version="1.0"),
+        request(GET_PID, "User-Agent: XMLRPC++ 0.7", "Content-Type: text/xml"),
+        request(GET_PID).replace(b"length: ", b"length:"),
+        request(GET_PID).replace(b"length: ", b"length: 00000"),
+        request(b"", "Transfer-Encoding: chunked").replace(b"Content-length: 0\r\n", b"")
+        + b"%x\r\n%s\r\n0\r\n\r\n" % (len(GET_PID), GET_PID),
+    ],
+)
+def test_requests_of_many_clients(data: bytes) -> None:
+    for size in (1, 10**6):
+        theirs, events = server(), []
+        for start in range(0, len(data), size):
+            theirs.receive_data(data[start : start + size])
+            events.append(theirs.next_event(0))
+        assert [event for event in events if event] == [CallReceived("getPid", ["/n"])]
+
+
+def test_http_1_0_ends_after_one_call() -> None:
+    theirs = server()
+    theirs.receive_data(request(GET_PID, version="1.0"))
+    theirs.next_event(0)
+    theirs.respond(1)
+    assert theirs.state is State.CLOSED
+    assert b"Connection: close" in sent(theirs)
+
+
+def test_answer_of_roscpp() -> None:
+    ours = client()
+    ours.call("getPid", ["/n"], 0)
+    body = b"<?xml version='1.0'?><methodResponse><params><param>\r\n\t<value>x</value>\r\n</param>"
+    body += b"</params></methodResponse>\r\n"
+    ours.receive_data(
+        b"HTTP/1.1 200 OK\r\nServer: XMLRPC++ 0.7\r\nContent-Type: text/xml\r\n"
+        b"Content-length: %d\r\n\r\n%s" % (len(body), body)
+    )
+    assert ours.next_event(0) == ResponseReceived("x")
+
+
+def test_answer_that_ends_with_the_connection() -> None:
+    ours = client()
+    ours.call("m", [], 0)
+    theirs = server()
+    theirs.receive_data(request(GET_PID))
+    theirs.next_event(0)
+    theirs.respond([1])
+    body = sent(theirs).partition(b"\r\n\r\n")[2]
+    ours.receive_data(b"HTTP/1.0 200 OK\r\n\r\n" + body)
+    assert ours.next_event(0) is None
+    ours.receive_eof()
+    assert ours.next_event(0) == ResponseReceived([1])
+    assert ours.state is State.CLOSED
+
+
+def test_pipelined_calls_wait_for_the_answer_before_them() -> None:
+    theirs = server()
+    theirs.receive_data(request(dump_call("a", [])) + request(dump_call("b", [])))
+    assert theirs.next_event(0) == CallReceived("a", [])
+    assert theirs.next_event(0) is None
+    assert not theirs.wants_data
+    theirs.respond(1)
+    assert theirs.next_event(0) == CallReceived("b", [])
+
+
+def test_client_that_waits_for_100() -> None:
+    theirs = server()
+    head, _, body = request(GET_PID, "Expect: 100-continue").partition(b"\r\n\r\n")
+    theirs.receive_data(head + b"\r\n\r\n")
+    assert theirs.next_event(0) is None
+    assert sent(theirs).startswith(b"HTTP/1.1 100 ")
+    theirs.receive_data(body)
+    assert theirs.next_event(0) == CallReceived("getPid", ["/n"])
+
+
+@pytest.mark.parametrize(
+    ("data", "status", "reason"),
+    [
+        (b"\x16\x03\x01\0\xa5\x01\0\0\r\n\r\n", b"400", "not HTTP"),
+        (b"GET / HTTP/1.1\r\nHost: h\r\n\r\n", b"405", "only POST"),
+        (b"x" * 2000, b"431", "not HTTP"),
+        (request(b"<methodCall>"), b"200", "not an XML-RPC document"),
+        (request(b""), b"200", "not an XML-RPC document"),
+        (request(b"<!DOCTYPE x><x/>"), b"200", "document type"),
+        (request(b" " * 3000), b"200", "more than 2000 bytes"),
+        (request(b"<methodResponse><params><param><value/></param></params></methodResponse>"),
+         b"200", "a reply, where a call was expected"),
+    ],
+)  # fmt: skip
+def test_refused_with_the_reason(data: bytes, status: bytes, reason: str) -> None:
+    theirs = server()
+    theirs.receive_data(data)
+    event = theirs.next_event(0)
+    assert isinstance(event, Failed)
+    assert reason in event.reason
+    assert theirs.state is State.CLOSED
+    answer = sent(theirs)
+    assert answer.startswith(b"HTTP/1.1 " + status)
+    assert str(PARSE_ERROR).encode() in answer
+    assert b"Connection: close" in answer
+
+
+@pytest.mark.parametrize(
+    ("data", "reason"),
+    [
+        (b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n", "HTTP status 404"),
+        (b"HTTP/1.1 200 OK\r\nContent-Length: 0\r\n\r\n", "not an XML-RPC document"),
+        (b"SSH-2.0-OpenSSH\r\n\r\n", "not HTTP"),
+        (b"HTTP/1.1 200 OK\r\n\r\n" + GET_PID, "a call, where a reply was expected"),
+        (b"", "not HTTP"),
+    ],
+)
+def test_bad_answers(data: bytes, reason: str) -> None:
+    ours = client()
+    ours.call("m", [], 0)
+    ours.receive_data(data)
+    event = ours.next_event(0)
+    if event is None:
+        ours.receive_eof()
+        event = ours.next_event(0)
+    assert isinstance(event, Failed)
+    assert reason in event.reason
+    assert ours.state is State.CLOSED
+
+
+def test_server_that_closes_between_calls() -> None:
+    ours = client()
+    ours.receive_eof()
+    assert ours.next_event(0) == Closed()
+
+
+def test_deadlines() -> None:
+    theirs = server()
+    assert theirs.deadline_ns == 1000
+    theirs.receive_data(request(GET_PID))
+    theirs.next_event(5)
+    assert theirs.deadline_ns is None
+    theirs.respond(1)
+    assert theirs.next_event(50) is None
+    assert theirs.deadline_ns is None
+    theirs.receive_data(b"P")
+    theirs.next_event(5000)
+    assert theirs.deadline_ns == 6000
+    theirs.receive_data(b"OST")
+    theirs.next_event(5500)
+    assert theirs.handle_timer(6000) == Failed("silent for 1000 ns")
+    ours = client()
+    assert ours.deadline_ns is None
+    ours.call("m", [], 70)
+    assert ours.deadline_ns == 1070
+
+
+def test_out_of_turn() -> None:
+    with pytest.raises(LocalProtocolError):
+        server().respond(1)
+    ours = client()
+    ours.call("m", [], 0)
+    with pytest.raises(LocalProtocolError):
+        ours.call("m", [], 0)
+
+
+def test_value_that_cannot_be_sent() -> None:
+    theirs = server()
+    theirs.receive_data(request(GET_PID))
+    theirs.next_event(0)
+    with pytest.raises(MessageValueError):
+        theirs.respond(None)
+    theirs.fault(0, "unmarshallable")
+    assert b"unmarshallable" in sent(theirs)
+
+
+STREAM = (
+    request(GET_PID) + request(dump_call("a", [{"b": [1, 2.5, "é"]}])) + request(b"<methodCall>")
+)
+
+
+def events_of(pieces: list[bytes]) -> tuple[list[Event], bytes]:
+    theirs, events = server(), []
+    for piece in pieces:
+        theirs.receive_data(piece)
+        while event := theirs.next_event(0):
+            events.append(event)
+            if theirs.state is State.REPLY:
+                theirs.respond(len(events))
+    return events, sent(theirs)
+
+
+@given(st.sets(st.integers(0, len(STREAM)), max_size=6))
+def test_any_split_gives_the_same_events(cuts: set[int]) -> None:
+    edges = [0, *sorted(cuts), len(STREAM)]
+    pieces = [STREAM[a:b] for a, b in pairwise(edges)]
+    whole = events_of([STREAM])
+    assert len(whole[0]) == 3
+    assert events_of(pieces)[0] == whole[0]
+
+
+@given(
+    st.lists(st.binary(max_size=40) | st.sampled_from([request(GET_PID), b"POST / HTTP/1.1\r\n"]))
+)
+def test_any_bytes(pieces: list[bytes]) -> None:
+    for connection in (server(), client()):
+        if isinstance(connection, XmlRpcClientConnection):
+            connection.call("m", [], 0)
+        for piece in pieces:
+            connection.receive_data(piece)
+            connection.next_event(0)
+            if isinstance(connection, XmlRpcServerConnection) and connection.state is State.REPLY:
+                connection.respond("")
+        assert connection.state in connection.TABLE
+
+
+@pytest.mark.parametrize("table", [SERVER, CLIENT])
+def test_every_state_can_end(table: dict[State, dict[Act, State]]) -> None:
+    assert table[State.CLOSED] == {}
+    assert all(state is State.CLOSED or Act.END in row for state, row in table.items())

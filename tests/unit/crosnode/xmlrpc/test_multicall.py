@@ -1,0 +1,33 @@
+"""Many calls in one."""
+
+from crosnode.xmlrpc.multicall import INVALID_PARAMETERS, MAX_CALLS, run_multicall, split_multicall
+from crosnode.xmlrpc.values import Call, Fault, Response
+
+
+def entry(method: object, params: object) -> dict[str, object]:
+    return {"methodName": method, "params": params}
+
+
+def test_values_and_faults_in_order() -> None:
+    def answer(call: Call) -> Response | Fault:
+        return Fault(1, "no") if call.method == "bad" else Response([call.method, *call.params])
+
+    calls = [entry("a", [1]), entry("bad", []), "no struct", {"methodName": "b"}]
+    assert run_multicall([calls], answer) == [
+        [["a", 1]],
+        {"faultCode": 1, "faultString": "no"},
+        {
+            "faultCode": INVALID_PARAMETERS,
+            "faultString": "expected a struct of methodName and params",
+        },
+        [["b"]],
+    ]
+
+
+def test_refused() -> None:
+    for params in ([], [1], [[], []], [[entry("m", [])] * (MAX_CALLS + 1)]):
+        (fault,) = split_multicall(params)
+        assert isinstance(fault, Fault)
+    for call in (entry("system.multicall", [[]]), entry(1, []), entry("m", "x"), 5):
+        (fault,) = split_multicall([[call]])
+        assert isinstance(fault, Fault)
