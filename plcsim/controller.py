@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from plcsim.clock import MonotonicClock
 from plcsim.context import Context
@@ -67,8 +67,8 @@ class Setup:
     options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
 
 
-class Heartbeat:
-    """Who watches the scan from outside is told here; this one tells nobody."""
+class Heartbeat(Protocol):
+    """Who watches the scan from outside is told here."""
 
     def started(self, task: Task) -> None:
         """Note that ``task`` is about to run a unit."""
@@ -78,6 +78,19 @@ class Heartbeat:
 
     def changed(self, state: State) -> None:
         """Note a new system state."""
+
+
+class _Nobody:
+    """The heartbeat of a controller that nobody watches."""
+
+    def started(self, task: Task) -> None:
+        pass
+
+    def finished(self, task_class: TaskClass) -> None:
+        pass
+
+    def changed(self, state: State) -> None:
+        pass
 
 
 class Controller:
@@ -124,9 +137,10 @@ class Controller:
         self.image = ProcessImage(self.tags)
         self.scan = Scan(self.classes, self.clock, self.context, self.image, self, place_of)
         self.image.attach(self.scan)
-        self._heartbeat = heartbeat or Heartbeat()
+        self._heartbeat = heartbeat or _Nobody()
         self._boot_ns = self.clock.now_ns()
         self.stop_requested = False
+        self._started = False
 
     def _task(self, setup: ProgramSetup | None) -> Task | None:
         if setup is None:
@@ -165,12 +179,24 @@ class Controller:
             if self.state is not State.BOOT:
                 return self.state
         self._enter(Event.INITIALISED)
-        self.scan.start()
+        self._started = False
         return self.state
+
+    def start(self) -> None:
+        """Lay the grids of all task classes from now on; `run` does it where nobody has.
+
+        What takes time after `boot` is done before, so that it costs no grid points.
+        """
+        if not self._started:
+            self.scan.start()
+            self._started = True
 
     def run(self, until_ns: int | None = None, cycles: int | None = None) -> State:
         """Run the scan until it is stopped or fails; for the limits see `Scan.run`."""
-        if self.state is State.RUN and not self.stop_requested:
+        if self.state is State.RUN:
+            self.start()
+            if self.stop_requested:  # by a signal that came before the scan had started
+                self.scan.stop()
             self.scan.run(until_ns, cycles)
         return self.state
 

@@ -111,6 +111,7 @@ def _run(order: RunOrder) -> dict[str, Any]:
     controller.boot()
     if rights.complete:
         realtime.settle()
+    controller.start()
     origin_ns = page.origin_ns = controller.scan.origin_ns
     controller.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
     elapsed_ns = clock.now_ns() - origin_ns
