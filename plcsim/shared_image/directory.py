@@ -1,0 +1,184 @@
+"""The directory: which variables the image holds, as text that another process can read.
+
+A service knows the variables of all programs, with types and addresses, without loading a program.
+Types are written out in full and laid out again by `st_types` on the other side.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from plcsim.errors import TagError
+from plcsim.memory import find
+from plcsim.shared_image.errors import ImageError
+from plcsim.tag import Tag
+from st_types.derived import (
+    AliasType,
+    ArrayType,
+    DataBlockType,
+    EnumerationType,
+    Member,
+    ReferenceType,
+    Section,
+    StringType,
+    StructType,
+    SubrangeType,
+    WStringType,
+)
+from st_types.elementary import ELEMENTARY, UDINT, DataType, ElementaryType
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+
+@dataclass(frozen=True)
+class Variables:
+    """The variables of one program: its name in plc.toml, PLC address, type."""
+
+    program: str
+    address: int
+    data_type: DataType[Any]
+
+
+@dataclass(frozen=True)
+class Directory:
+    """What the image holds.
+
+    Attributes:
+        project: name of the project.
+        cycle_ns: the shortest cycle time.
+        variables: of each program.
+        spans: (PLC address, bytes) of what a snapshot holds, one after another.
+        services: what each service was given by its extension, by table of plc.toml.
+    """
+
+    project: str
+    cycle_ns: int
+    variables: Sequence[Variables]
+    spans: Sequence[tuple[int, int]]
+    services: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def bank_size(self) -> int:
+        """Bytes of a snapshot."""
+        return sum(size for _, size in self.spans)
+
+    def find(self, path: str) -> Tag:
+        """Return the tag ``program.member``; case does not matter.
+
+        Raises:
+            TagError: there is no such tag.
+        """
+        name, _, rest = path.partition(".")
+        for variables in self.variables:
+            if variables.program.upper() == name.upper():
+                try:
+                    data_type, offset = find(variables.data_type, rest)
+                except KeyError as err:
+                    raise TagError(f"no tag {path!r}: {err.args[0]}") from None
+                return Tag(path, data_type, variables.address + offset)
+        raise TagError(f"no program {name!r} for tag {path!r}")
+
+    def place_of(self, address: int, size: int) -> int:
+        """Return where the bytes of a variable lie in a snapshot.
+
+        Raises:
+            ImageError: the snapshot does not hold them.
+        """
+        start = 0
+        for first, length in self.spans:
+            if first <= address and address + size <= first + length:
+                return start + address - first
+            start += length
+        raise ImageError(f"the image does not hold address 16#{address:08X}")
+
+    def to_bytes(self) -> bytes:
+        """Return the directory as JSON."""
+        text = {
+            "project": self.project,
+            "cycle_ns": self.cycle_ns,
+            "variables": [
+                [v.program, v.address, describe_type(v.data_type)] for v in self.variables
+            ],
+            "spans": list(self.spans),
+            "services": self.services,
+        }
+        return json.dumps(text, separators=(",", ":")).encode()
+
+
+def directory_from(data: bytes) -> Directory:
+    """Return the directory of `Directory.to_bytes`."""
+    text = json.loads(data)
+    return Directory(
+        text["project"],
+        text["cycle_ns"],
+        [Variables(name, address, type_from(kind)) for name, address, kind in text["variables"]],
+        [(address, size) for address, size in text["spans"]],
+        text["services"],
+    )
+
+
+def hash_of(data: bytes) -> int:
+    """Return the layout hash: the first 8 bytes of the directory's SHA-256."""
+    return int.from_bytes(hashlib.sha256(data).digest()[:8], "little")
+
+
+def describe_type(data_type: DataType[Any]) -> object:
+    """Return a type as strings, numbers, lists and dicts."""
+    match data_type:
+        case ElementaryType(name=name):
+            return name
+        case AliasType(target=target):
+            return describe_type(target)
+        case SubrangeType(name=name, base=base, minimum=low, maximum=high):
+            return {"subrange": name, "of": base.name, "bounds": [low, high]}
+        case StringType(length=length):
+            return {"string": length}
+        case WStringType(length=length):
+            return {"wstring": length}
+        case ReferenceType():
+            return UDINT.name
+        case EnumerationType(name=name, values=values):
+            return {"enumeration": name, "values": values}
+        case ArrayType(element=element, bounds=bounds):
+            return {"array": describe_type(element), "bounds": [list(b) for b in bounds]}
+        case StructType(name=name, members=members):
+            key = "data_block" if isinstance(data_type, DataBlockType) else "struct"
+            described = [[m.name, describe_type(m.data_type), m.section.value] for m in members]
+            return {key: name, "members": described}
+    raise TypeError(f"{data_type} cannot be described")
+
+
+def type_from(text: Any) -> DataType[Any]:
+    """Return the type that `describe_type` described."""
+    match text:
+        case str(name):
+            return ELEMENTARY[name]
+        case {"subrange": name, "of": base, "bounds": [low, high]}:
+            return SubrangeType(name, _integer(base), low, high)
+        case {"string": length}:
+            return StringType(length)
+        case {"wstring": length}:
+            return WStringType(length)
+        case {"enumeration": name, "values": values}:
+            return EnumerationType(name, values)
+        case {"array": element, "bounds": bounds}:
+            return ArrayType(type_from(element), [(low, high) for low, high in bounds])
+        case {"data_block": name, "members": members}:
+            return DataBlockType(name, _members(members))
+        case {"struct": name, "members": members}:
+            return StructType(name, _members(members))
+    raise ImageError(f"{text!r} does not describe a type")
+
+
+def _integer(name: str) -> Any:
+    return ELEMENTARY[name]
+
+
+def _members(members: list[Any]) -> list[Member]:
+    return [
+        Member(name, type_from(kind), None, Section(section)) for name, kind, section in members
+    ]
