@@ -1,0 +1,124 @@
+"""TcpSend and TcpRecv: send and receive data."""
+
+# ruff: noqa: N815  # the members have the controller's names
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.library.astcp.block import AsTcpBlock
+from plcsim.library.astcp.constants import (
+    ERR_OK,
+    tcpERR_NO_DATA,
+    tcpERR_NO_OOBDATA,
+    tcpERR_NOT_CONNECTED,
+    tcpERR_PARAMETER,
+    tcpERR_SENTLEN,
+    tcpERR_SYSTEM,
+    tcpERR_WOULDBLOCK,
+    tcpMSG_DONTROUTE,
+    tcpMSG_OOB,
+    tcpMSG_PEEK,
+)
+from plcsim.network.protocol import MAX_BUFFER, Outcome
+from st_types import BOOL, UDINT, UINT, var, var_input, var_output
+
+if TYPE_CHECKING:
+    from plcsim.library.astcp.idents import IdentTable
+
+_ENDED: Final = {
+    Outcome.RESET: tcpERR_NOT_CONNECTED,
+    Outcome.TIMED_OUT: tcpERR_NOT_CONNECTED,
+    Outcome.UNREACHABLE: tcpERR_NOT_CONNECTED,
+    Outcome.NOT_CONNECTED: tcpERR_NOT_CONNECTED,
+}
+_SEND_STATUSES: Final = _ENDED | {
+    Outcome.WOULD_BLOCK: tcpERR_WOULDBLOCK,
+    Outcome.NO_RESOURCES: tcpERR_WOULDBLOCK,
+}
+_RECV_STATUSES: Final = _ENDED | {
+    Outcome.OK: ERR_OK,
+    Outcome.CLOSED: ERR_OK,
+    Outcome.WOULD_BLOCK: tcpERR_NO_DATA,
+    Outcome.NO_URGENT_DATA: tcpERR_NO_OOBDATA,
+}
+
+
+class TcpSend(AsTcpBlock):
+    """Hand data to the send buffer.
+
+    Inputs: enable; ident; pData, address of the data; datalen, bytes; flags, 0 or tcpMSG_OOB,
+    tcpMSG_DONTROUTE. Outputs: status; sentlen, bytes taken.
+
+    Statuses: ERR_OK, tcpERR_SENTLEN (sentlen bytes were taken: call again for the rest),
+    tcpERR_WOULDBLOCK (none were: call again), tcpERR_NOT_CONNECTED, tcpERR_INVALID_IDENT,
+    tcpERR_PARAMETER (pData 0, unknown flag), tcpERR_SYSTEM.
+    """
+
+    enable = var_input(BOOL)
+    ident = var_input(UDINT)
+    pData = var_input(UDINT)
+    datalen = var_input(UDINT)
+    flags = var_input(UDINT)
+    status = var_output(UINT)
+    sentlen = var_output(UDINT)
+    i_state = var(UINT)
+    i_result = var(UINT)
+    i_tmp = var(UDINT)
+
+    def step(self, idents: IdentTable) -> int:
+        """Send what the buffer takes."""
+        self.sentlen = 0
+        endpoint = idents.find(self.ident)
+        if endpoint is None:
+            return self.unknown_ident(idents)
+        if not self.pData or self.flags & ~(tcpMSG_OOB | tcpMSG_DONTROUTE):
+            return tcpERR_PARAMETER
+        self.context.memory.check(self.pData, self.datalen)
+        # No send buffer is larger than MAX_BUFFER: what is beyond need not be copied.
+        data = self.context.memory.read(self.pData, min(self.datalen, MAX_BUFFER))
+        urgent = bool(self.flags & tcpMSG_OOB) and len(data) == self.datalen
+        direct = bool(self.flags & tcpMSG_DONTROUTE)
+        outcome, self.sentlen = endpoint.socket.send(data, urgent=urgent, direct=direct)
+        if outcome is Outcome.OK:
+            return ERR_OK if self.sentlen == self.datalen else tcpERR_SENTLEN
+        return _SEND_STATUSES.get(outcome, tcpERR_SYSTEM)
+
+
+class TcpRecv(AsTcpBlock):
+    """Take data from the receive buffer: a stream, without message boundaries.
+
+    Inputs: enable; ident; pData, address of the buffer, all of which must be valid; datamax, its
+    bytes; flags, 0 or tcpMSG_OOB, tcpMSG_PEEK. Outputs: status; recvlen, bytes received.
+
+    Statuses: ERR_OK (with recvlen 0: the other side has finished), tcpERR_NO_DATA,
+    tcpERR_NOT_CONNECTED (reset, lost, never there), tcpERR_NO_OOBDATA, tcpERR_INVALID_IDENT,
+    tcpERR_PARAMETER (pData or datamax 0, unknown flag), tcpERR_SYSTEM.
+    """
+
+    enable = var_input(BOOL)
+    ident = var_input(UDINT)
+    pData = var_input(UDINT)
+    datamax = var_input(UDINT)
+    flags = var_input(UDINT)
+    status = var_output(UINT)
+    recvlen = var_output(UDINT)
+    i_state = var(UINT)
+    i_result = var(UINT)
+    i_tmp = var(UDINT)
+
+    def step(self, idents: IdentTable) -> int:
+        """Receive what is there."""
+        self.recvlen = 0
+        endpoint = idents.find(self.ident)
+        if endpoint is None:
+            return self.unknown_ident(idents)
+        if not self.pData or not self.datamax or self.flags & ~(tcpMSG_OOB | tcpMSG_PEEK):
+            return tcpERR_PARAMETER
+        memory = self.context.memory
+        memory.check(self.pData, self.datamax)
+        peek, urgent = bool(self.flags & tcpMSG_PEEK), bool(self.flags & tcpMSG_OOB)
+        outcome, data = endpoint.socket.recv(self.datamax, peek=peek, urgent=urgent)
+        memory.write(self.pData, data)
+        self.recvlen = len(data)
+        return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM)
