@@ -40,9 +40,16 @@ from st_types.slots import Slot, slot_of
 from st_types.values import encode
 
 if TYPE_CHECKING:
+    from _ctypes import _CData
     from _ctypes import _PyCStructType as _CStructMeta
     from collections.abc import Callable, Iterator
+
+    class _CStruct(_CData, metaclass=_CStructMeta):
+        """ctypes.Structure without __getattr__, so that mypy refuses a name not declared."""
+
+        def __init__(self) -> None: ...
 else:
+    _CStruct = ctypes.Structure
     _CStructMeta = type(ctypes.Structure)  # ctypes does not export its metaclass
 
 V = TypeVar("V")
@@ -231,7 +238,7 @@ def _converting_property(field: str, slot: Slot) -> property:
     return property(load, store)
 
 
-class Struct(ctypes.Structure, metaclass=_StructMeta):
+class Struct(_CStruct, metaclass=_StructMeta):
     """Base of all views of structured variables."""
 
     __slots__ = ("_plc_address", "_plc_context")
