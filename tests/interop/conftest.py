@@ -1,4 +1,4 @@
-"""Interop tests skip where their peer is missing; with PLCSIM_INTEROP=required that is a failure."""
+"""Interop tests skip where a peer is missing; with PLCSIM_INTEROP=required that is a failure."""
 
 import os
 from collections.abc import Generator

@@ -1,4 +1,4 @@
-"""Both servers on the virtual clock and network: exact, repeatable, no port of this machine used."""
+"""Both servers on the virtual clock and network: exact, repeatable, without a real port."""
 
 from itertools import pairwise
 from pathlib import Path
