@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from plcsim.context import Context
     from plcsim.task import Task
 
+_NEVER = 1 << 63
+"""Later than every time and more than every count."""
+
 
 class Phase(Enum):
     """What the scan is doing, and so what may be done."""
@@ -96,6 +99,8 @@ class Scan:
         self._executions = Executions()
         self._own_ns = 0
         self._aborted_at = ""
+        self._until_ns = _NEVER
+        self._last_cycle = _NEVER
 
     def require(self, phase: Phase) -> None:
         """Raise PhaseError unless the scan is in ``phase``."""
@@ -129,28 +134,33 @@ class Scan:
         Args:
             until_ns: releases at or after this time of the clock are not run.
             cycles: cycles of the class with the lowest number, counted from now.
+
+        Raises:
+            PhaseError: a program called this.
         """
-        last = None if cycles is None else self.classes[0].cycles + cycles
+        self.require(Phase.SLEEP)
         self.paused = False
-        while self.running and (last is None or self.classes[0].cycles < last):
-            if self.paused:
-                return
-            due = self._due(self._clock.now_ns(), len(self.classes))
-            if due is not None and (until_ns is None or due.release_ns < until_ns):
+        self._until_ns = _NEVER if until_ns is None else until_ns
+        self._last_cycle = _NEVER if cycles is None else self.classes[0].cycles + cycles
+        while self._goes_on():
+            due = self._due(len(self.classes))
+            if due is not None:
                 self._run_class(due)
                 continue
-            next_ns = min(c.release_ns for c in self.classes)
-            if until_ns is not None and next_ns >= until_ns:
-                self._sleep(until_ns)
-                if self._clock.now_ns() >= until_ns:
-                    return
-            else:
-                self._sleep(next_ns)
+            wake_ns = min(self._until_ns, *(c.release_ns for c in self.classes))
+            if wake_ns == self._until_ns and self._clock.now_ns() >= wake_ns:
+                return
+            self._sleep(wake_ns)
 
-    def _due(self, now_ns: int, below: int) -> TaskClass | None:
+    def _goes_on(self) -> bool:
+        """Return whether another cycle may start."""
+        return self.running and not self.paused and self.classes[0].cycles < self._last_cycle
+
+    def _due(self, below: int) -> TaskClass | None:
         """Return the first released class among the first ``below`` in order."""
+        now_ns = self._clock.now_ns()
         for task_class in self.classes[:below]:
-            if task_class.release_ns <= now_ns:
+            if task_class.release_ns <= now_ns and task_class.release_ns < self._until_ns:
                 return task_class
         return None
 
@@ -188,8 +198,8 @@ class Scan:
 
     def _run_higher(self, place: int) -> None:
         """Run the classes before ``place`` that have been released meanwhile."""
-        while not self.halted:
-            due = self._due(self._clock.now_ns(), place)
+        while self._goes_on():
+            due = self._due(place)
             if due is None:
                 return
             self._run_class(due)

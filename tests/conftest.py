@@ -1,0 +1,106 @@
+"""Controllers and projects for the tests, given by fixtures.
+
+Programs are made from functions (`program_of`), put into task classes (`task_class`) and run on a
+controller on the virtual clock (`make_controller`). A program of a test says what it costs by
+`VirtualClock.spend_ns`, `stall_ns` and `wait_ns`.
+"""
+
+import textwrap
+
+import pytest
+
+from plcsim.clock import VirtualClock
+from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.memory import PAGE
+from plcsim.task import Program
+
+MS = 1_000_000
+
+
+def _program_of(cyclic=None, **body):
+    units = {} if cyclic is None else {"cyclic": cyclic}
+    return type("TestProgram", (Program,), body | units)
+
+
+@pytest.fixture(scope="session")
+def program_of():
+    """``program_of(cyclic, init=..., exit=..., counter=var(UINT))``: a program class."""
+    return _program_of
+
+
+@pytest.fixture(scope="session")
+def task_class():
+    """``task_class(1, 10, name=program, ...)``: a task class with a cycle time in ms.
+
+    Fields of `TaskClassSetup` in nanoseconds go into ``settings``.
+    """
+
+    def task_class(number, cycle_ms, settings=None, /, **programs):
+        setups = [ProgramSetup(name, program) for name, program in programs.items()]
+        return TaskClassSetup(number, cycle_ms * MS, setups, **(settings or {}))
+
+    return task_class
+
+
+@pytest.fixture
+def clock():
+    """The virtual clock of the test."""
+    return VirtualClock()
+
+
+@pytest.fixture
+def make_controller(clock):
+    """``make_controller(*classes)``: a controller on the virtual clock, not booted."""
+
+    def make_controller(*classes, **options):
+        heartbeat = options.pop("heartbeat", None)
+        exception = options.pop("exception_program", None)
+        setup = Setup(
+            classes,
+            memory_size=16 * PAGE,
+            exception_program=exception and ProgramSetup("exception", exception),
+        )
+        own_clock = options.pop("clock", clock)
+        assert not options
+        return Controller(setup, network=None, clock=own_clock, heartbeat=heartbeat)
+
+    return make_controller
+
+
+@pytest.fixture
+def run_for(make_controller):
+    """``run_for(50, *classes)``: a controller that has booted and run for some milliseconds."""
+
+    def run_for(duration_ms, *classes, **options):
+        controller = make_controller(*classes, **options)
+        controller.boot()
+        controller.run_for(duration_ms * MS)
+        return controller
+
+    return run_for
+
+
+@pytest.fixture
+def project(tmp_path):
+    """``project({"plc.toml": "...", "main/main.py": "..."})``: a folder with these files."""
+
+    def project(files):
+        folder = tmp_path / "cell"
+        for name, text in files.items():
+            file = folder / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(textwrap.dedent(text), "utf-8")
+        return folder
+
+    return project
+
+
+@pytest.fixture
+def project_of(project):
+    """``project_of(main_py)``: a project of one program, ``main``, in a 10 ms task class."""
+
+    def project_of(source, settings="", plc=""):
+        head = f'[plc]\n{plc}\n[task_class.1]\ncycle = "10ms"\n{settings}\nprograms = ["main"]\n'
+        return project({"plc.toml": head, "main/main.py": source})
+
+    return project_of
