@@ -41,6 +41,8 @@ from st_types.values import (
     initial_image,
 )
 
+from .random_types import any_types, typed_bytes, typed_values
+
 MODE = EnumerationType("Mode", {"OFF": 3, "ON": 7})
 LOW = SubrangeType("Low", USINT, 2, 9)
 AXIS = StructType("Axis", [Member("on", BOOL, True), Member("speed", INT, -2)])
@@ -185,19 +187,17 @@ def test_gaps_of_a_struct_are_zero():
     assert encode(AXIS, {"on": True, "speed": -1}) == b"\1\0\xff\xff"
 
 
-@given(st.data())
-def test_values_survive_bytes(random_types, random_values, data):
-    data_type = data.draw(random_types())
-    value = data.draw(random_values(data_type))
+@given(typed_values(any_types))
+def test_values_survive_bytes(typed):
+    data_type, value = typed
     image = encode(data_type, value)
     assert len(image) == data_type.size
     assert decode(data_type, image) == value
 
 
-@given(st.data())
-def test_any_bytes_decode_and_integers_give_the_same_bytes_again(random_types, data):
-    data_type = data.draw(random_types())
-    image = data.draw(st.binary(min_size=data_type.size, max_size=data_type.size))
+@given(typed_bytes(any_types))
+def test_any_bytes_decode_and_integers_give_the_same_bytes_again(typed):
+    data_type, image = typed
     value = decode(data_type, image)
     if type(value) is int and not isinstance(resolve_alias(data_type), SubrangeType):
         assert encode(data_type, value) == image

@@ -1,11 +1,11 @@
 """standard.fun is the source of the interfaces: the classes must not drift from it."""
 
-import re
 from importlib.resources import files
 
 import pytest
 
 from plcsim.library import standard
+from st_types.declarations import parse_text
 from st_types.derived import Section
 from st_types.views import type_of
 
@@ -19,15 +19,14 @@ SECTIONS = {
 def declared_blocks():
     """Return (name, type, section) of each member by name of the block, in order."""
     text = files(standard).joinpath("standard.fun").read_text(encoding="utf-8")
-    text = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
-    blocks = {}
-    for name, body in re.findall(r"FUNCTION_BLOCK (\w+)(.*?)END_FUNCTION_BLOCK", text, re.DOTALL):
-        blocks[name] = [
-            (member, data_type, SECTIONS[keyword])
-            for keyword, lines in re.findall(r"(VAR\w*)(.*?)END_VAR", body, re.DOTALL)
-            for member, data_type in re.findall(r"(\w+) : (\w+);", lines)
+    return {
+        block.name: [
+            (member.name, member.specification.name, SECTIONS[variables.section])
+            for variables in block.blocks
+            for member in variables.declarations
         ]
-    return blocks
+        for block in parse_text(text, "standard.fun").items
+    }
 
 
 # Of the struct that Automation Studio generates: analog inputs, outputs, internals, then BOOL.

@@ -1,9 +1,5 @@
-"""Random data types and values for the property tests.
+"""Random data types and values for the property tests."""
 
-Given by fixtures, because test modules do not import one another; draw with ``st.data()``.
-"""
-
-import pytest
 from hypothesis import strategies as st
 
 from st_types import STRING, WSTRING
@@ -61,8 +57,13 @@ def types_with(smallest):
 
 
 def structs_with(smallest):
+    """STRUCTs and data blocks with at least ``smallest`` members, also inside."""
     types = types_with(smallest)
     return _structs(types, StructType, smallest) | _structs(types, DataBlockType, smallest)
+
+
+any_types = types_with(0)
+struct_types = structs_with(0)
 
 
 def values_of(data_type):
@@ -92,21 +93,13 @@ def values_of(data_type):
     raise AssertionError(data_type)
 
 
-@pytest.fixture(scope="session")
-def random_types():
-    """``random_types()``: any type; ``random_types("struct")``: STRUCTs and data blocks.
-
-    ``random_types("full struct")``: the same with at least one member in each, also inside.
-    """
-    strategies = {
-        "any": types_with(0),
-        "struct": structs_with(0),
-        "full struct": structs_with(1),
-    }
-    return lambda kind="any": strategies[kind]
+def typed_values(types):
+    """(type, plain value of it)."""
+    return types.flatmap(lambda data_type: st.tuples(st.just(data_type), values_of(data_type)))
 
 
-@pytest.fixture(scope="session")
-def random_values():
-    """``random_values(data_type)``: a strategy for plain values of a type."""
-    return values_of
+def typed_bytes(types):
+    """(type, as many bytes as it has)."""
+    return types.flatmap(
+        lambda t: st.tuples(st.just(t), st.binary(min_size=t.size, max_size=t.size))
+    )
