@@ -2,14 +2,18 @@
 
 ::
 
-    NetworkError                     base of all
+    NetworkError                     base of all (a PlcError)
     └── NetworkSetupError            a wrong virtual net, link or fault (also a ValueError)
 
 What happens on a net is never an exception: it is an ``Outcome``.
 """
 
+from __future__ import annotations
 
-class NetworkError(Exception):
+from plcsim.errors import PlcError
+
+
+class NetworkError(PlcError):
     """Base of all errors of this package."""
 
 

@@ -13,7 +13,7 @@ MAX_PACKETS = 1024
 
 
 class Carrier(Protocol):
-    """What carries the packets of a stream; ``VirtualSocket`` is the sender's."""
+    """What carries the packets of a stream: the sender's end of the connection."""
 
     def carry(self, size: int, arrive: Callable[[], None]) -> None:
         """Bring a packet of ``size`` bytes over (0 for the end mark), in order, then ``arrive``."""

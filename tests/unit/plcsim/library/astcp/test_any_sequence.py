@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from typing import TYPE_CHECKING
+
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from plcsim.errors import PageFault
 from plcsim.library import astcp
 from plcsim.library.astcp import (
+    ERR_FUB_BUSY,
     TcpClient,
     TcpClose,
     TcpIoctl,
@@ -21,12 +24,33 @@ from plcsim.network import Limits
 from st_types.derived import Section
 from st_types.views import type_of
 
-from .plc import CLIENT, MS, SERVER, Plc, World
+from .plc import CLIENT, MS, PORT, SERVER, Plc, World
 
-BLOCKS = [TcpOpen, TcpOpenSsl, TcpServer, TcpClient, TcpClose, TcpSend, TcpRecv, TcpIoctl]
+if TYPE_CHECKING:
+    from plcsim.library.astcp.block import AsTcpBlock
+
+# What makes and uses connections stands more often than what ends them.
+BLOCKS = [*(TcpOpen, TcpServer, TcpClient, TcpSend, TcpRecv, TcpIoctl) * 2, TcpClose, TcpOpenSsl]
 STATUSES = {v for k, v in vars(astcp).items() if k.startswith(("tcpERR_", "ERR_"))}
-IOCTLS = [v for k, v in vars(astcp).items() if k.startswith(("tcpSO_", "tcpTCP_", "tcpID_"))]
-NUMBERS = st.integers(0, 5) | st.sampled_from([8, 16, 100, 65_535, 2**31, 2**32 - 1])
+IOCTLS = [
+    value
+    for name, value in vars(astcp).items()
+    if name.startswith(("tcpSO_", "tcpTCP_", "tcpID_")) and isinstance(value, int)
+]
+WILD = [1, 0xFFFF_FFFF]
+NUMBERS = {
+    "enable": [True] * 9 + [False],
+    "ioctl": [0, *IOCTLS],
+    "port": [0, PORT],
+    "portserv": [0, 1, PORT, PORT, PORT],
+    "options": [0, 1, 1, 2],
+    "flags": [0, 0, 0, 1, 2, 4, 8],
+    "how": [0, 1, 3, 4],
+    "backlog": [0, 1, 2**32 - 1],
+    "datalen": [0, 4, 4, 8, 500, 2**32 - 1],
+    "datamax": [0, 1, 10, 500, 2**32 - 1],
+    "sslCfgIdent": [0],
+}
 
 
 class Station:
@@ -34,53 +58,55 @@ class Station:
 
     def __init__(self, plc: Plc) -> None:
         self.plc = plc
-        self.blocks = [plc.new(block) for block in BLOCKS]
-        texts = [plc.text(text) for text in (SERVER, CLIENT, "127.0.0.1", "", "no address")]
-        self.pointers = [0, 1, plc.buffer, 0xFFFF_FFFF, *texts]
+        self.blocks = {block: plc.new(block) for block in BLOCKS}
+        peers = [plc.text(SERVER), plc.text(CLIENT), plc.text("127.0.0.1")]
+        self.choices = NUMBERS | {
+            "pIfAddr": [0, 0, 0, plc.text(""), plc.text("no address"), *WILD],
+            "pServer": [*peers * 3, plc.text("no address"), 0, *WILD],
+            "pIpAddr": [0, plc.buffer, *WILD],
+            "pData": [*[plc.buffer] * 9, 0, *WILD],
+        }
 
-    def value(self, name: str, draw: st.DataObject) -> object:
-        if name == "enable":
-            return draw.draw(st.sampled_from([True, True, True, False]))
-        if name.startswith("p") and not name.startswith("port"):
-            return draw.draw(st.sampled_from(self.pointers))
-        if name == "ident":
-            return draw.draw(st.sampled_from([0, 99, *self.plc.idents.in_use()]))
-        if name in ("port", "portserv"):
-            return draw.draw(st.integers(0, 3))
-        if name == "ioctl":
-            return draw.draw(st.sampled_from([0, *(i for i in IOCTLS if isinstance(i, int))]))
-        return draw.draw(NUMBERS)
-
-    def call(self, draw: st.DataObject) -> None:
-        block = draw.draw(st.sampled_from(self.blocks))
-        if draw.draw(st.booleans()):
+    def call(self, kind: type[AsTcpBlock], draw: st.DataObject) -> None:
+        block = self.blocks[kind]
+        before = self.plc.idents.in_use()
+        if draw.draw(st.booleans()) or block.status != ERR_FUB_BUSY:
+            choices = self.choices | {"ident": [*before * 5, 0, 99]}
             for member in type_of(block).members:
                 if member.section is Section.INPUT:
-                    setattr(block, member.name, self.value(member.name, draw))
-        before = self.plc.idents.in_use()
+                    value = draw.draw(st.sampled_from(choices[member.name]))
+                    setattr(block, member.name, value)
         try:
             block()
         except PageFault:
             assert self.plc.idents.in_use() == before
             return
         assert block.status in STATUSES
-        assert len(self.plc.idents.in_use()) <= 4
+        assert len(self.plc.idents.in_use()) <= 6
 
 
-@settings(max_examples=150, deadline=None)
-@given(draw=st.data(), steps=st.lists(st.integers(0, 9), max_size=50))
+@settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.large_base_example])
+@given(
+    draw=st.data(),
+    steps=st.lists(
+        st.tuples(st.integers(0, 1), st.sampled_from([*BLOCKS, "wait", "wait", "reset"])),
+        min_size=30,
+        max_size=60,
+    ),
+)
 def test_every_sequence_of_calls_ends_in_documented_statuses(
-    draw: st.DataObject, steps: list[int]
+    draw: st.DataObject, steps: list[tuple[int, object]]
 ) -> None:
-    world = World(limits=Limits(sockets=6), idents=4)
+    world = World(limits=Limits(sockets=8, send_buffer=300, receive_buffer=300), idents=6)
+    world.pair()
     stations = [Station(world.server), Station(world.client)]
-    for step in steps:
-        if step == 9:
-            world.pass_time(draw.draw(st.integers(1, 40_000)) * MS)
-        elif step == 8:
+    for which, step in steps:
+        if step == "wait":
+            world.pass_time(draw.draw(st.sampled_from([MS, 100 * MS, 80_000 * MS])))
+        elif step == "reset":
             world.net.faults.reset(SERVER)
         else:
-            stations[step % 2].call(draw)
+            stations[which].call(step, draw)
     for station in stations:
         station.plc.context.restart()
     world.pass_time(10 * world.net.limits.fade_ns)
