@@ -6,24 +6,25 @@ ConfigurationError that names the file and the field.
 
 from __future__ import annotations
 
-import difflib
 import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
-from plcsim.duration import format_duration, parse_duration_ns
+from plcsim.duration import format_duration
 from plcsim.errors import ConfigurationError
+from plcsim.extension import extensions
 from plcsim.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.program_loader import ProgramLoader
+from plcsim.table import Table
 from plcsim.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-T = TypeVar("T")
+    from plcsim.extension import Extension
 
 FILE_NAME = "plc.toml"
 
@@ -75,6 +76,7 @@ class Project:
         classes: in order of their numbers.
         exception_program: runs for violations under the policy "exception".
         options: tables [library.NAME] by NAME.
+        extensions: settings of the extensions whose table is there, by table.
     """
 
     folder: Path
@@ -89,58 +91,13 @@ class Project:
     classes: tuple[TaskClassEntry, ...]
     exception_program: ProgramEntry | None
     options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    extensions: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def programs(self) -> tuple[ProgramEntry, ...]:
         """All programs in configured order, the exception program last."""
         last = (self.exception_program,) if self.exception_program else ()
         return tuple(p for c in self.classes for p in c.programs) + last
-
-
-class _Table:
-    """A table of plc.toml whose keys are taken one by one; what is left over is an error."""
-
-    def __init__(self, file: Path, name: str, values: object) -> None:
-        self._file = file
-        self._name = name
-        if not isinstance(values, dict):
-            raise self.error("", "a table is expected")
-        self._values = dict(values)
-        self._known: list[str] = []
-
-    def error(self, key: str, text: str) -> ConfigurationError:
-        place = ".".join(part for part in (self._name, key) if part)
-        return ConfigurationError(f"{self._file}: {place}: {text}")
-
-    def take(self, key: str, kind: type[T], default: T) -> T:
-        self._known.append(key)
-        value = self._values.pop(key, default)
-        if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-            raise self.error(key, f"{value!r} is not a {_KIND_NAMES[kind]}")
-        return value
-
-    def convert(self, key: str, default: T, convert: Callable[[str], T]) -> T:
-        text = self.take(key, str, "") if key in self._values else ""
-        self._known.append(key)
-        try:
-            return convert(text) if text else default
-        except ValueError as err:
-            raise self.error(key, str(err)) from None
-
-    def duration_ns(self, key: str, default_ns: int) -> int:
-        return self.convert(key, default_ns, parse_duration_ns)
-
-    def keys(self) -> list[str]:
-        return list(self._values)
-
-    def finish(self) -> None:
-        for key in self._values:
-            near = difflib.get_close_matches(key, self._known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(self._known)}"
-            raise self.error(key, f"unknown key; {hint}")
-
-
-_KIND_NAMES: dict[type, str] = {str: "string", int: "whole number", dict: "table", list: "list"}
 
 
 def read_project(path: Path) -> Project:
@@ -161,24 +118,37 @@ def read_project(path: Path) -> Project:
         raise ConfigurationError(f"{file}: cannot be read: {err}") from None
     except tomllib.TOMLDecodeError as err:
         raise ConfigurationError(f"{file}: {err}") from None
-    top = _Table(file, "", values)
-    plc = _Table(file, "plc", top.take("plc", dict, {}))
+    top = Table(file, "", values)
+    plc = Table(file, "plc", top.take("plc", dict, {}))
     tick_ns = plc.duration_ns("tick", 1_000_000)
     if tick_ns <= 0:
         raise plc.error("tick", "must be above 0")
     classes = _task_classes(file, top.take("task_class", dict, {}), tick_ns)
-    project = _plc_table(file.parent, plc, tick_ns, classes, top.take("library", dict, {}))
-    top.finish()
+    options = top.take("library", dict, {})
+    settings = {
+        name: _extension_table(extension, top.table(name), file.parent)
+        for name, extension in extensions().items()
+        if name in top
+    }
+    top.finish(*extensions())
+    project = _plc_table(file.parent, plc, tick_ns, classes, options, settings)
     _check_names(file, project)
     return project
 
 
+def _extension_table(extension: Extension, table: Table, folder: Path) -> object:
+    settings = extension.read(table, folder)
+    table.finish()
+    return settings
+
+
 def _plc_table(
     folder: Path,
-    plc: _Table,
+    plc: Table,
     tick_ns: int,
     classes: tuple[TaskClassEntry, ...],
     options: dict[str, Any],
+    settings: dict[str, Any],
 ) -> Project:
     exception = plc.take("exception_program", str, "")
     realtime = plc.take("realtime", str, "auto")
@@ -201,6 +171,7 @@ def _plc_table(
         classes=classes,
         exception_program=ProgramEntry(exception, exception) if exception else None,
         options=options,
+        extensions=settings,
     )
     plc.finish()
     for name, value in options.items():
@@ -230,12 +201,12 @@ def _task_classes(file: Path, tables: dict[str, Any], tick_ns: int) -> tuple[Tas
             )
     ordered = sorted(tables, key=lambda key: numbers[key])
     return tuple(
-        _task_class(_Table(file, f"task_class.{key}", tables[key]), numbers[key], tick_ns)
+        _task_class(Table(file, f"task_class.{key}", tables[key]), numbers[key], tick_ns)
         for key in ordered
     )
 
 
-def _task_class(table: _Table, number: int, tick_ns: int) -> TaskClassEntry:
+def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
     cycle_ns = table.duration_ns("cycle", DEFAULT_CYCLES_MS[number] * 1_000_000)
     if cycle_ns <= 0 or cycle_ns % tick_ns:
         cycle, tick = format_duration(cycle_ns), format_duration(tick_ns)
@@ -263,7 +234,7 @@ def _policy(text: str) -> Policy:
         raise ValueError(f'{text!r} is not "service", "log" or "exception"') from None
 
 
-def _program(table: _Table, value: object) -> ProgramEntry:
+def _program(table: Table, value: object) -> ProgramEntry:
     if isinstance(value, str):
         value = {"name": value}
     if not isinstance(value, dict) or not isinstance(value.get("name"), str):

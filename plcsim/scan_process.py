@@ -18,9 +18,11 @@ from plcsim import realtime
 from plcsim.clock import MonotonicClock, VirtualClock
 from plcsim.controller import Controller
 from plcsim.errors import PlcError
+from plcsim.extension import extensions, services_of
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.project import Project, load_setup, read_project
 from plcsim.report import report
+from plcsim.shared_image import ImageWriter
 from plcsim.status_page import StatusPage
 from st_types.errors import TypeSystemError
 
@@ -56,6 +58,8 @@ class RunOrder:
         status_fd: the status page.
         result_fd: a file for the result, a JSON object.
         dump_fd: a file for the Python stack of a program that cannot be interrupted.
+        image_fd: an empty file for the shared image.
+        wake_fds: an eventfd for each service of the project, none on the virtual clock.
     """
 
     project: str
@@ -65,6 +69,8 @@ class RunOrder:
     status_fd: int
     result_fd: int
     dump_fd: int
+    image_fd: int
+    wake_fds: list[int]
 
     def to_json(self) -> str:
         """Return the order as the argument of this process."""
@@ -106,6 +112,7 @@ def _run(order: RunOrder) -> dict[str, Any]:
     page = _PageHeartbeat(order.status_fd)
     page.clock = clock
     controller = Controller(load_setup(project), network=network, clock=clock, heartbeat=page)
+    _share(controller, project, order)
     _handle_signals(controller)
     rights = _take_rights(project, order)
     controller.boot()
@@ -117,6 +124,22 @@ def _run(order: RunOrder) -> dict[str, Any]:
     elapsed_ns = clock.now_ns() - origin_ns
     controller.shutdown()
     return report(controller, project.name, elapsed_ns, list(rights.granted))
+
+
+def _share(controller: Controller, project: Project, order: RunOrder) -> None:
+    """Let the extensions hook in, and lay out the image that services and watchers read."""
+    attached = {
+        name: extensions()[name].attach(settings, controller)
+        for name, settings in project.extensions.items()
+    }
+    ImageWriter(
+        order.image_fd,
+        controller,
+        project=project.name,
+        services={name: attached[name].for_service for name in services_of(project.extensions)},
+        exports=[tag for attachment in attached.values() for tag in attachment.exports],
+        wake_fds=order.wake_fds,
+    )
 
 
 def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:

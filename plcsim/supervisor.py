@@ -21,7 +21,9 @@ from typing import TYPE_CHECKING, Any, Self
 from plcsim import realtime
 from plcsim.duration import format_duration
 from plcsim.report import SCHEMA
+from plcsim.run_file import Run, announce, withdraw
 from plcsim.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
+from plcsim.service_processes import ServiceProcesses
 from plcsim.status_page import StatusPage
 from plcsim.system import State
 
@@ -49,6 +51,10 @@ class Supervisor:
         virtual: run on the virtual clock and network.
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
+
+    Attributes:
+        page: the status page.
+        services: the service processes; there are none on the virtual clock.
     """
 
     def __init__(
@@ -64,8 +70,14 @@ class Supervisor:
         self._classes = self._class_of_each_task(project)
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
-        fds = (self.page.fd, self._result_fd, self._dump_fd)
-        self._process = _start(RunOrder(str(project.folder), virtual, for_ns, cycles, *fds), fds)
+        self.services = ServiceProcesses({} if virtual else project.extensions, self.page.fd)
+        self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
+        fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)
+        self._process = _start(
+            RunOrder(str(project.folder), virtual, for_ns, cycles, *fds, self.services.wake_fds),
+            (*fds, *self.services.wake_fds),
+        )
+        announce(project.folder, self._run)
         self._virtual = virtual
         self._stops = 0
         self._seen = (-1, 0)
@@ -85,6 +97,8 @@ class Supervisor:
         if self._process.poll() is None:
             self._process.kill()
             self._process.wait()
+        withdraw(self._project.folder, self._run)
+        self.services.close()
         self.page.close()
         os.close(self._result_fd)
         os.close(self._dump_fd)
@@ -114,7 +128,9 @@ class Supervisor:
                 self._process.wait(POLL_S)
                 return self._outcome()
             except subprocess.TimeoutExpired:
-                self._watch(time.monotonic_ns())
+                now_ns = time.monotonic_ns()
+                self._watch(now_ns)
+                self.services.tend(now_ns)
             look()
 
     def _watch(self, now_ns: int) -> None:

@@ -1,0 +1,98 @@
+"""Extensions: tables of plc.toml beyond [plc], [task_class.N] and [library.NAME].
+
+A package claims a table by an entry point of the group ``plcsim.extensions``: its name is the
+table's, its object is an `Extension`. The extension checks the table when the project is read,
+hooks into the controller before its boot, and may have a service: a process that the supervisor
+starts beside the scan and starts again when it ends.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.metadata import entry_points
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    from plcsim.controller import Controller
+    from plcsim.table import Table
+    from plcsim.tag import Tag
+
+GROUP = "plcsim.extensions"
+
+
+class Attachment(NamedTuple):
+    """What an extension hands over when it has hooked into a controller.
+
+    Attributes:
+        for_service: what its service process is told, of JSON's types.
+        exports: tags that a snapshot of the shared image must hold.
+    """
+
+    for_service: Any = None
+    exports: Sequence[Tag] = ()
+
+
+class Extension(Protocol):
+    """One table of plc.toml and what it stands for.
+
+    Attributes:
+        service: the module that runs as ``python -m MODULE ORDER`` beside the scan, "" for none;
+            ORDER is a `ServiceOrder` as JSON.
+    """
+
+    service: str
+
+    def read(self, table: Table, folder: Path) -> Any:
+        """Return the settings in the table; called for every command that reads the project.
+
+        Raises:
+            ConfigurationError: something is wrong; file and field are named (`Table.error`).
+        """
+
+    def attach(self, settings: Any, controller: Controller) -> Attachment:
+        """Hook into a controller before its boot, in the scan process.
+
+        Values go in by ``controller.image.inputs`` (LATCH) and out by ``controller.image.watchers``
+        (PUBLISH), or through the shared image by the service.
+
+        Raises:
+            ConfigurationError: the settings do not fit the controller's tags.
+        """
+
+
+@cache
+def extensions() -> Mapping[str, Extension]:
+    """Return the installed extensions by the table they claim."""
+    found = sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
+    return {entry.name: entry.load() for entry in found}
+
+
+def services_of(settings: Mapping[str, Any]) -> list[str]:
+    """Return the tables, among those with settings, whose extension has a service."""
+    return [name for name in settings if extensions()[name].service]
+
+
+@dataclass(frozen=True)
+class ServiceOrder:
+    """What the supervisor tells a service process.
+
+    Attributes:
+        table: of plc.toml; names the service's ring and its part of the directory.
+        image_fd: the shared image.
+        status_fd: the status page.
+        wake_fd: an eventfd, raised when the scan acknowledged commands of this service.
+    """
+
+    table: str
+    image_fd: int
+    status_fd: int
+    wake_fd: int
+
+    def to_json(self) -> str:
+        """Return the order as the argument of the process."""
+        return json.dumps(asdict(self))

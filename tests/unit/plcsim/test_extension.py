@@ -1,0 +1,123 @@
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from plcsim import extension, project, service_processes
+from plcsim.controller import Controller
+from plcsim.errors import ConfigurationError
+from plcsim.extension import Attachment, services_of
+from plcsim.project import read_project
+from plcsim.service_processes import ServiceProcesses
+from plcsim.shared_image.layout import HEADER_SIZE
+from plcsim.table import Table
+
+TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
+
+
+class Web:
+    service = "service_for_tests"
+
+    def read(self, table: Table, folder: Path) -> int:
+        return table.number("port", 80, 1, 65535)
+
+    def attach(self, settings: Any, controller: Controller) -> Attachment:
+        return Attachment(settings)
+
+
+class Quiet(Web):
+    service = ""
+
+
+@pytest.fixture(autouse=True)
+def installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = {"web": Web(), "quiet": Quiet()}
+    for module in (extension, project, service_processes):
+        monkeypatch.setattr(module, "extensions", lambda: found)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Callable[[str], Path]:
+    def make(text: str) -> Path:
+        (tmp_path / "plc.toml").write_text(TOML + text)
+        return tmp_path
+
+    return make
+
+
+def test_an_extension_reads_its_table(folder: Callable[[str], Path]) -> None:
+    assert read_project(folder("[web]\nport = 8080\n")).extensions == {"web": 8080}
+    assert read_project(folder("")).extensions == {}
+
+
+def test_an_extension_that_leaves_a_key_gives_an_error(folder: Callable[[str], Path]) -> None:
+    with pytest.raises(ConfigurationError, match=r"web\.prot: unknown key; did you mean port\?"):
+        read_project(folder("[web]\nprot = 8080\n"))
+
+
+def test_a_table_that_nobody_claims_is_an_error(folder: Callable[[str], Path]) -> None:
+    with pytest.raises(ConfigurationError, match=r"wep: unknown key; did you mean web\?"):
+        read_project(folder("[wep]\nport = 8080\n"))
+
+
+def test_only_extensions_with_a_module_have_a_service() -> None:
+    assert services_of({"quiet": 1, "web": 2}) == ["web"]
+
+
+@pytest.fixture
+def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ServiceProcesses]:
+    (tmp_path / "service_for_tests.py").write_text("import time\ntime.sleep(60)\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(sys, "executable", sys.executable)
+    status = os.memfd_create("status")
+    made = ServiceProcesses({"web": 1}, status)
+    yield made
+    made.close()
+    os.close(status)
+
+
+def wait_for_end(processes: ServiceProcesses) -> None:
+    process = processes._services[0]._process
+    assert process is not None
+    process.kill()
+    deadline = time.monotonic() + 10
+    while process.poll() is None:
+        assert time.monotonic() < deadline
+        time.sleep(0.001)
+
+
+def test_a_service_starts_when_the_image_is_there_and_again_within_a_second(
+    processes: ServiceProcesses,
+) -> None:
+    processes.tend(0)
+    assert processes.starts == {"web": 0}
+    os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
+    processes.tend(1)
+    processes.tend(2)
+    assert processes.starts == {"web": 1}
+    wait_for_end(processes)
+    ended_ns = 5_000_000_000
+    processes.tend(ended_ns)
+    assert processes.starts == {"web": 1}
+    processes.tend(ended_ns + 100_000_000)
+    assert processes.starts == {"web": 2}
+
+
+def test_a_service_that_never_lives_long_is_started_less_and_less_often(
+    processes: ServiceProcesses,
+) -> None:
+    os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
+    now_ns, pauses = 0, []
+    for _ in range(4):
+        processes.tend(now_ns)
+        wait_for_end(processes)
+        before, starts = now_ns, processes.starts["web"]
+        while processes.starts["web"] == starts:
+            now_ns += 10_000_000
+            processes.tend(now_ns)
+        pauses.append((now_ns - before) // 1_000_000)
+    assert pauses == [210, 410, 810, 1610]

@@ -1,0 +1,63 @@
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from plcsim.errors import PlcError
+from plcsim.run_file import Run, announce, find_run, withdraw
+
+
+@pytest.fixture(autouse=True)
+def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    return tmp_path / f"plcsim-{os.getuid()}"
+
+
+def own_run() -> Run:
+    fd = os.memfd_create("test")
+    os.write(fd, b"shared")
+    return Run(os.getpid(), fd, fd)
+
+
+def test_a_run_is_found_by_its_folder_and_its_memory_opened(tmp_path: Path) -> None:
+    run = own_run()
+    announce(tmp_path / "project", run)
+    found = find_run(tmp_path / "project" / ".." / "project")
+    assert found == run
+    fd = found.open(found.image_fd)
+    assert os.pread(fd, 6, 0) == b"shared"
+    os.close(fd)
+    withdraw(tmp_path / "project", run)
+    os.close(run.image_fd)
+    with pytest.raises(PlcError, match="is not running; start it"):
+        find_run(tmp_path / "project")
+
+
+def test_a_run_whose_process_has_died_is_none(tmp_path: Path) -> None:
+    announce(tmp_path, Run(2**22 + 1, 5, 6))
+    with pytest.raises(PlcError, match="not running any more"):
+        find_run(tmp_path)
+    with pytest.raises(PlcError, match="cannot be read"):
+        Run(2**22 + 1, 5, 6).open(5)
+
+
+def test_a_later_run_of_the_same_folder_stays(tmp_path: Path) -> None:
+    first, second = own_run(), own_run()
+    announce(tmp_path, first)
+    announce(tmp_path, second)
+    withdraw(tmp_path, first)
+    assert find_run(tmp_path) == second
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", json.dumps({"pid": 1})])
+def test_a_damaged_file_is_no_run(tmp_path: Path, runtime_folder: Path, text: str) -> None:
+    announce(tmp_path, own_run())
+    next(runtime_folder.glob("*.json")).write_text(text)
+    with pytest.raises(PlcError, match="not running"):
+        find_run(tmp_path)
+
+
+def test_the_folder_is_for_its_user_only(tmp_path: Path, runtime_folder: Path) -> None:
+    announce(tmp_path, own_run())
+    assert runtime_folder.stat().st_mode & 0o777 == 0o700
