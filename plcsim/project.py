@@ -16,6 +16,7 @@ from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
 from plcsim.duration import format_duration
 from plcsim.errors import ConfigurationError
 from plcsim.extension import extensions
+from plcsim.library.options import check_options
 from plcsim.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.program_loader import ProgramLoader
 from plcsim.table import Table
@@ -272,6 +273,10 @@ def load_setup(project: Project) -> Setup:
     Raises:
         ConfigurationError: a program is missing or cannot be loaded; file and line are named.
     """
+    try:
+        check_options(project.options)
+    except ConfigurationError as err:
+        raise ConfigurationError(f"{project.folder / FILE_NAME}: {err}") from None
     loader = ProgramLoader(project.folder)
 
     def setup_of(entry: ProgramEntry) -> ProgramSetup:

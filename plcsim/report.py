@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.controller import describe_violation
 from plcsim.errors import ProgramError
+from plcsim.statistics import Summary
 
 if TYPE_CHECKING:
     from plcsim.controller import Controller
@@ -14,11 +15,17 @@ if TYPE_CHECKING:
 
 SCHEMA = "plcsim-report/1"
 
+_HISTOGRAM_FIELDS = ("count", *(name.removesuffix("_ns") for name in Summary._fields[1:]))
+
 
 def histogram_report(histogram: Histogram) -> dict[str, int]:
     """Return count, minimum, mean, percentiles and maximum in nanoseconds."""
-    summary = histogram.summary()
-    return {name.removesuffix("_ns"): value for name, value in summary._asdict().items()}
+    return dict(zip(_HISTOGRAM_FIELDS, histogram.summary(), strict=True))
+
+
+def summary_of(figures: dict[str, int]) -> Summary:
+    """Return what `histogram_report` was made from."""
+    return Summary(*(figures[field] for field in _HISTOGRAM_FIELDS))
 
 
 def class_report(task_class: TaskClass) -> dict[str, Any]:

@@ -19,9 +19,9 @@ PERCENTILES: Final = (50.0, 90.0, 99.0, 99.9)
 
 
 class Summary(NamedTuple):
-    """A histogram in a few numbers, all in nanoseconds but ``count``."""
+    """A histogram in a few numbers, all in nanoseconds but ``entries``."""
 
-    count: int
+    entries: int
     minimum_ns: int
     mean_ns: int
     p50_ns: int

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from plcsim import realtime
 from plcsim.doctor.errors import MeasurementError
 from plcsim.doctor.host import read_cpu_ticks
+from plcsim.report import summary_of
 from plcsim.statistics import Histogram, Summary
 
 if TYPE_CHECKING:
@@ -170,8 +171,7 @@ class ScanLoop:
         _output(self.name, [*_module("plcsim.cli.main"), "run", str(project), *limits], order)
         result = json.loads(report.read_text("utf-8"))["task_classes"][0]
         lateness_ns = result["lateness_ns"]
-        summary = Summary(*(lateness_ns[name.removesuffix("_ns")] for name in Summary._fields))
-        return Figures(result["missed_grid_points"], summary)
+        return Figures(result["missed_grid_points"], summary_of(lateness_ns))
 
 
 def write_project(folder: Path, order: Order) -> Path:
