@@ -13,7 +13,6 @@ from enum import Enum
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.errors import CycleTimeViolation, PhaseError
-from plcsim.executions import Executions
 from plcsim.garbage import collect_while_idle
 from plcsim.task import Cause, Policy, TaskClass, Violation
 
@@ -96,9 +95,8 @@ class Scan:
         self._image = image
         self._supervisor = supervisor
         self._place_of = place_of
-        self._executions = Executions()
         self._own_ns = 0
-        self._aborted_at = ""
+        self._aborted: tuple[Task, str] | None = None
         self._until_ns = _NEVER
         self._last_cycle = _NEVER
 
@@ -111,7 +109,7 @@ class Scan:
         """Lay the grids of all classes from now on."""
         self.origin_ns = self._clock.now_ns()
         for task_class in self.classes:
-            task_class.release_ns = self.origin_ns + task_class.first_release_ns
+            task_class.lay_grid(self.origin_ns)
         self.running = True
         self.halted = False
 
@@ -170,22 +168,26 @@ class Scan:
         self._clock.sleep_until_ns(until_ns)
 
     def _run_class(self, task_class: TaskClass) -> None:
-        """Run one cycle of a class: LATCH, RUN, PUBLISH, account."""
-        outer = self.phase, self._context.release_ns, self._own_ns, self._aborted_at
-        release_ns = task_class.release_ns
-        task_class.lateness.record(self._clock.now_ns() - release_ns)
-        task_class.cycles += 1
-        self._context.release_ns = release_ns
+        """Run one cycle of a class; what it interrupts goes on as it was."""
+        outer = self.phase, self._context.release_ns, self._own_ns, self._aborted
+        self._context.release_ns = task_class.release_ns
         self._own_ns = 0
-        self._aborted_at = ""
+        self._aborted = None
+        task_class.lateness.record(self._clock.now_ns() - task_class.release_ns)
+        task_class.cycles += 1
+        try:
+            self._run_phases(task_class)
+        finally:
+            self.phase, self._context.release_ns, self._own_ns, self._aborted = outer
+
+    def _run_phases(self, task_class: TaskClass) -> None:
         self.phase = Phase.LATCH
         self._image.latch(task_class)
         self.phase = Phase.RUN
         self._run_tasks(task_class)
         self.phase = Phase.PUBLISH
         self._image.publish(task_class)
-        self._account(task_class, release_ns)
-        self.phase, self._context.release_ns, self._own_ns, self._aborted_at = outer
+        self._account(task_class, self._clock.now_ns())
 
     def _run_tasks(self, task_class: TaskClass) -> None:
         place = self.classes.index(task_class)
@@ -194,7 +196,7 @@ class Scan:
                 self._run_higher(place)
             if self.halted:
                 return
-            self._run_task(task_class, task)
+            self._run_task(task)
 
     def _run_higher(self, place: int) -> None:
         """Run the classes before ``place`` that have been released meanwhile."""
@@ -204,7 +206,7 @@ class Scan:
                 return
             self._run_class(due)
 
-    def _run_task(self, task_class: TaskClass, task: Task) -> None:
+    def _run_task(self, task: Task) -> None:
         clock = self._clock
         self._supervisor.started(task)
         start_ns, cpu_ns, waits = clock.now_ns(), clock.cpu_ns(), clock.waits()
@@ -214,7 +216,7 @@ class Scan:
             self.active = None
         except CycleTimeViolation as error:
             self.active = None
-            self._aborted_at = self._place_of(error)
+            self._aborted = task, self._place_of(error)
         except BaseException as error:  # whatever a program raises ends in SERVICE
             self.active = None
             self._supervisor.failed(task, error)
@@ -224,59 +226,48 @@ class Scan:
             used_ns = max(used_ns, end_ns - start_ns)
         task.execution.record(used_ns)
         self._own_ns += used_ns
-        self._executions.record((task_class.number, task.name, start_ns, end_ns, used_ns))
+        for task_class in self.classes:
+            task_class.note_use(task, start_ns, end_ns, used_ns)
 
-    def _account(self, task_class: TaskClass, release_ns: int) -> None:
+    def _account(self, task_class: TaskClass, end_ns: int) -> None:
         """Record the cycle, lay the next release on the grid, judge an overrun."""
-        end_ns = self._clock.now_ns()
-        response_ns = end_ns - release_ns
+        response_ns = end_ns - task_class.release_ns
         task_class.execution.record(self._own_ns)
         task_class.response.record(response_ns)
-        task_class.release_ns = release_ns + task_class.cycle_ns
-        if response_ns > task_class.cycle_ns or self._aborted_at:
-            self._overrun(task_class, release_ns, end_ns)
+        violation = None
+        if response_ns > task_class.cycle_ns + task_class.tolerance_ns or self._aborted:
+            violation = self._judge(task_class, response_ns)
+            task_class.violations[violation.cause] += 1
+        elif response_ns > task_class.cycle_ns:
+            task_class.in_tolerance += 1
+        task_class.advance(end_ns)
+        if violation is not None:
+            self._supervisor.violated(violation, task_class.policy_for(violation.cause))
         self._supervisor.finished(task_class)
 
-    def _overrun(self, task_class: TaskClass, release_ns: int, end_ns: int) -> None:
-        task_class.release_ns = release_ns
-        next_ns = task_class.next_release_ns(end_ns)
-        task_class.missed += (next_ns - release_ns) // task_class.cycle_ns - 1
-        task_class.release_ns = next_ns
-        limit_ns = task_class.cycle_ns + task_class.tolerance_ns
-        if end_ns - release_ns <= limit_ns and not self._aborted_at:
-            task_class.in_tolerance += 1
-            return
-        violation = self._judge(task_class, release_ns, end_ns, limit_ns)
-        task_class.violations[violation.cause] += 1
-        self._supervisor.violated(violation, task_class.policy_for(violation.cause))
-
-    def _judge(
-        self, task_class: TaskClass, release_ns: int, end_ns: int, limit_ns: int
-    ) -> Violation:
+    def _judge(self, task_class: TaskClass, response_ns: int) -> Violation:
         """Return the violation with its cause: who used more than the limit allows."""
-        number = task_class.number
-        recent = self._executions.between(release_ns, end_ns)
-        others_ns = sum(share_ns for e, share_ns in recent if e.task_class != number)
-        if self._own_ns > limit_ns or self._aborted_at:
+        limit_ns = task_class.cycle_ns + task_class.tolerance_ns
+        own, others = task_class.used_by_own_and_others()
+        own_ns, others_ns = sum(own.values()), sum(others.values())
+        if own_ns > limit_ns or self._aborted:
             cause = Cause.PROGRAM
-        elif self._own_ns + others_ns > limit_ns:
+        elif own_ns + others_ns > limit_ns:
             cause = Cause.PREEMPTED
         else:
             cause = Cause.HOST
-        suspects = [
-            (share_ns, e.program)
-            for e, share_ns in recent
-            if (e.task_class != number) == (cause is Cause.PREEMPTED)
-        ]
+        suspects = others if cause is Cause.PREEMPTED else own
+        suspect = max(suspects, key=suspects.__getitem__, default=None)
+        task, place = self._aborted or (suspect, "")
         return Violation(
-            number,
-            max(suspects, default=(0, ""))[1],
-            task_class.cycles,
-            cause,
-            release_ns - self.origin_ns,
-            end_ns - release_ns,
-            self._own_ns,
-            others_ns,
-            limit_ns,
-            self._aborted_at,
+            task_class=task_class.number,
+            program=task.name if task else "",
+            cycle=task_class.cycles,
+            cause=cause,
+            release_ns=task_class.release_ns - self.origin_ns,
+            response_ns=response_ns,
+            own_ns=own_ns,
+            others_ns=others_ns,
+            limit_ns=limit_ns,
+            place=place,
         )

@@ -102,7 +102,7 @@ class Violation(NamedTuple):
         program: the program that used most of the time, "" where none ran.
         cycle: number of the cycle in its class, from 1.
         cause: the class' own programs, programs of other classes, or the host.
-        release_ns: grid point the cycle belonged to, since the start of the controller.
+        release_ns: grid point the cycle belonged to, since the start of the scan.
         response_ns: from the release to the end of the cycle.
         own_ns: CPU time of the class' own programs; wall time of those that waited.
         others_ns: CPU time of programs of other classes between release and end.
@@ -174,12 +174,41 @@ class TaskClass:
         self.lateness = Histogram()
         self.execution = Histogram()
         self.response = Histogram()
+        self._used_ns: dict[Task, int] = {}
 
     def policy_for(self, cause: Cause) -> Policy:
         """Return what a violation by ``cause`` leads to."""
         return self.host_policy if cause is Cause.HOST else self.policy
 
-    def next_release_ns(self, end_ns: int) -> int:
-        """Return the first grid point after the current one that is not before ``end_ns``."""
+    def lay_grid(self, origin_ns: int) -> None:
+        """Go to the first release of a scan that starts at ``origin_ns``."""
+        self.release_ns = origin_ns + self.first_release_ns
+        self._used_ns.clear()
+
+    def note_use(self, task: Task, start_ns: int, end_ns: int, used_ns: int) -> None:
+        """Note what a program used after the release of this class; before it, it took nothing.
+
+        Args:
+            task: of any class.
+            start_ns: when it ran, on the controller's clock.
+            end_ns: until when.
+            used_ns: CPU time used between the two.
+        """
+        overlap_ns = end_ns - max(start_ns, self.release_ns)
+        if overlap_ns > 0:
+            self._used_ns[task] = self._used_ns.get(task, 0) + min(used_ns, overlap_ns)
+
+    def used_by_own_and_others(self) -> tuple[dict[Task, int], dict[Task, int]]:
+        """Return what the class' own programs and those of others have used since the release."""
+        own = {task: ns for task, ns in self._used_ns.items() if task in self.tasks}
+        return own, {task: ns for task, ns in self._used_ns.items() if task not in own}
+
+    def advance(self, end_ns: int) -> None:
+        """Go to the first grid point after the current one that is not before ``end_ns``.
+
+        The points in between are missed.
+        """
         passed = max(1, -(-(end_ns - self.release_ns) // self.cycle_ns))
-        return self.release_ns + passed * self.cycle_ns
+        self.release_ns += passed * self.cycle_ns
+        self.missed += passed - 1
+        self._used_ns.clear()
