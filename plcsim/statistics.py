@@ -92,13 +92,16 @@ class Histogram:
     def summary(self) -> Summary:
         """Return count, smallest, mean, percentiles and largest."""
         count = self.count
-        percentiles = (self.percentile_ns(p) for p in PERCENTILES)
+        p50_ns, p90_ns, p99_ns, p99_9_ns = (self.percentile_ns(p) for p in PERCENTILES)
         return Summary(
-            count,
-            self.minimum_ns if count else 0,
-            self.total_ns // count if count else 0,
-            *percentiles,
-            self.maximum_ns,
+            entries=count,
+            minimum_ns=self.minimum_ns if count else 0,
+            mean_ns=self.total_ns // count if count else 0,
+            p50_ns=p50_ns,
+            p90_ns=p90_ns,
+            p99_ns=p99_ns,
+            p99_9_ns=p99_9_ns,
+            maximum_ns=self.maximum_ns,
         )
 
 

@@ -41,7 +41,7 @@ def test_every_loop_wakes_as_often_as_ordered_and_never_early(tmp_path, request,
     assert measurement.loop == name
     assert measurement.order is ORDER
     assert measurement.lateness.minimum_ns > 0
-    assert measurement.as_json()["lateness"]["count"] == ORDER.cycles
+    assert measurement.as_json()["lateness"]["entries"] == ORDER.cycles
     assert json.dumps(measurement.as_json())
 
 
