@@ -272,11 +272,8 @@ class Controller:
         if policy is Policy.SERVICE:
             self._go_to_service(violation)
         elif policy is Policy.EXCEPTION and self._exception_task is not None:
-            self._run_exception_program(self._exception_task, violation)
-
-    def _run_exception_program(self, task: Task, violation: Violation) -> None:
-        self.context.violation = violation
-        self._run_unit(task, Unit.CYCLIC)
+            self.context.violation = violation
+            self.scan.run_exception_program(self._exception_task)
 
     def _program_failed(self, task: Task, unit: Unit, error: BaseException) -> None:
         fault = ProgramError(task.name, unit.value, place_of(error), describe(error))

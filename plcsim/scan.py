@@ -196,7 +196,9 @@ class Scan:
                 self._run_higher(place)
             if self.halted:
                 return
-            self._run_task(task)
+            error = self._run_task(task)
+            if error is not None:
+                self._aborted = task, self._place_of(error)
 
     def _run_higher(self, place: int) -> None:
         """Run the classes before ``place`` that have been released meanwhile."""
@@ -206,8 +208,19 @@ class Scan:
                 return
             self._run_class(due)
 
-    def _run_task(self, task: Task) -> None:
+    def run_exception_program(self, task: Task) -> None:
+        """Run a program of no task class, for a violation; it is measured, but has no limit."""
+        outer = self.phase
+        self.phase = Phase.RUN
+        error = self._run_task(task)
+        if error is not None:
+            self._supervisor.failed(task, error)
+        self.phase = outer
+
+    def _run_task(self, task: Task) -> CycleTimeViolation | None:
+        """Run CYCLIC of a program; return the error by which the watchdog ended it."""
         clock = self._clock
+        ended: CycleTimeViolation | None = None
         self._supervisor.started(task)
         start_ns, cpu_ns, waits = clock.now_ns(), clock.cpu_ns(), clock.waits()
         try:
@@ -216,7 +229,7 @@ class Scan:
             self.active = None
         except CycleTimeViolation as error:
             self.active = None
-            self._aborted = task, self._place_of(error)
+            ended = error
         except BaseException as error:  # whatever a program raises ends in SERVICE
             self.active = None
             self._supervisor.failed(task, error)
@@ -228,6 +241,7 @@ class Scan:
         self._own_ns += used_ns
         for task_class in self.classes:
             task_class.note_use(task, start_ns, end_ns, used_ns)
+        return ended
 
     def _account(self, task_class: TaskClass, end_ns: int) -> None:
         """Record the cycle, lay the next release on the grid, judge an overrun."""

@@ -413,3 +413,67 @@ def test_a_program_that_was_ended_is_the_one_to_blame(
     assert (violation.cause, violation.program) == (Cause.PROGRAM, "stuck")
     assert violation.place == place
     assert violation.response_ns == 8 * MS
+
+
+# the exception program
+
+
+def test_the_exception_program_runs_once_for_each_violation(
+    make_controller, task_class, trace, program_of
+):
+    records = []
+    note = program_of(lambda p: records.append((controller.scan.phase, p.context.violation)))
+    settings = {"policy": Policy.EXCEPTION}
+    controller = make_controller(
+        task_class(1, 10, settings, p=trace.program("p", 12, 0, 11)), exception_program=note
+    )
+    controller.boot()
+    controller.run(cycles=3)
+    assert controller.state is State.RUN
+    assert [phase for phase, _ in records] == [Phase.RUN, Phase.RUN]
+    assert [violation for _, violation in records] == controller.violations
+    assert [violation.own_ns for _, violation in records] == [12 * MS, 11 * MS]
+
+
+def test_a_cycle_that_the_exception_program_delays_was_preempted(
+    make_controller, task_class, trace, program_of, clock
+):
+    slow = {"long": trace.program("long", 95), "short": trace.program("short", 6)}
+    controller = make_controller(
+        task_class(1, 10, log_only(), fast=trace.program("fast")),
+        task_class(2, 100, {"policy": Policy.EXCEPTION}, **slow),
+        exception_program=program_of(lambda _: clock.spend_ns(30 * MS)),
+    )
+    controller.boot()
+    controller.run_for(160 * MS)
+    by_long, by_exception = [v for v in controller.violations if v.task_class == 1]
+    assert (by_long.cause, by_long.program) == (Cause.PREEMPTED, "long")
+    assert (by_exception.cause, by_exception.program) == (Cause.PREEMPTED, "exception")
+
+
+def test_an_exception_program_that_fails_leads_to_service(
+    make_controller, task_class, trace, program_of
+):
+    def fail(_):
+        raise ValueError("no")
+
+    settings = {"policy": Policy.EXCEPTION}
+    controller = make_controller(
+        task_class(1, 10, settings, p=trace.program("p", 12)), exception_program=program_of(fail)
+    )
+    controller.boot()
+    assert controller.run(cycles=3) is State.SERVICE
+    assert str(controller.fault).startswith("exception CYCLIC: ValueError: no")
+
+
+def test_an_exception_program_that_does_not_return_leads_to_service(
+    make_controller, task_class, trace, program_of
+):
+    settings = {"policy": Policy.EXCEPTION}
+    stuck = program_of(lambda _: controller.abort_program("the program did not return"))
+    controller = make_controller(
+        task_class(1, 10, settings, p=trace.program("p", 12)), exception_program=stuck
+    )
+    controller.boot()
+    assert controller.run(cycles=3) is State.SERVICE
+    assert "the program did not return" in str(controller.fault)
