@@ -12,8 +12,6 @@ an empty cycle is measured from a wake-up to the next sleep, in real time and on
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -29,9 +27,9 @@ from _outcome import (
     print_targets,
     write_json,
 )
-from _scans import controller_of, time_scans_ns
+from _run import HERE, run_project
+from _statements import write_statements
 
-from plcsim import Program
 from plcsim.doctor.loops import (
     Loop,
     Measurement,
@@ -41,17 +39,12 @@ from plcsim.doctor.loops import (
     floor_loop,
     measure,
     probe_rights,
-    write_project,
 )
 from plcsim.statistics import Summary
 
 CYCLE_NS = 1_000_000
 VIRTUAL_SCANS = 20_000
 PERCENTILES = ("p50_ns", "p99_ns", "p99_9_ns")
-
-
-class Empty(Program):
-    """Does nothing."""
 
 
 class Round(NamedTuple):
@@ -105,18 +98,10 @@ def _options() -> argparse.Namespace:
 def _round(number: int, loops: tuple[Loop, ...], order: Order, folder: Path) -> Round:
     turn = number % len(loops)
     measurements = {loop.name: measure(loop, order) for loop in (*loops[turn:], *loops[:turn])}
-    controller = controller_of(Empty)
-    time_scans_ns(controller, VIRTUAL_SCANS // 10)
-    return Round(measurements, _awake(order, folder), time_scans_ns(controller, VIRTUAL_SCANS))
-
-
-def _awake(order: Order, folder: Path) -> Summary:
-    """Return how long the scan process is awake in an empty cycle, over a third of a leg."""
-    project = write_project(folder / "cost", order)
-    script = Path(__file__).with_name("_cost.py")
-    command = [sys.executable, str(script), str(project), str(order.cycles // 3)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return Summary(**json.loads(done.stdout))
+    awake = run_project(HERE / "awake", order.cycles // 3, virtual=False)
+    empty = write_statements(folder / "virtual", 0, VIRTUAL_SCANS)
+    virtual = run_project(empty, VIRTUAL_SCANS, virtual=True)
+    return Round(measurements, Summary(**awake), virtual["scan_ns"])
 
 
 def _median_ns(rounds: list[Round], loop: str, name: str) -> float:

@@ -1,13 +1,13 @@
 """Scans per second on the virtual clock, beside the same statements in a bare Python loop.
 
-Programs of 0, 5, 50 and 200 statements run in the scan as `plcsim run --virtual` runs them. Beside
-each, in turn within one round: a bare loop with the same statements on the same typed views, so
-that the difference is the scan's own work, and the same statements on plain Python attributes,
-which is what the typed views cost. Figures are medians over the rounds; the overhead is taken
-within each round, then its median.
+Programs of 0, 5, 50 and 200 statements run under `plcsim run --virtual`, in turn, each in a fresh
+process. When its scans are done, the same process runs the same statements in a bare loop on the
+same typed views, so that the difference is the scan's own work, and in a bare loop on plain Python
+attributes, which is what the typed views cost. Figures are medians over the rounds; the overhead is
+taken within each run, then its median.
 
-Then one program runs for 1,000,000 cycles in a fresh process, and what it holds after 100,000 is
-compared with what it holds at the end.
+Then one program runs for 1,000,000 cycles, and what its process holds after 100,000 is compared
+with what it holds at the end.
 
     python benchmarks/virtual.py [--rounds 5] [--cycles 1000000] [--json FILE]
 """
@@ -15,14 +15,11 @@ compared with what it holds at the end.
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
 import sys
-import time
+import tempfile
 from pathlib import Path
 from statistics import median
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from _outcome import (
     Target,
@@ -33,17 +30,11 @@ from _outcome import (
     print_targets,
     write_json,
 )
-from _scans import controller_of, time_scans_ns
-from _statements import bare_loop, program_of, variables_of
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from plcsim.controller import Controller
+from _run import HERE, run_project
+from _statements import write_statements
 
 SIZES = (0, 5, 50, 200)
-SCANS = {0: 20_000, 5: 20_000, 50: 8_000, 200: 3_000}
-WARM_UP = 500
+SCANS = {0: 40_000, 5: 40_000, 50: 16_000, 200: 8_000}
 
 GROWTH_BLOCKS = 100
 """Objects that may come and go: the interpreter's own caches. A leak of one object in ten
@@ -53,17 +44,8 @@ GROWTH_KIB = 256
 """Resident memory that may come and go in the allocator; a leak of one byte a cycle would show."""
 
 
-class Subject(NamedTuple):
-    """The same statements three times."""
-
-    statements: int
-    controller: Controller
-    on_views: Callable[[int], None]
-    on_attributes: Callable[[int], None]
-
-
 class Times(NamedTuple):
-    """One round: wall time of one scan, or of one turn of a bare loop, in nanoseconds."""
+    """One run: wall time of one scan, or of one turn of a bare loop, in nanoseconds."""
 
     scan_ns: float
     on_views_ns: float
@@ -78,9 +60,7 @@ class Times(NamedTuple):
 def main() -> int:
     options = _options()
     before = print_machine("before")
-    subjects = [_subject(n) for n in SIZES]
-    rounds = [[_times(s) for s in subjects] for _ in range(options.rounds)]
-    times = {s.statements: [r[i] for r in rounds] for i, s in enumerate(subjects)}
+    times = _times(options.rounds)
     _print_speed(times)
     memory = _memory(options.cycles)
     _print_memory(memory)
@@ -100,38 +80,22 @@ def _options() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _subject(statements: int) -> Subject:
-    program = program_of(statements)
-    attributes = SimpleNamespace(**variables_of(statements))
-    views = controller_of(program).tasks[0].variables
-    on_views, on_attributes = bare_loop(statements, views), bare_loop(statements, attributes)
-    subject = Subject(statements, controller_of(program), on_views, on_attributes)
-    _times(subject, WARM_UP)
-    return subject
-
-
-def _times(subject: Subject, scans: int | None = None) -> Times:
-    scans = scans or SCANS[subject.statements]
-    return Times(
-        time_scans_ns(subject.controller, scans),
-        _time_ns(subject.on_views, scans),
-        _time_ns(subject.on_attributes, scans),
-    )
-
-
-def _time_ns(loop: Callable[[int], None], turns: int) -> float:
-    start_ns = time.perf_counter_ns()
-    loop(turns)
-    return (time.perf_counter_ns() - start_ns) / turns
+def _times(rounds: int) -> dict[int, list[Times]]:
+    """Return the times of every size, one entry a round."""
+    times: dict[int, list[Times]] = {size: [] for size in SIZES}
+    with tempfile.TemporaryDirectory(prefix="plcsim-virtual-") as folder:
+        for size in SIZES * rounds:
+            project = write_statements(Path(folder) / f"statements_{size}", size, SCANS[size])
+            times[size].append(Times(**run_project(project, SCANS[size], virtual=True)))
+    return times
 
 
 def _memory(cycles: int) -> list[dict[str, int]]:
-    """Return what a fresh process holds after a tenth of the cycles, and after all."""
-    script = str(Path(__file__).with_name("_memory.py"))
-    command = [sys.executable, script, str(cycles)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    held: list[dict[str, int]] = json.loads(done.stdout)
-    return held
+    """Return what a process holds after a tenth of the cycles, and after all."""
+    more = cycles + cycles // 10
+    result = run_project(HERE / "memory", more, virtual=True, PLCSIM_CYCLES=str(cycles))
+    rows = zip((cycles // 10, cycles), result["held"], result["traced_bytes"], strict=True)
+    return [{"cycles": at, **held, "traced_bytes": traced} for at, held, traced in rows]
 
 
 def _median_us(times: list[Times], name: str) -> float:
