@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
-from crosnode.errors import InvalidNameError, MessageTypeError
+from crosnode.errors import InvalidNameError, MessageTypeError, MessageValueError
 from crosnode.messages.definition import split_type_name
 from crosnode.names import PRIVATE, SEPARATOR, join, namespace_of
 from crosnode.parameters import ParameterTree, changes_for, slashed
@@ -125,11 +125,10 @@ class Master:
             checked = [
                 check(value, caller) for check, value in zip(method.checks, rest, strict=True)
             ]
-        except (InvalidNameError, MessageTypeError) as error:
-            return ERROR, str(error), method.fallback
-        try:
             return method.run(self, caller, *checked)
-        except ValueError as error:
+        except (InvalidNameError, MessageTypeError, MessageValueError) as error:
+            return ERROR, str(error), method.fallback
+        except ValueError as error:  # a limit of ours
             return FAILURE, str(error), method.fallback
 
     def _register(self, kind: Registrations, key: str, node: Node) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from copy import deepcopy
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from crosnode.errors import InvalidNameError
 from crosnode.names import PRIVATE, SEPARATOR, join, namespace_of
 
 if TYPE_CHECKING:
@@ -65,11 +66,12 @@ class ParameterTree:
         """Put a value at a name; it replaces all that was there, and values on the way.
 
         Raises:
-            ValueError: the tree would be too large or too deep, or the root no namespace.
+            ValueError: the tree would be too large or too deep.
+            InvalidNameError: the root is to hold something else than a namespace.
         """
         path = path_of(name)
         if not path and not isinstance(value, dict):
-            raise ValueError("the root can only hold a dictionary")
+            raise InvalidNameError("the root can only hold a dictionary")
         if len(path) + _depth(value) > MAX_DEPTH:
             raise ValueError(f"more than {MAX_DEPTH} keys within each other")
         old = self._find(path) if name in self else None

@@ -140,7 +140,7 @@ class Codec:
             prepared = message if prepare is None else prepare(message)
             return self._store.serialize_ros1(prepared, name)
         except _ENCODE_FAULTS as error:
-            fault = self._fault(name, message) or str(error)
+            fault = self._fault(name, message) or f": {error}"
             raise MessageValueError(f"{name}{fault}.") from error
 
     def decode(self, name: str, data: bytes | bytearray | memoryview) -> Message:
