@@ -1,32 +1,41 @@
-"""Where in a program's own source something was raised."""
+"""Where in a program's own source something was raised, and what it means."""
 
 from __future__ import annotations
 
-import sys
+import os
+import site
+import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from types import TracebackType
 
-_OWN = tuple(
-    str(Path(__file__).resolve().parents[1] / p) for p in ("plcsim", "st_types", "crosnode")
+_OWN = (Path(__file__).parents[1] / name for name in ("plcsim", "st_types", "crosnode"))
+_LIBRARIES = (
+    *(sysconfig.get_path(name) for name in ("stdlib", "platstdlib")),
+    *site.getsitepackages(),
+    site.getusersitepackages(),
 )
-_STANDARD = (sys.prefix, sys.base_prefix, "<frozen")
+_NOT_A_PROGRAM = ("<", *(f"{folder}{os.sep}" for folder in (*_OWN, *_LIBRARIES)))
+"""How paths begin that are no programs; "<frozen importlib>" and "<string>" are no files."""
+
+LONGEST_TEXT = 300
+"""Characters of an exception's text that are kept."""
 
 
 def place_of(error: BaseException) -> str:
-    """Return "file:line" of the innermost frame that is neither ours nor Python's own.
+    """Return "file:line" of the innermost frame that is neither ours, Python's nor a package's.
 
-    A syntax error gives the place it was found at; "" where there is no such frame.
+    A syntax error in a file gives the place it was found at; "" where there is no such frame.
     """
-    if isinstance(error, SyntaxError) and error.filename:
+    if isinstance(error, SyntaxError) and error.filename and not error.filename.startswith("<"):
         return f"{error.filename}:{error.lineno}"
     place = ""
     trace: TracebackType | None = error.__traceback__
     while trace is not None:
         path = trace.tb_frame.f_code.co_filename
-        if not path.startswith((*_OWN, *_STANDARD)) or "/_examples/" in path:
+        if not path.startswith(_NOT_A_PROGRAM) or "/_examples/" in path:
             place = f"{path}:{trace.tb_lineno}"
         trace = trace.tb_next
     return place
@@ -36,8 +45,18 @@ def describe(error: BaseException) -> str:
     """Return in one line what an exception means on a controller."""
     if isinstance(error, ZeroDivisionError):
         return "division by zero"
-    text = " ".join(str(error).split())
+    text = _text_of(error)
     name = type(error).__name__
     if type(error).__module__.startswith(("plcsim", "st_types")):
         return text or name
     return f"{name}: {text}" if text else name
+
+
+def _text_of(error: BaseException) -> str:
+    """Return the text of an exception in one line that fits into a logbook."""
+    try:
+        text = str(error)
+    except Exception:  # a program's own exception may have a __str__ that fails
+        return ""
+    line = " ".join(text[: 2 * LONGEST_TEXT].split())
+    return line if len(line) <= LONGEST_TEXT else f"{line[:LONGEST_TEXT]}..."
