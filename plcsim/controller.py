@@ -138,7 +138,7 @@ class Controller:
         self.scan = Scan(self.classes, self.clock, self.context, self.image, self, place_of)
         self.image.attach(self.scan)
         self._heartbeat = heartbeat or _Nobody()
-        self._boot_ns = self.clock.now_ns()
+        self._origin_ns = self.clock.now_ns()
         self.stop_requested = False
         self._started = False
 
@@ -170,7 +170,7 @@ class Controller:
             self.fault = None
             self.stop_requested = False
             self.context.restart()
-        self._boot_ns = self.context.release_ns = self.clock.now_ns()
+        self.context.release_ns = self.clock.now_ns()
         self._heartbeat.changed(self.state)
         for task in self.tasks:
             reset(task.variables)
@@ -220,9 +220,10 @@ class Controller:
     def shutdown(self) -> State:
         """Run every EXIT, in configured order, and close what the libraries hold.
 
-        In SERVICE no EXIT runs: the programs are stopped where they failed.
+        Only in RUN: without INIT there is nothing to leave, and in SERVICE the programs are stopped
+        where they failed.
         """
-        if self.state is not State.SERVICE:
+        if self.state is State.RUN:
             self._enter(Event.STOP)
             self.context.release_ns = self.clock.now_ns()
             for task in self.tasks:
@@ -248,7 +249,7 @@ class Controller:
 
     def log(self, severity: Severity, source: str, text: str) -> None:
         """Write an entry of the logbook at the present time."""
-        self.logbook.write(self.clock.now_ns() - self._boot_ns, severity, source, text)
+        self.logbook.write(self.clock.now_ns() - self._origin_ns, severity, source, text)
 
     # what the scan tells (plcsim.scan.Supervisor)
 

@@ -29,30 +29,15 @@ class Event(Enum):
 
 
 TRANSITIONS: Final[dict[State, dict[Event, State]]] = {
-    State.BOOT: {
-        Event.INITIALISED: State.RUN,
-        Event.FAULT: State.SERVICE,
-        Event.STOP: State.STOPPED,
-    },
-    State.RUN: {
-        Event.FAULT: State.SERVICE,
-        Event.STOP: State.STOPPED,
-    },
-    State.SERVICE: {
-        Event.FAULT: State.SERVICE,
-        Event.RESTART: State.BOOT,
-        Event.STOP: State.SERVICE,
-    },
-    State.STOPPED: {
-        Event.FAULT: State.SERVICE,
-        Event.RESTART: State.BOOT,
-        Event.STOP: State.STOPPED,
-    },
+    State.BOOT: {Event.INITIALISED: State.RUN, Event.FAULT: State.SERVICE},
+    State.RUN: {Event.FAULT: State.SERVICE, Event.STOP: State.STOPPED},
+    State.SERVICE: {Event.RESTART: State.BOOT},
+    State.STOPPED: {Event.FAULT: State.SERVICE, Event.RESTART: State.BOOT},
 }
 """Every transition; what is not in the table is a fault of plcsim and raises KeyError.
 
-SERVICE stays SERVICE at a stop, so that the way a run ended is not lost. An EXIT unit that fails
-after STOP leads to SERVICE too.
+SERVICE has no STOP, so that the way a run ended is not lost. An EXIT that fails after STOP leads to
+SERVICE too.
 """
 
 
