@@ -82,6 +82,7 @@ class Supervisor:
         self._stops = 0
         self._seen = (-1, 0)
         self._signalled_ns = 0
+        self._cpus = os.sched_getaffinity(0)
         if not virtual and project.realtime != "off":
             realtime.keep_off(realtime.scan_cpu(project.cpu))
 
@@ -102,6 +103,7 @@ class Supervisor:
         self.page.close()
         os.close(self._result_fd)
         os.close(self._dump_fd)
+        os.sched_setaffinity(0, self._cpus)
 
     def stop(self) -> None:
         """Ask the scan to stop; the EXITs run.
