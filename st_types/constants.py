@@ -40,6 +40,24 @@ class EvaluationError(Exception):
         self.unknown_name = unknown_name
 
 
+class NotConstantError(EvaluationError):
+    """The expression may have a value, but not before the program is linked or runs."""
+
+
+class ScopeError(Exception):
+    """A scope knows the name but not its value.
+
+    Attributes:
+        message: why; empty where that is reported already.
+        is_final: no further file could help, as with constants that depend on one another.
+    """
+
+    def __init__(self, message: str = "", *, is_final: bool = False) -> None:
+        super().__init__(message)
+        self.message = message
+        self.is_final = is_final
+
+
 class Scope(Protocol):
     """What names stand for."""
 
@@ -47,6 +65,9 @@ class Scope(Protocol):
         """Return the constant or enumeration value ``name``, None if there is none.
 
         A value of an enumeration may be qualified: ``Colour.red``.
+
+        Raises:
+            ScopeError: there is one, but its value is not known.
         """
 
 
@@ -74,13 +95,17 @@ def _operand(node: Expression, scope: Scope) -> Constant:
             return _lookup(node, name, scope)
         case Unary():
             return _unary(node, evaluate(node.operand, scope))
-    raise EvaluationError(node.at, "expected a constant value")
+    raise NotConstantError(node.at, "the value is not known here; a constant was expected")
 
 
 def _lookup(node: Name | MemberAccess, name: str, scope: Scope) -> Constant:
     if isinstance(node, MemberAccess) and isinstance(node.base, Name):
         name = f"{node.base.name}.{name}"
-    found = scope.constant(name)
+    try:
+        found = scope.constant(name)
+    except ScopeError as err:
+        kind = EvaluationError if err.is_final else NotConstantError
+        raise kind(node.at, err.message) from None
     if found is None:
         raise EvaluationError(node.at, f"no constant is called {name}", name)
     return found

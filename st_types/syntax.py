@@ -230,10 +230,12 @@ class DeclarationFile:
         """Return the place of ``node``."""
         return self.tokens.location(node.at)
 
-    def error(self, node: Node, message: str, hint: str = "") -> None:
-        """Record an error at ``node``."""
-        self.diagnostics.error(self.tokens.offset(node.at), message, hint)
+    def error(self, node: Node | int, message: str, hint: str = "") -> None:
+        """Record an error at a node or a token."""
+        at = node if isinstance(node, int) else node.at
+        self.diagnostics.error(self.tokens.offset(at), message, hint)
 
-    def warning(self, node: Node, message: str, hint: str = "") -> None:
-        """Record a warning at ``node``."""
-        self.diagnostics.warning(self.tokens.offset(node.at), message, hint)
+    def warning(self, node: Node | int, message: str, hint: str = "") -> None:
+        """Record a warning at a node or a token."""
+        at = node if isinstance(node, int) else node.at
+        self.diagnostics.warning(self.tokens.offset(at), message, hint)

@@ -84,9 +84,9 @@ def test_values(text: str, type_name: str, value: object) -> None:
         ("2 ** 2 ** 30 ** 30", "cannot be worked out|out of range"),
         ("16#FFFF_FFFF_FFFF_FFFF * 2", "out of range"),
         ("1.0E308 * 10", "out of range"),
-        ("ADR(x)", "expected a constant value"),
-        ("a[1]", "expected a constant value"),
-        ("%IX0.0", "expected a constant value"),
+        ("ADR(x)", "a constant was expected"),
+        ("a[1]", "a constant was expected"),
+        ("%IX0.0", "a constant was expected"),
     ],
 )
 def test_errors(text: str, message: str) -> None:

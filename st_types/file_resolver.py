@@ -1,0 +1,352 @@
+"""Resolving the declarations of one file: specifications to data types, blocks to variables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from st_types.constant_resolver import MAX_NESTING, ConstantResolver, constant_of
+from st_types.constants import ScopeError
+from st_types.derived import (
+    AliasType,
+    ArrayType,
+    DataBlockType,
+    EnumerationType,
+    Member,
+    ReferenceType,
+    Section,
+    StringType,
+    StructType,
+    SubrangeType,
+    WStringType,
+    resolve_alias,
+)
+from st_types.elementary import DINT, ELEMENTARY, DataType, ElementaryType
+from st_types.errors import DeclarationError
+from st_types.literals import Constant
+from st_types.printer import print_specification
+from st_types.syntax import (
+    ArraySpecification,
+    Declaration,
+    EnumerationSpecification,
+    EnumerationValue,
+    FunctionBlockDeclaration,
+    NamedType,
+    ReferenceSpecification,
+    StringSpecification,
+    StructSpecification,
+    SubrangeSpecification,
+    VariableBlock,
+)
+from st_types.variables import Function, Variable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from st_types.expressions import Expression, Node
+    from st_types.name_index import Entry, SourceFile
+    from st_types.resolve import TypeTable
+    from st_types.syntax import FunctionDeclaration, TypeSpecification
+
+DEFAULT_STRING_LENGTH = 80
+"""Characters of STRING and WSTRING without a length (IEC 61131-3 leaves it to the vendor)."""
+
+GENERIC_TYPES = frozenset(
+    [
+        *("ANY", "ANY_NUM", "ANY_INT", "ANY_REAL", "ANY_BIT", "ANY_STRING", "ANY_DATE"),
+        *("ANY_ELEMENTARY", "ANY_DERIVED", "ANY_MAGNITUDE", "ANY_SIGNED", "ANY_UNSIGNED"),
+        *("ANY_DURATION", "ANY_CHAR", "ANY_CHARS"),
+    ]
+)
+"""Types of parameters that take several types; they have no layout."""
+
+_DATA_BLOCK_SECTIONS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR")
+"""In the order of the generated C struct, where a VAR_IN_OUT is a pointer."""
+
+_SECTIONS = {"VAR_INPUT": Section.INPUT, "VAR_OUTPUT": Section.OUTPUT}
+
+T = TypeVar("T")
+
+_SIMPLE: dict[str, DataType[Any]] = {
+    **{spelling(name): t for name, t in ELEMENTARY.items() for spelling in (str, str.lower)},
+    "STRING": StringType(DEFAULT_STRING_LENGTH),
+    "WSTRING": WStringType(DEFAULT_STRING_LENGTH),
+}
+"""Types that every file knows, in the usual spellings."""
+
+
+class FileResolver(ConstantResolver):
+    """Resolves what one file declares."""
+
+    def __init__(self, table: TypeTable, owner: SourceFile) -> None:
+        super().__init__(table, owner)
+        self._entries: dict[str, Entry | None] = {}
+        self._depth = 0
+
+    def resolve(self, entry: Entry) -> None:
+        """Give ``entry`` its data type, and its value if it is a constant."""
+        outer, self._depth = self._depth, 0
+        node = entry.node
+        if isinstance(node, FunctionBlockDeclaration):
+            entry.data_type = self._function_block(node)
+        elif isinstance(node, Declaration) and entry.is_constant:
+            entry.data_type = self.data_type(node.specification, node.name)
+            entry.value = self.initial(node, entry.data_type)
+        elif isinstance(node, Declaration):
+            entry.data_type = self._declared_type(node)
+        entry.depth = self._depth + 1
+        self._depth = outer
+        if entry.depth > MAX_NESTING:
+            self.error(node, f"{node.name}: more than {MAX_NESTING} types lie one inside the other")
+            entry.data_type = None
+
+    def _declared_type(self, node: Declaration) -> DataType[object] | None:
+        made = self.data_type(node.specification, node.name)
+        initial = self.initial(node, made)
+        if made is None or (made.name == node.name and initial is None):
+            return made
+        return AliasType(node.name, made, initial)
+
+    def data_type(self, node: TypeSpecification, name: str) -> DataType[object] | None:
+        """Return the type of a specification, None (after a finding) if it has no layout.
+
+        Args:
+            node: the specification.
+            name: of the declaration, for types without a name of their own.
+        """
+        return _BUILDERS[type(node)](self, node, name)
+
+    def _named_type(self, node: NamedType, _name: str = "") -> DataType[object] | None:
+        if node.name in _SIMPLE:
+            return _SIMPLE[node.name]
+        if node.name in self._entries:
+            entry = self._entries[node.name]
+        elif (spelling := node.name.upper()) in _SIMPLE:
+            return _SIMPLE[spelling]
+        else:
+            entry = self._entries[node.name] = self._find_type(node)
+        if entry is None:
+            return None
+        if entry.state != 2 and not self._may_resolve(node, entry):
+            return None
+        self._depth = max(self._depth, entry.depth)
+        return entry.data_type
+
+    def _find_type(self, node: NamedType) -> Entry | None:
+        entry = self.table.find("types", node.name, self.owner)
+        if entry is None and node.name.upper() not in GENERIC_TYPES:
+            self.missing(node.at, f"no type is called {node.name} in the checked files")
+        return entry
+
+    def _may_resolve(self, node: NamedType, entry: Entry) -> bool:
+        """Resolve the type of another declaration; False after an error."""
+        names = [e.node.name for e in self.table.open]
+        if entry.state == 1:
+            path = [*names[self.table.open.index(entry) :], entry.node.name]
+            hint = "a REFERENCE TO it is possible"
+            self.error(node, f"{entry.node.name} contains itself: {' -> '.join(path)}", hint)
+            return False
+        try:
+            self.check_open(entry)
+        except ScopeError as err:
+            self.error(node, err.message)
+            return False
+        self.table.resolved(entry)
+        return True
+
+    def _string(self, node: StringSpecification, _name: str) -> DataType[object] | None:
+        length = self.integer(node.length)
+        made = StringType if node.name == "STRING" else WStringType
+        return None if length is None else self._made(node.length, lambda: made(length))
+
+    def _array(self, node: ArraySpecification, name: str) -> DataType[object] | None:
+        bounds = [self._bounds(low, high) for low, high in node.bounds]
+        outer, self._depth = self._depth, 0
+        element = self.data_type(node.element, name)
+        self._depth = max(outer, self._depth + 1)
+        known = [pair for pair in bounds if pair is not None]
+        if element is None or len(known) < len(bounds):
+            return None
+        return self._made(node, lambda: ArrayType(element, known))
+
+    def _bounds(self, low: Expression, high: Expression) -> tuple[int, int] | None:
+        first, last = self.integer(low), self.integer(high)
+        if first is None or last is None:
+            return None
+        if first > last:
+            self.error(high, f"the upper bound {last} is below the lower bound {first}")
+            return None
+        return first, last
+
+    def _reference(self, node: ReferenceSpecification, _name: str = "") -> ReferenceType:
+        reference = ReferenceType(None, f"REFERENCE TO {print_specification(node.target)}")
+        self.table.resolve_later(reference, self, node.target)
+        return reference
+
+    def _subrange(self, node: SubrangeSpecification, name: str) -> DataType[object] | None:
+        base = self._named_type(NamedType(node.at, node.base))
+        bounds = self._bounds(node.low, node.high)
+        if base is None or bounds is None:
+            return None
+        base = resolve_alias(base)
+        if not isinstance(base, ElementaryType):
+            self.error(node, f"{base} cannot have a subrange; an integer type was expected")
+            return None
+        return self._made(node, lambda: SubrangeType(name or node.base, base, *bounds))
+
+    def _enumeration(self, node: EnumerationSpecification, name: str) -> DataType[object] | None:
+        values: dict[str, int] = {}
+        outer, following = self.local, 0
+        self.local = dict(outer)
+        for item in node.values:
+            if item.name in values:
+                self.error(item, f"{name} declares {item.name} twice")
+            values[item.name] = number = DINT.wrap(self._enumeration_number(item, following))
+            self.local[item.name.upper()] = Constant(name, number)
+            following = number + 1
+        self.local = outer
+        if not values:
+            self.warning(node, "the enumeration has no values")
+            return AliasType(name, DINT)
+        return EnumerationType(name, values)
+
+    def _struct(self, node: StructSpecification, name: str) -> DataType[object] | None:
+        members = self._members(node.members, Section.INTERNAL, name)
+        if members is None:
+            return None
+        return self._made(node, lambda: StructType(name, members))
+
+    def _enumeration_number(self, item: EnumerationValue, following: int) -> int:
+        if item.value is None:
+            return following
+        number = self.integer(item.value)
+        return following if number is None else number
+
+    def _made(self, node: Node, make: Callable[[], T]) -> T | None:
+        try:
+            return make()
+        except DeclarationError as err:
+            self.error(node, str(err).rstrip("."))
+            return None
+
+    # Lists of declarations
+
+    def _members(
+        self, declarations: Sequence[Declaration], section: Section, name: str
+    ) -> list[Member] | None:
+        members: list[Member] = []
+        for declaration in declarations:
+            specification = declaration.specification
+            data_type: DataType[object] | None
+            if type(specification) is NamedType:
+                data_type = _SIMPLE.get(specification.name) or self._named_type(specification)
+            else:
+                data_type = self.data_type(specification, f"{name}_{declaration.name}")
+            if data_type is not None:
+                initial = None
+                if declaration.initial is not None:
+                    initial = self.initial(declaration, data_type)
+                members.append(Member(declaration.name, data_type, initial, section))
+        names = {declaration.name.upper() for declaration in declarations}
+        if len(names) < len(declarations):
+            self._report_duplicates(declarations, name)
+            return None
+        return members if len(members) == len(declarations) else None
+
+    def _report_duplicates(self, declarations: Sequence[Declaration], name: str) -> None:
+        seen: set[str] = set()
+        for declaration in declarations:
+            if declaration.name.upper() in seen:
+                self.error(declaration, f"{name} declares {declaration.name} twice")
+            seen.add(declaration.name.upper())
+
+    def _function_block(self, node: FunctionBlockDeclaration) -> DataType[object] | None:
+        outer, self.local = self.local, self._local_constants(node.blocks)
+        parts = [
+            self._block_members(block, node.name)
+            for section in (*_DATA_BLOCK_SECTIONS, "")
+            for block in node.blocks
+            if _place_in_data_block(block) == section
+        ]
+        self.local = outer
+        every = [declaration for block in node.blocks for declaration in block.declarations]
+        self._report_duplicates(every, node.name)
+        members = [member for part in parts for member in part or ()]
+        if None in parts or len({m.name.upper() for m in members}) < len(members):
+            return None
+        return self._made(node, lambda: DataBlockType(node.name, members))
+
+    def _block_members(self, block: VariableBlock, name: str) -> list[Member] | None:
+        """Return the members that a block of variables adds to a data block."""
+        place = _place_in_data_block(block)
+        if place == "VAR_IN_OUT":
+            return [
+                Member(d.name, self._reference(ReferenceSpecification(d.at, d.specification)))
+                for d in block.declarations
+            ]
+        section = _SECTIONS.get(block.section, Section.INTERNAL)
+        members = self._members(block.declarations, section, name)
+        return members if place else []
+
+    def _local_constants(self, blocks: Sequence[VariableBlock]) -> dict[str, Constant | None]:
+        outer = self.local
+        self.local = dict(outer)
+        for block in blocks:
+            if "CONSTANT" in block.qualifiers:
+                for node in block.declarations:
+                    data_type = self.data_type(node.specification, node.name)
+                    value = self.initial(node, data_type)
+                    self.local[node.name.upper()] = constant_of(data_type, value)
+        found, self.local = self.local, outer
+        return found
+
+    def function(self, node: FunctionDeclaration) -> Function:
+        """Return the parameters, the other variables and the result of a FUNCTION."""
+        outer, self.local = self.local, self._local_constants(node.blocks)
+        result = self.data_type(node.result, node.name) if node.result is not None else None
+        variables = [variable for block in node.blocks for variable in self.variables(block)]
+        self.local = outer
+        every = [declaration for block in node.blocks for declaration in block.declarations]
+        self._report_duplicates(every, node.name)
+        return Function(node.name, result, tuple(variables), node, self.owner.file)
+
+    def file_variables(self) -> list[Variable]:
+        """Return the variables of the VAR blocks outside functions and function blocks."""
+        blocks = [item for item in self.owner.file.items if isinstance(item, VariableBlock)]
+        self._report_duplicates(
+            [node for block in blocks for node in block.declarations], "the file"
+        )
+        return [variable for block in blocks for variable in self.variables(block)]
+
+    def variables(self, block: VariableBlock) -> list[Variable]:
+        """Return the variables of a VAR block."""
+        return [self._variable(node, block) for node in block.declarations]
+
+    def _variable(self, node: Declaration, block: VariableBlock) -> Variable:
+        entry = self.table.constant_entry(node) if "CONSTANT" in block.qualifiers else None
+        if entry is not None:
+            data_type, initial = entry.data_type, entry.value
+        else:
+            data_type = self.data_type(node.specification, node.name)
+            initial = self.initial(node, data_type)
+        return Variable(node.name, data_type, initial, block, node, self.owner.file)
+
+
+def _place_in_data_block(block: VariableBlock) -> str:
+    """Return the section of a data block that holds these variables, empty if none does.
+
+    Constants take no place in it, nor do VAR_TEMP and VAR_EXTERNAL.
+    """
+    if "CONSTANT" in block.qualifiers or block.section not in _DATA_BLOCK_SECTIONS:
+        return ""
+    return block.section
+
+
+_BUILDERS: dict[type, Callable[[FileResolver, Any, str], DataType[object] | None]] = {
+    NamedType: FileResolver._named_type,
+    StringSpecification: FileResolver._string,
+    ArraySpecification: FileResolver._array,
+    ReferenceSpecification: FileResolver._reference,
+    SubrangeSpecification: FileResolver._subrange,
+    EnumerationSpecification: FileResolver._enumeration,
+    StructSpecification: FileResolver._struct,
+}
