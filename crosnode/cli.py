@@ -1,32 +1,29 @@
-"""``plcsim ros``: what a ROS 1 type is, its md5, and messages between JSON and bytes."""
+"""``plcsim ros``: what a ROS 1 type is, its md5, and messages between JSON and bytes.
+
+This module only declares the commands: numpy and rosbags, which they need, are loaded when one of
+them runs and not with every other command of ``plcsim``.
+"""
 
 from __future__ import annotations
 
-import json
-import os
-import sys
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-from crosnode.errors import CrosnodeError, MessageTypeError, MessageValueError
-from crosnode.messages import MessageType, MessageTypes, from_json, to_json
-from crosnode.messages.outline import outline
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
 
-STANDARD_INPUT = "-"
+COMMANDS: Final = "crosnode.type_commands"
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``ros`` and its commands; each sets ``func``, which gives the exit status."""
     ros = subparsers.add_parser("ros", help="ROS 1 message and service types")
     commands = ros.add_subparsers(required=True, metavar="COMMAND")
-    _add(commands, "show", show, "print constants and fields", type=_ONE)
-    _add(commands, "md5", md5, "print lines of type and md5sum", types=_MANY)
-    _add(commands, "encode", encode, "print a message as hexadecimal", type=_ONE, json=_JSON)
-    _add(commands, "decode", decode, "print a message as JSON", type=_ONE, hex=_HEX)
+    _add(commands, "show", "print constants and fields", type=_ONE)
+    _add(commands, "md5", "print lines of type and md5sum", types=_MANY)
+    _add(commands, "encode", "print a message as hexadecimal", type=_ONE, json=_JSON)
+    _add(commands, "decode", "print a message as JSON", type=_ONE, hex=_HEX)
 
 
 _ONE = {"metavar": "TYPE", "help": "pkg/Name; for half of a service pkg/NameRequest or …Response"}
@@ -38,7 +35,6 @@ _HEX = {"metavar": "HEX", "help": "hexadecimal digits, blanks between; '-' reads
 def _add(
     commands: argparse._SubParsersAction[argparse.ArgumentParser],
     name: str,
-    run: Callable[[argparse.Namespace], None],
     text: str,
     **arguments: dict[str, Any],
 ) -> None:
@@ -53,80 +49,9 @@ def _add(
     )
     for argument, options in arguments.items():
         parser.add_argument(argument, **options)
-    parser.set_defaults(func=lambda namespace: _status(run, namespace))
+    parser.set_defaults(func=lambda namespace: _run(name, namespace))
 
 
-def _status(run: Callable[[argparse.Namespace], None], arguments: argparse.Namespace) -> int:
-    try:
-        run(arguments)
-    except CrosnodeError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return 1
-    return 0
-
-
-def show(arguments: argparse.Namespace) -> None:
-    """Print the outline of a type."""
-    types = _types(arguments)
-    _print(outline(types, types.find(arguments.type)))
-
-
-def md5(arguments: argparse.Namespace) -> None:
-    """Print a line for each type that is found; the first error is raised after the last line."""
-    types, fault = _types(arguments), None
-    for name in arguments.types:
-        try:
-            _print(f"{name} {types.find(name).md5sum}")
-        except MessageTypeError as error:
-            fault = fault or error
-    if fault:
-        raise fault
-
-
-def encode(arguments: argparse.Namespace) -> None:
-    """Print the bytes of the message that a JSON object stands for."""
-    types = _types(arguments)
-    message_type = _message_type(types, arguments.type)
-    try:
-        value = json.loads(_text(arguments.json))
-    except (ValueError, RecursionError) as error:
-        raise MessageValueError(f"{message_type.name}: not JSON: {error}.") from error
-    _print(message_type.encode(from_json(types, message_type, value)).hex())
-
-
-def decode(arguments: argparse.Namespace) -> None:
-    """Print the JSON object of a message."""
-    types = _types(arguments)
-    message_type = _message_type(types, arguments.type)
-    try:
-        data = bytes.fromhex(_text(arguments.hex))
-    except ValueError as error:
-        raise MessageValueError(f"{message_type.name}: not hexadecimal: {error}.") from error
-    message = message_type.decode(data)
-    _print(json.dumps(to_json(types, message_type, message), ensure_ascii=False))
-
-
-def _types(arguments: argparse.Namespace) -> MessageTypes:
-    """Return the types of ``--path``, then of ROS_PACKAGE_PATH, then the common ones."""
-    for path in arguments.path:
-        if not path.is_dir():
-            raise MessageTypeError(f"{path}: no such folder.")
-    environment = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    return MessageTypes([*arguments.path, *(Path(path) for path in environment if path)])
-
-
-def _message_type(types: MessageTypes, name: str) -> MessageType:
-    found = types.find(name)
-    if isinstance(found, MessageType):
-        return found
-    raise MessageTypeError(
-        f"{found.name} is a service; name {found.request.name} or {found.response.name}."
-    )
-
-
-def _text(argument: str) -> str:
-    return sys.stdin.read() if argument == STANDARD_INPUT else argument
-
-
-def _print(text: str) -> None:
-    sys.stdout.write(text + "\n")
+def _run(name: str, arguments: argparse.Namespace) -> int:
+    status: int = import_module(COMMANDS).run(name, arguments)
+    return status
