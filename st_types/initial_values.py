@@ -210,7 +210,7 @@ def _real(
     context: Context, node: Expression, value: float, data_type: ElementaryType[float]
 ) -> float | None:
     try:
-        struct.pack(data_type.code, value)
+        struct.pack("<" + data_type.code, value)
     except (OverflowError, struct.error):
         context.error(node, f"{value} is too large for {data_type}")
         return None
@@ -228,6 +228,14 @@ def _integer(
         context.error(node, f"{value} is outside {bounds} of {data_type}")
         return None
     stored = data_type.wrap(value)
-    if not (isinstance(node, Literal) and "#" in node.text):
+    if not _is_bit_pattern(node):
         context.warning(node, f"{value} does not fit {data_type}; the controller stores {stored}")
     return stored
+
+
+def _is_bit_pattern(node: Expression) -> bool:
+    """Return True for 16#FFFF and the like, which give the bits whatever the sign."""
+    if not isinstance(node, Literal):
+        return False
+    *_, base, _digits = ("", *node.text.split("#"))
+    return base.lstrip("+-").isdecimal()
