@@ -1,0 +1,7 @@
+"""Modbus TCP: HMIs read and write the tags of the map.
+
+`pdu` decodes requests and encodes answers by pymodbus, which nothing else here knows. `handler`
+executes one request on a `device`. `connection` makes requests out of bytes and bytes out of
+answers, without a socket. `server` brings sockets, limits and TLS. `in_process` serves a controller
+in virtual time with the same code.
+"""

@@ -1,0 +1,246 @@
+"""The server: sockets and their limits around `plcsim.services.modbus.connection`."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import ipaddress
+import os
+import sys
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final, cast
+
+from plcsim.errors import ConfigurationError
+from plcsim.services.modbus.connection import Connection, Limits, WriteRecord
+from plcsim.services.modbus.handler import Handler, Rights
+from plcsim.services.modbus.tls import rights_of, role_of, server_context
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.services.modbus.audit import AuditLog
+    from plcsim.services.modbus.device import Device
+    from plcsim.tagmap.settings import ModbusSettings
+
+TICK_S: Final = 0.05
+"""The server looks this often for timeouts and whether the scan is alive."""
+
+HIGH_WATER: Final = 64 * 1024
+"""Bytes of answers a peer may leave unread before its requests wait too."""
+
+BACKLOG: Final = 128
+
+
+class Server:
+    """Serves one device over TCP.
+
+    Args:
+        device: what is served.
+        settings: of [modbus].
+        audit: notes every write.
+        now_ns: the clock of all timeouts.
+
+    Attributes:
+        port: the one it listens on.
+        refused: connections refused by the allowlist or the limit.
+        faults: connections closed because of what their peer sent.
+    """
+
+    def __init__(
+        self,
+        device: Device,
+        settings: ModbusSettings,
+        audit: AuditLog,
+        now_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        self.device = device
+        self.settings = settings
+        self.port = 0
+        self.refused = 0
+        self.faults = 0
+        self.now_ns = now_ns
+        self.limits = Limits(frozenset(settings.unit_ids), settings.write_timeout_ns)
+        self.peers: set[_Peer] = set()
+        self._audit = audit
+        self._networks = [ipaddress.ip_network(network) for network in settings.allow]
+        self._server: asyncio.Server | None = None
+        self._ticker: asyncio.TimerHandle | None = None
+        self._wake_fd = -1
+
+    async def start(self, wake_fd: int = -1) -> None:
+        """Listen, and look after the connections from now on.
+
+        Args:
+            wake_fd: an eventfd that the scan raises when it has acknowledged writes, -1 for none.
+
+        Raises:
+            ConfigurationError: the address cannot be listened on, or TLS is not set up.
+        """
+        tls = server_context(self.settings.tls) if self.settings.tls else None
+        loop = asyncio.get_running_loop()
+        host, port = self.settings.host, self.settings.port
+        try:
+            self._server = await loop.create_server(
+                lambda: _Peer(self), host, port, ssl=tls, backlog=BACKLOG
+            )
+        except OSError as err:
+            raise ConfigurationError(f"modbus: cannot listen on {host}:{port}: {err}") from None
+        self.port = self._server.sockets[0].getsockname()[1]
+        if wake_fd >= 0:
+            self._wake_fd = wake_fd
+            loop.add_reader(wake_fd, self._woken)
+        self._tick()
+
+    def _woken(self) -> None:
+        with contextlib.suppress(BlockingIOError):
+            os.eventfd_read(self._wake_fd)
+        self._pump_waiting()
+
+    def _pump_waiting(self) -> None:
+        for peer in [peer for peer in self.peers if peer.connection.is_waiting]:
+            peer.pump()
+
+    def _tick(self) -> None:
+        now_ns = self.now_ns()
+        self.device.tick(now_ns)
+        self._pump_waiting()
+        for peer in list(self.peers):
+            peer.check_idle(now_ns)
+        self._ticker = asyncio.get_running_loop().call_later(TICK_S, self._tick)
+
+    async def stop(self) -> None:
+        """Close all connections and stop listening."""
+        if self._ticker is not None:
+            self._ticker.cancel()
+        if self._wake_fd >= 0:
+            asyncio.get_running_loop().remove_reader(self._wake_fd)
+        if self._server is not None:
+            self._server.close()
+        for peer in list(self.peers):
+            peer.abort()
+        await asyncio.sleep(0)
+
+    def admits(self, host: str) -> bool:
+        """Return True where one more connection from an address is welcome."""
+        address = ipaddress.ip_address(host.partition("%")[0])
+        mapped = getattr(address, "ipv4_mapped", None)
+        known = not self._networks or any((mapped or address) in n for n in self._networks)
+        if known and len(self.peers) < self.settings.connections:
+            return True
+        self.refused += 1
+        return False
+
+    def rights_of(self, role: str) -> Rights:
+        """Return what a peer may do."""
+        roles = self.settings.tls.roles if self.settings.tls else {}
+        rights = rights_of(role, roles)
+        return replace(rights, may_write=rights.may_write and not self.settings.read_only)
+
+    def audited(self, peer: str, role: str, record: WriteRecord) -> None:
+        """Note a write."""
+        self._audit.write(peer, role, record)
+
+    def faulty(self, peer: str, fault: str) -> None:
+        """Count a connection that is closed for what its peer sent; the first few are printed."""
+        self.faults += 1
+        if self.faults <= 10:
+            sys.stderr.write(f"modbus: {peer}: {fault}; closed\n")
+
+
+class _Peer(asyncio.Protocol):
+    """One connection and its socket."""
+
+    connection: Connection
+    _transport: asyncio.Transport
+
+    def __init__(self, server: Server) -> None:
+        self._server = server
+        self._name = ""
+        self._is_blocked = False
+        self._is_paused = False
+        self._is_scheduled = False
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Refuse the peer, or get ready for its requests."""
+        self._transport = cast("asyncio.Transport", transport)
+        server = self._server
+        address = transport.get_extra_info("peername") or ("0.0.0.0", 0)  # noqa: S104  # gone already
+        self._name = f"{address[0]}:{address[1]}"
+        if not server.admits(address[0]):
+            self._transport.abort()
+            return
+        role = _role(transport) if server.settings.tls and server.settings.tls.roles else ""
+        self._transport.set_write_buffer_limits(HIGH_WATER)
+        self.connection = Connection(
+            Handler(server.device, server.rights_of(role)),
+            server.device,
+            server.limits,
+            server.now_ns(),
+            lambda record: server.audited(self._name, role, record),
+        )
+        server.peers.add(self)
+
+    def connection_lost(self, _exc: Exception | None) -> None:
+        """Forget the peer; writes that are queued are still applied."""
+        self._server.peers.discard(self)
+
+    def data_received(self, data: bytes) -> None:
+        """Execute what has come."""
+        if self in self._server.peers:
+            self.connection.receive(data)
+            self.pump()
+
+    def pause_writing(self) -> None:
+        """Let requests wait while the peer does not read its answers."""
+        self._is_blocked = True
+
+    def resume_writing(self) -> None:
+        """Go on where the peer has read."""
+        self._is_blocked = False
+        self.pump()
+
+    def pump(self) -> None:
+        """Execute some requests, send answers, and see to it that the rest gets its turn."""
+        connection = self.connection
+        if self._transport.is_closing():
+            return
+        if not self._is_blocked:
+            answers = connection.step(self._server.now_ns())
+            if answers:
+                self._transport.write(answers)
+            if connection.fault:
+                self._server.faulty(self._name, connection.fault)
+                self._transport.close()
+                return
+            if connection.has_more and not self._is_scheduled:
+                self._is_scheduled = True
+                asyncio.get_running_loop().call_soon(self._pump_rest)
+        self._throttle()
+
+    def _pump_rest(self) -> None:
+        self._is_scheduled = False
+        self.pump()
+
+    def _throttle(self) -> None:
+        """Stop reading the socket while more requests wait than are needed to stay busy."""
+        if self.connection.is_full != self._is_paused:
+            self._is_paused = not self._is_paused
+            if self._is_paused:
+                self._transport.pause_reading()
+            else:
+                self._transport.resume_reading()
+
+    def check_idle(self, now_ns: int) -> None:
+        """Close a connection that has not sent a complete request for too long."""
+        if now_ns - self.connection.last_request_ns > self._server.settings.idle_ns:
+            self._transport.abort()
+
+    def abort(self) -> None:
+        """Close at once."""
+        self._transport.abort()
+
+
+def _role(transport: asyncio.BaseTransport) -> str:
+    tls: Any = transport.get_extra_info("ssl_object")
+    return role_of(tls.getpeercert(binary_form=True)) if tls else ""

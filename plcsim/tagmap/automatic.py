@@ -1,0 +1,144 @@
+"""Addresses without a tags.csv: every variable gets one, and keeps it for ever.
+
+The lock file remembers each address that was ever given. A variable that is new, or whose type has
+changed, gets the next free one; one that has gone leaves a hole.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.tag import Tag
+from plcsim.tagmap.csv_file import read_rows, write_rows
+from plcsim.tagmap.errors import TagMapError
+from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Row
+from plcsim.tagmap.resolve import code_of
+from st_types.derived import ArrayType, DataBlockType, StringType, StructType, resolve_alias
+from st_types.views import address_of, type_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+    from pathlib import Path
+
+    from plcsim.task import Task
+    from st_types.elementary import DataType
+
+LOCK_FILE: Final = "tags.lock"
+_HEADING = "# Addresses given by plcsim; keep this file, so that they never change.\n"
+_TYPES = {code: name for name, code in KINDS.items()}
+_WIDER = {"b": "h", "B": "H"}
+
+
+def all_tags(tasks: Sequence[Task]) -> Iterator[Tag]:
+    """Iterate over the variables of all programs, every element of arrays, no function blocks."""
+    for task in tasks:
+        yield from _leaves(task.name, type_of(task.variables), address_of(task.variables))
+
+
+def _leaves(path: str, data_type: DataType[Any], address: int) -> Iterator[Tag]:
+    data_type = resolve_alias(data_type)
+    if isinstance(data_type, DataBlockType):
+        return
+    if isinstance(data_type, StructType):
+        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+            yield from _leaves(f"{path}.{member.name}", member.data_type, address + offset)
+    elif isinstance(data_type, ArrayType):
+        ranges = (range(low, high + 1) for low, high in data_type.bounds)
+        for place, index in enumerate(itertools.product(*ranges)):
+            name = f"{path}[{','.join(map(str, index))}]"
+            yield from _leaves(name, data_type.element, address + place * data_type.element.size)
+    else:
+        yield Tag(path, data_type, address)
+
+
+def locked_rows(folder: Path) -> list[Row]:
+    """Return the rows of the lock file of a project, none where there is no such file.
+
+    Raises:
+        TagMapError: the file is damaged.
+    """
+    file = folder / LOCK_FILE
+    try:
+        return [_unnumbered(row) for row in read_rows(file.read_text("utf-8"), file)]
+    except FileNotFoundError:
+        return []
+    except (OSError, UnicodeDecodeError) as err:
+        raise TagMapError(f"{file}: cannot be read: {err}") from None
+
+
+def _unnumbered(row: Row) -> Row:
+    return Row(row.tag, row.area, row.offset, type=row.type, length=row.length)
+
+
+def write_lock(folder: Path, rows: Iterable[Row]) -> None:
+    """Write the lock file, whole or not at all.
+
+    Raises:
+        TagMapError: it cannot be written.
+    """
+    file = folder / LOCK_FILE
+    fresh = file.with_suffix(".new")
+    try:
+        fresh.write_text(_HEADING + write_rows(rows), "utf-8")
+        fresh.replace(file)
+    except OSError as err:
+        raise TagMapError(f"{file}: cannot be written: {err}") from None
+
+
+def give_addresses(
+    tags: Iterable[Tag], fixed: Sequence[Row], locked: Sequence[Row]
+) -> tuple[list[Row], list[Row]]:
+    """Return the rows of all tags, and the rows of the new lock file.
+
+    Args:
+        tags: the variables; those of types that no register can hold are left out.
+        fixed: rows of tags.csv, which stay as they are; their variables get no second address.
+        locked: rows of the lock file.
+
+    Raises:
+        TagMapError: there are more variables than addresses.
+    """
+    named = {row.tag.upper() for row in fixed}
+    known = {(row.tag.upper(), row.type, row.length): row for row in locked}
+    free = {area: _first_free(area, [*fixed, *locked]) for area in Area}
+    rows: list[Row] = []
+    given: list[Row] = []
+    for tag in tags:
+        wanted = _wanted(tag)
+        if wanted is None or tag.path.upper() in named:
+            continue
+        area, kind, length = wanted
+        row = known.get((tag.path.upper(), kind, length))
+        if row is None:
+            row = Row(tag.path, area, free[area], type=kind, length=length)
+            free[area] += _size(row)
+            if free[area] > ADDRESSES:
+                raise TagMapError(f"{tag.path}: area {area.value} has no address left")
+            given.append(row)
+        rows.append(row)
+    return rows, [*locked, *given]
+
+
+def _wanted(tag: Tag) -> tuple[Area, str, int] | None:
+    """Return area, type and length of a variable, None where no register can hold it."""
+    code = code_of(tag.data_type)
+    if code is None:
+        return None
+    if code == "?":
+        return Area.COILS, "bool", 0
+    data_type = resolve_alias(tag.data_type)
+    length = min(125, -(-data_type.length // 2)) if isinstance(data_type, StringType) else 0
+    return Area.HOLDING_REGISTERS, _TYPES[_WIDER.get(code, code)], length
+
+
+def _size(row: Row) -> int:
+    return row.length or REGISTERS[KINDS[row.type]]
+
+
+def _first_free(area: Area, rows: Sequence[Row]) -> int:
+    """Return the first address behind all rows of an area; a type left out may take four."""
+    return max(
+        (r.offset + (_size(r) if r.type else max(4, r.length)) for r in rows if r.area is area),
+        default=0,
+    )

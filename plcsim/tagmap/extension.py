@@ -1,0 +1,52 @@
+"""The extension of the table [modbus]: checks the map, hands it to the Modbus service."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.extension import Attachment
+from plcsim.tagmap.automatic import write_lock
+from plcsim.tagmap.load import load_map
+from plcsim.tagmap.settings import read_settings
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from plcsim.controller import Controller
+    from plcsim.table import Table
+    from plcsim.tagmap.settings import ModbusSettings
+
+
+class ModbusProject(NamedTuple):
+    """The settings and the folder of the project they belong to."""
+
+    settings: ModbusSettings
+    folder: Path
+
+
+class ModbusExtension:
+    """`plcsim.extension.Extension` of Modbus TCP."""
+
+    service = "plcsim.services.modbus"
+
+    def read(self, table: Table, folder: Path) -> ModbusProject:
+        """Return the settings."""
+        return ModbusProject(read_settings(table, folder), folder)
+
+    def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
+        """Return the map for the service; addresses given for the first time are locked."""
+        tag_map = load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        if not tag_map.is_locked:
+            write_lock(settings.folder, tag_map.lock)
+        points = tag_map.points
+        return Attachment(
+            {
+                "settings": settings.settings.to_json(),
+                "points": [point.to_json() for point in points],
+                "first_class": controller.classes[0].number,
+            },
+            [controller.tags.find(point.tag) for point in points],
+        )
+
+
+EXTENSION = ModbusExtension()

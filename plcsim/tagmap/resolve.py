@@ -1,0 +1,174 @@
+"""From rows to points: each tag is found, defaults are filled in, overlaps are refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.errors import TagError
+from plcsim.tagmap import status_block
+from plcsim.tagmap.errors import TagMapError
+from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Point, Row
+from st_types.derived import (
+    EnumerationType,
+    ReferenceType,
+    StringType,
+    SubrangeType,
+    resolve_alias,
+)
+from st_types.elementary import ElementaryType, Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+    from pathlib import Path
+    from typing import Any
+
+    from plcsim.tag import Tag
+    from st_types.elementary import DataType
+
+_DEFAULT_KINDS: Final = {"b": "h", "B": "H"}
+_SIZES: Final = {"?": 1, "b": 1, "h": 2, "i": 4, "q": 8, "f": 4, "d": 8}
+
+
+def code_of(data_type: DataType[Any]) -> str | None:
+    """Return the format character of a variable, "s" for a STRING, None where there is none."""
+    match resolve_alias(data_type):
+        case ElementaryType(kind=Kind.BOOL):
+            return "?"
+        case ElementaryType(code=code):
+            return code
+        case SubrangeType(base=base):
+            return base.code
+        case EnumerationType():
+            return "i"
+        case ReferenceType():
+            return "I"
+        case StringType():
+            return "s"
+    return None
+
+
+def resolve(rows: Iterable[Row], find: Callable[[str], Tag], file: Path, order: str) -> list[Point]:
+    """Return the points of a map, in the order of the rows.
+
+    Args:
+        rows: of the map.
+        find: gives the tag of a path, or raises TagError.
+        file: named in errors.
+        order: of rows that give none.
+
+    Raises:
+        TagMapError: a row does not fit its variable, or two rows overlap; the lines are named.
+    """
+    taken: dict[tuple[Area, int, int], Row] = {}
+    points = []
+    for row in rows:
+        try:
+            point = _point(row, find(row.tag), order)
+            _take(row, point, taken)
+        except (TagError, ValueError) as err:
+            place = f"{file}:{row.line}" if row.line else str(file)
+            raise TagMapError(f"{place}: {row.tag}: {err}") from None
+        points.append(point)
+    return points
+
+
+def _point(row: Row, tag: Tag, order: str) -> Point:
+    code = code_of(tag.data_type)
+    if code is None:
+        raise ValueError(f"a variable of type {tag.data_type} cannot lie in registers")
+    kind = KINDS[row.type] if row.type else _DEFAULT_KINDS.get(code, code)
+    _check_kind(row, code, kind)
+    low, high = _limits(row, tag.data_type)
+    point = Point(
+        tag=tag.path,
+        area=row.area.value,
+        offset=row.offset,
+        registers=_registers(row, kind, tag.data_type),
+        bit=-1 if row.bit is None else row.bit,
+        kind=kind,
+        order=row.order or order,
+        access=_access(row),
+        address=tag.address,
+        code=code,
+        size=tag.data_type.size,
+        scale=row.scale,
+        offset_eu=row.offset_eu,
+        minimum=low,
+        maximum=high,
+        partial=row.partial,
+    )
+    _check_place(row, point)
+    return point
+
+
+def _check_kind(row: Row, code: str, kind: str) -> None:
+    """Raise ValueError where values of the variable would be cut on the wire."""
+    if (kind == "s") != (code == "s"):
+        raise ValueError("a STRING needs the type string, and nothing else has it")
+    if not row.area.has_registers and (kind != "?" or code != "?"):
+        raise ValueError(f"only a BOOL can lie in area {row.area.value}")
+    if row.bit is not None and (not row.area.has_registers or kind != "?" or code != "?"):
+        raise ValueError("only a BOOL in a register has a bit")
+    if kind == "?" and code != "?":
+        raise ValueError("the type bool is for a BOOL only")
+    scaled = (row.scale, row.offset_eu) != (1.0, 0.0)
+    if (scaled or row.minimum is not None or row.maximum is not None) and code in "?s":
+        raise ValueError("scale, offset_eu, min and max are for numbers")
+    if scaled or kind in "s?fd":
+        return
+    if code in "fd":
+        raise ValueError("a REAL or LREAL on an integer type needs a scale")
+    if _SIZES[kind.lower()] < _SIZES[code.lower()]:
+        raise ValueError("the type is narrower than the variable; give a wider one or a scale")
+
+
+def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | None]:
+    """Return the limits of the row and of a subrange, the narrower ones."""
+    low, high = row.minimum, row.maximum
+    resolved = resolve_alias(data_type)
+    if isinstance(resolved, SubrangeType):
+        low = resolved.minimum if low is None else max(low, resolved.minimum)
+        high = resolved.maximum if high is None else min(high, resolved.maximum)
+    if low is not None and high is not None and low > high:
+        raise ValueError("min is above max")
+    return low, high
+
+
+def _registers(row: Row, kind: str, data_type: DataType[Any]) -> int:
+    if kind != "s":
+        if row.length not in (0, REGISTERS[kind]):
+            raise ValueError(f"length is for strings; this type has {REGISTERS[kind]} registers")
+        return REGISTERS[kind]
+    return row.length or min(125, -(-(data_type.size - 1) // 2))
+
+
+def _access(row: Row) -> str:
+    access = row.access or ("rw" if row.area.is_writable else "ro")
+    if access != "ro" and not row.area.is_writable:
+        raise ValueError(f"area {row.area.value} cannot be written; give access ro")
+    return access
+
+
+def _check_place(row: Row, point: Point) -> None:
+    end = point.offset + point.registers
+    if end > ADDRESSES:
+        raise ValueError(f"{point.registers} registers from {point.offset} do not fit below 65536")
+    block = range(status_block.FIRST, status_block.FIRST + status_block.COUNT)
+    if row.area is Area.INPUT_REGISTERS and point.offset < block.stop and end > block.start:
+        raise ValueError(f"input registers {block.start} to {block.stop - 1} hold the status block")
+    if point.partial and not (point.is_plain and not point.is_limited):
+        raise ValueError("partial is for tags without scale and limits, of the variable's own type")
+
+
+def _take(row: Row, point: Point, taken: dict[tuple[Area, int, int], Row]) -> None:
+    """Note the bits of every register that a row covers; a bit of two rows is an overlap."""
+    bits = range(16) if point.bit < 0 else (point.bit,)
+    for register in range(point.offset, point.offset + point.registers):
+        for bit in bits:
+            other = taken.setdefault((row.area, register, bit), row)
+            if other is not row and not (row.alias or other.alias):
+                where = f"line {other.line}" if other.line else "the lock file"
+                raise ValueError(
+                    f"overlaps {other.tag} ({where}) at {row.area.value} {register}; "
+                    "give one of them alias 1 if that is meant"
+                )
