@@ -97,7 +97,7 @@ class Scan:
         self._place_of = place_of
         self._own_ns = 0
         self._aborted: tuple[Task, str] | None = None
-        self._until_ns = _NEVER
+        self._end_ns = _NEVER
         self._last_cycle = _NEVER
 
     def require(self, phase: Phase) -> None:
@@ -129,6 +129,9 @@ class Scan:
     def run(self, until_ns: int | None = None, cycles: int | None = None) -> None:
         """Run until stopped or paused, until a time, or for cycles of the first class.
 
+        A cycle that has begun is finished, but nothing preempts it any more once the run is to end:
+        under overload that might go on for ever.
+
         Args:
             until_ns: releases at or after this time of the clock are not run.
             cycles: cycles of the class with the lowest number, counted from now.
@@ -138,15 +141,15 @@ class Scan:
         """
         self.require(Phase.SLEEP)
         self.paused = False
-        self._until_ns = _NEVER if until_ns is None else until_ns
+        self._end_ns = _NEVER if until_ns is None else until_ns
         self._last_cycle = _NEVER if cycles is None else self.classes[0].cycles + cycles
         while self._goes_on():
             due = self._due(len(self.classes))
             if due is not None:
                 self._run_class(due)
                 continue
-            wake_ns = min(self._until_ns, *(c.release_ns for c in self.classes))
-            if wake_ns == self._until_ns and self._clock.now_ns() >= wake_ns:
+            wake_ns = min(self._end_ns, *(c.release_ns for c in self.classes))
+            if wake_ns == self._end_ns and self._clock.now_ns() >= wake_ns:
                 return
             self._sleep(wake_ns)
 
@@ -158,7 +161,7 @@ class Scan:
         """Return the first released class among the first ``below`` in order."""
         now_ns = self._clock.now_ns()
         for task_class in self.classes[:below]:
-            if task_class.release_ns <= now_ns and task_class.release_ns < self._until_ns:
+            if task_class.release_ns <= now_ns and task_class.release_ns < self._end_ns:
                 return task_class
         return None
 

@@ -477,3 +477,31 @@ def test_an_exception_program_that_does_not_return_leads_to_service(
     controller.boot()
     assert controller.run(cycles=3) is State.SERVICE
     assert "the program did not return" in str(controller.fault)
+
+
+# overload
+
+
+@pytest.mark.parametrize("limit", ["stop", "pause", "cycles", "until"])
+def test_a_run_ends_though_higher_classes_leave_no_time(
+    make_controller, task_class, trace, program_of, clock, limit
+):
+    """Class 1 needs all the time there is, so class 2 is never done with being preempted."""
+
+    def cyclic(_):
+        clock.spend_ns(10 * MS)
+        if controller.classes[0].cycles == 20 and limit in ("stop", "pause"):
+            getattr(controller.scan, limit)()
+
+    slow = {"a": trace.program("a", 5), "b": trace.program("b", 0)}
+    controller = make_controller(
+        task_class(1, 10, log_only(tolerance_ms=20, first_release_ms=5), p=program_of(cyclic)),
+        task_class(2, 10, log_only(first_release_ms=0), **slow),
+    )
+    controller.boot()
+    if limit == "until":
+        controller.run_for(201 * MS)
+    else:
+        controller.run(cycles=20 if limit == "cycles" else None)
+    assert controller.classes[0].cycles == 20
+    assert [name for name, _, _ in trace.entries] == ["a", "b"]
