@@ -89,6 +89,10 @@ class Histogram:
                 return min(_upper_end_ns(bucket), self.maximum_ns)
         return 0
 
+    def buckets(self) -> list[tuple[int, int]]:
+        """Return (largest duration in nanoseconds, count) of every bucket that is not empty."""
+        return [(_upper_end_ns(b), count) for b, count in enumerate(self.counts) if count]
+
     def summary(self) -> Summary:
         """Return count, smallest, mean, percentiles and largest."""
         count = self.count

@@ -14,8 +14,14 @@ class Blinky(Program):
     timer = var(TON)
 
     def cyclic(self) -> None:
-        """Change the lamp when the timer has run down."""
-        self.timer(IN=not self.timer.Q, PT=self.half_period)
+        """Change the lamp when the timer has run down, and start the timer again at once.
+
+        The second pair of calls starts it in the same cycle. With IN=not Q, as one often sees it,
+        every half period would be two cycles too long.
+        """
+        self.timer(IN=True, PT=self.half_period)
         if self.timer.Q:
             self.lamp = not self.lamp
             self.changes += 1
+            self.timer(IN=False)
+            self.timer(IN=True)

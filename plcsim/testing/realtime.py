@@ -1,0 +1,66 @@
+"""Tests on the wall clock: passed, failed by the program, or the host could not hold the tick."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from plcsim.duration import format_duration
+from plcsim.task import Cause, Violation
+
+if TYPE_CHECKING:
+    from plcsim.controller import Controller
+    from plcsim.task import TaskClass
+
+
+class Verdict(Enum):
+    """What a test on the wall clock says."""
+
+    PASSED = "passed"
+    FAILED = "failed by the program"
+    HOST = "host could not hold the tick"
+
+
+def judge(controller: Controller, *, failed: bool) -> Verdict:
+    """Return the verdict.
+
+    A program that used more than cycle time plus tolerance fails whatever the host did, as CPU time
+    is counted there. Otherwise a host that made the controller miss grid points takes the meaning
+    from both a failure and a success.
+
+    Args:
+        controller: after the test.
+        failed: whether an assertion of the test failed.
+    """
+    classes = controller.classes
+    own = (Cause.PROGRAM, Cause.PREEMPTED)
+    if any(c.violations[cause] for c in classes for cause in own):
+        return Verdict.FAILED
+    if any(c.violations[Cause.HOST] for c in classes) or _missed_by_host(controller):
+        return Verdict.HOST
+    blamed = isinstance(controller.fault, Violation) and controller.fault.cause is Cause.HOST
+    if blamed:
+        return Verdict.HOST
+    return Verdict.FAILED if failed else Verdict.PASSED
+
+
+def _missed_by_host(controller: Controller) -> bool:
+    """Whether grid points were missed although all programs together fit into a cycle."""
+    used_ns = sum(c.execution.maximum_ns for c in controller.classes)
+    return any(c.missed and used_ns <= c.cycle_ns for c in controller.classes)
+
+
+def figures(controller: Controller) -> str:
+    """Return how the host did, in words."""
+    return "; ".join(_figures(c) for c in controller.classes)
+
+
+def _figures(task_class: TaskClass) -> str:
+    late = task_class.lateness
+    return (
+        f"task class {task_class.number} ({format_duration(task_class.cycle_ns)}): "
+        f"{task_class.missed} of {task_class.missed + task_class.cycles} grid points missed, "
+        f"woken up to {format_duration(late.maximum_ns)} late "
+        f"(p99 {format_duration(late.percentile_ns(99))}), programs used "
+        f"{format_duration(task_class.execution.maximum_ns)} at most"
+    )

@@ -1,0 +1,131 @@
+"""What a test runs: a project on disk or program classes, loaded afresh for each test."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
+from plcsim.duration import parse_duration_ns
+from plcsim.project import FILE_NAME, load_setup, read_project
+from plcsim.testing.errors import PlcTestError
+from plcsim.testing.plc import Plc
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from plcsim.task import Program
+
+__tracebackhide__ = True
+
+_LOADED = "plcsim_project_"
+"""Modules of projects have this prefix (`plcsim.program_loader`)."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """What runs on the controller under test.
+
+    Attributes:
+        name: of the project, or of the first program.
+        setup: what the controller is made from.
+        folder: of the project, None for program classes.
+        modules: names of the modules that were loaded for it.
+    """
+
+    name: str
+    setup: Setup
+    folder: Path | None = None
+    modules: tuple[str, ...] = ()
+
+    def unload(self) -> None:
+        """Forget the modules of the project, so that the next test loads them afresh."""
+        for name in self.modules:
+            sys.modules.pop(name, None)
+
+
+def find_project(start: Path) -> Path:
+    """Return the folder with plc.toml at or above ``start``.
+
+    Raises:
+        PlcTestError: there is none.
+    """
+    for folder in (start, *start.parents):
+        if (folder / FILE_NAME).is_file():
+            return folder
+    raise PlcTestError(
+        f"no {FILE_NAME} in {start} or above it; name the project with "
+        '@pytest.mark.plc(project="path/of/the/project") or a program class with '
+        "@pytest.mark.plc(program=MyProgram)"
+    )
+
+
+def project_target(folder: Path) -> Target:
+    """Load a project.
+
+    Raises:
+        ConfigurationError: it does not load; file and field are named.
+    """
+    before = set(sys.modules)
+    try:
+        project = read_project(folder)
+        setup = load_setup(project)
+    finally:
+        loaded = tuple(m for m in sys.modules if m not in before and m.startswith(_LOADED))
+    return Target(project.name, setup, project.folder, loaded)
+
+
+def program_target(
+    programs: Sequence[type[Program]], cycle: str = "10ms", task_class: int = 1
+) -> Target:
+    """Return a controller with one task class that runs program classes.
+
+    Raises:
+        PlcTestError: the cycle time is no duration.
+    """
+    try:
+        cycle_ns = parse_duration_ns(cycle)
+    except ValueError as err:
+        raise PlcTestError(f"cycle: {err}") from None
+    setups = [ProgramSetup(program.__name__, program) for program in programs]
+    classes = [TaskClassSetup(task_class, cycle_ns, setups, tolerance_ns=cycle_ns)]
+    return Target(programs[0].__name__, Setup(classes))
+
+
+@contextmanager
+def open_plc(
+    project: Path | None = None,
+    program: type[Program] | Sequence[type[Program]] | None = None,
+    *,
+    cycle: str = "10ms",
+    seed: int = 0,
+) -> Iterator[Plc]:
+    """Open a controller on the virtual clock without the fixture, booted; EXITs run at the end.
+
+    Args:
+        project: folder with plc.toml.
+        program: a program class, or several, instead of a project.
+        cycle: cycle time of program classes.
+        seed: of noise and of the virtual network.
+
+    Raises:
+        PlcTestError: neither or both of project and program are given.
+        ConfigurationError: the project does not load.
+    """
+    if (project is None) == (program is None):
+        raise PlcTestError("give either a project or a program")
+    if project is not None:
+        target = project_target(project)
+    else:
+        given = program if isinstance(program, list | tuple) else [program]
+        target = program_target([p for p in given if isinstance(p, type)], cycle)
+    plc = Plc(target.name, target.setup, seed=seed)
+    try:
+        plc.boot()
+        yield plc
+    finally:
+        plc.close()
+        target.unload()

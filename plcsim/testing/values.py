@@ -1,0 +1,130 @@
+"""Values of tags as text, and text as values: one notation for tables, CSV files and diagrams."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from plcsim.duration import parse_duration_ns
+from plcsim.memory import PAGE
+from plcsim.tag import Tag
+from plcsim.testing.errors import PlcTestError
+from st_types.derived import (
+    ArrayType,
+    EnumerationType,
+    StringType,
+    StructType,
+    SubrangeType,
+    WStringType,
+    resolve_alias,
+)
+from st_types.elementary import TIME, ElementaryType, Kind
+from st_types.values import decode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from plcsim.tag import TagTable
+    from st_types.elementary import DataType
+
+__tracebackhide__ = True
+
+MOST_LEAVES = 256
+"""A STRUCT or ARRAY with more elements than this is not recorded as a whole."""
+
+_BOOLS = {"TRUE": True, "FALSE": False, "1": True, "0": False}
+
+
+def text_of(data_type: DataType[Any], value: object) -> str:
+    """Return a plain value as text: TRUE or FALSE, the name of an enumeration's value, a number."""
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(data_type, EnumerationType):
+        return next((n for n, v in data_type.values.items() if v == value), str(value))
+    if isinstance(value, float):
+        return f"{value:.7g}" if data_type.size == 4 else repr(value)
+    if isinstance(value, str):
+        return value
+    return str(value)
+
+
+def value_of(data_type: DataType[Any], text: str) -> object:
+    """Return the plain value that ``text`` stands for.
+
+    TIME is a number of milliseconds or a duration such as ``250ms``.
+
+    Raises:
+        ValueError: the text is no value of the type.
+    """
+    if isinstance(data_type, StringType | WStringType):
+        return text
+    if isinstance(data_type, EnumerationType) and text in data_type.values:
+        return data_type.values[text]
+    if isinstance(data_type, ElementaryType) and data_type.kind is Kind.BOOL:
+        if text.upper() not in _BOOLS:
+            raise ValueError(f"{text!r} is not TRUE or FALSE")
+        return _BOOLS[text.upper()]
+    if isinstance(data_type, ElementaryType) and data_type.kind is Kind.REAL:
+        return float(text)
+    return _integer(data_type, text)
+
+
+def _integer(data_type: DataType[Any], text: str) -> int:
+    if data_type is TIME and text[-1:].isalpha():
+        milliseconds, rest = divmod(parse_duration_ns(text), 1_000_000)
+        if rest:
+            raise ValueError(f"{text!r} is not a whole number of milliseconds")
+        return milliseconds
+    try:
+        return int(text.replace("_", "").removeprefix("16#"), 16 if "16#" in text else 10)
+    except ValueError:
+        raise ValueError(f"{text!r} is not a {data_type}") from None
+
+
+def value_in(image: bytes, tag: Tag) -> object:
+    """Return the value of a tag in a copy of the memory above its first page."""
+    start = tag.address - PAGE
+    return decode(tag.data_type, image[start : start + tag.data_type.size])
+
+
+def is_number(data_type: DataType[Any]) -> bool:
+    """Whether values can be drawn as a curve."""
+    elementary = isinstance(data_type, ElementaryType) and data_type.kind is not Kind.BOOL
+    return elementary or isinstance(data_type, SubrangeType)
+
+
+def leaves_of(tags: TagTable, path: str) -> list[Tag]:
+    """Return the tags of elementary types at or below ``path``.
+
+    Raises:
+        TagError: there is no such tag.
+        PlcTestError: there are more than `MOST_LEAVES`.
+    """
+    found: list[Tag] = []
+    for leaf in _leaves(tags.find(path)):
+        if len(found) == MOST_LEAVES:
+            raise PlcTestError(f"{path} has more than {MOST_LEAVES} elements; name some of them")
+        found.append(leaf)
+    return found
+
+
+def _leaves(tag: Tag) -> Iterator[Tag]:
+    data_type = resolve_alias(tag.data_type)
+    if isinstance(data_type, StructType):
+        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+            inner = resolve_alias(member.data_type)
+            yield from _leaves(Tag(f"{tag.path}.{member.name}", inner, tag.address + offset))
+    elif isinstance(data_type, ArrayType):
+        element = resolve_alias(data_type.element)
+        for place in range(data_type.count):
+            path = f"{tag.path}[{_indices(data_type, place)}]"
+            yield from _leaves(Tag(path, element, tag.address + place * element.size))
+    else:
+        yield Tag(tag.path, data_type, tag.address)
+
+
+def _indices(data_type: ArrayType[Any], place: int) -> str:
+    indices: list[int] = []
+    for low, high in reversed(data_type.bounds):
+        place, index = divmod(place, high - low + 1)
+        indices.append(low + index)
+    return ",".join(str(index) for index in reversed(indices))

@@ -1,0 +1,221 @@
+"""The plugin in a pytest of its own: what a person sees."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+pytest_plugins = ["pytester"]
+
+QUICK = ("-p", "no:hypothesispytest")
+"""Hypothesis' own plugin would import it in every inner run."""
+
+CELL = Path(__file__).with_name("cell.py").read_text()
+
+
+@pytest.fixture
+def suite(pytester):
+    """A project with the cell, whose tests are given as text; returns the run's result."""
+    pytester.makefile(".toml", plc='[task_class.1]\ncycle = "10ms"\nprograms = ["cell"]\n')
+    (pytester.mkdir("cell") / "main.py").write_text(CELL)
+    pytester.makeini("[pytest]\nfilterwarnings = error\n")
+
+    def run(text, *arguments):
+        pytester.makepyfile(test_cell=text)
+        return pytester.runpytest_inprocess(*QUICK, *arguments)
+
+    return run
+
+
+def test_the_fixture_runs_the_project_that_the_test_belongs_to(suite):
+    result = suite(
+        """
+        def test_count(plc):
+            plc.run("100ms")
+            assert plc["cell.count"] == 10
+        """,
+        "--strict-markers",
+    )
+    result.assert_outcomes(passed=1)
+
+
+def test_every_test_has_a_controller_of_its_own(suite):
+    result = suite(
+        """
+        import pytest
+
+        @pytest.mark.parametrize("n", range(3))
+        def test_count(plc, n):
+            plc.cycles()
+            assert plc["cell.count"] == 1
+        """
+    )
+    result.assert_outcomes(passed=3)
+
+
+def test_a_failure_shows_the_expectation_the_table_and_the_diagram_and_nothing_internal(suite):
+    result = suite(
+        """
+        def test_late(plc):
+            plc.run("300ms")
+            plc.assert_within("100ms", {"cell.count": 41})
+        """
+    )
+    result.assert_outcomes(failed=1)
+    text = result.stdout.str()
+    result.stdout.fnmatch_lines(
+        [
+            ">*plc.assert_within*",
+            "E *expected cell.count = 41 within 100 ms; it held after none of 10 cycles*",
+            "E *the last 20 cycles*",
+            "E *cycle *time *cell.count*",
+            "E * 40  395 ms * 40",
+            "E *cell.count*",
+            "trace: *test_late.csv and *test_late.svg",
+        ]
+    )
+    assert "plcsim/testing" not in text
+    assert "--plc-seed" not in text
+
+
+def test_a_plain_assert_shows_the_tags_that_were_read(suite):
+    result = suite(
+        """
+        def test_count(plc):
+            plc.run("300ms")
+            assert plc["cell.count"] == 31
+        """
+    )
+    result.stdout.fnmatch_lines(
+        ["*assert 30 == 31", "*plc*", "the last 20 cycles", "* 295 ms * 30"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("body", "text"),
+    [
+        ("plc['cell.coutn']", "E *no tag 'cell.coutn'* did you mean cell.count*"),
+        ("plc['cell.start'] = 'on'", "E *'on' is not a BOOL*"),
+        ("plc.run('fast')", "E *run: 'fast' is not a duration*"),
+        (
+            "plc.plant(lambda tags, ns: 1 / 0); plc.run('1s')",
+            "E *plant <lambda> raised in cycle 1*",
+        ),
+        ("plc['cell.crash_at'] = 2; plc.run('1s')", "E *SERVICE*division by zero*main.py:*"),
+        ("plc.stimulate('none.csv')", "E *none.csv: cannot be read*"),
+    ],
+)
+def test_bad_input_says_so_with_no_internal_traceback(suite, body, text):
+    result = suite(f"def test_it(plc):\n    {body}\n")
+    result.assert_outcomes(failed=1)
+    result.stdout.fnmatch_lines([text])
+    assert "plcsim/testing" not in result.stdout.str()
+    assert "plcsim/tag" not in result.stdout.str()
+
+
+@pytest.mark.parametrize(
+    ("marker", "text"),
+    [
+        ("project='nowhere'", "*nowhere/plc.toml: there is no such file*"),
+        ("projekt='x'", "*unknown argument projekt*"),
+        ("network='real'", "*network is virtual or host, not real*"),
+        ("task_class=5", "*there is no task class 5; there are 1*"),
+        ("program=object, project='.'", "*either a project or a program*"),
+    ],
+)
+def test_a_project_that_does_not_load_says_so(suite, marker, text):
+    result = suite(f"import pytest\n@pytest.mark.plc({marker})\ndef test_it(plc): pass\n")
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines([text])
+    assert "Traceback" not in result.stdout.str()
+    assert "plcsim/testing" not in result.stdout.str()
+
+
+def test_a_program_that_cannot_be_imported_is_named_with_its_line(suite, pytester):
+    (pytester.path / "cell" / "main.py").write_text("import plcsim\nx = = 3\n")
+    result = suite("def test_it(plc): pass\n")
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*cell/main.py:2: SyntaxError: invalid syntax*"])
+
+
+def test_an_exit_that_fails_is_an_error_of_the_test(suite, pytester):
+    (pytester.path / "cell" / "main.py").write_text(
+        CELL.replace("self.exits += 1", "raise ValueError('no exit')")
+    )
+    result = suite("def test_it(plc):\n    plc.cycles()\n")
+    result.assert_outcomes(passed=1, errors=1)
+    result.stdout.fnmatch_lines(["*EXIT: ValueError: no exit*"])
+
+
+def test_seeds_repeat_a_test_and_a_failing_one_can_be_repeated(suite):
+    text = """
+        import pytest
+
+        @pytest.mark.plc(seeds=5)
+        def test_noise(plc):
+            plc.faults.noise("cell.level", 10)
+            plc.run("100ms")
+            assert plc["cell.level"] < 0
+        """
+    result = suite(text)
+    outcomes = result.parseoutcomes()
+    assert outcomes["failed"] + outcomes["passed"] == 5
+    result.stdout.fnmatch_lines(["chance was in it: repeat with --plc-seed=*"])
+    failed = [line.split("::")[1].split(" ")[0] for line in result.outlines if "FAILED" in line]
+    again = suite(text, "-k", failed[0])
+    again.assert_outcomes(failed=1, deselected=4)
+
+
+def test_a_random_seed_is_printed(suite):
+    result = suite("def test_it(plc): plc.cycles()\n", "--plc-seed=random")
+    result.assert_outcomes(passed=1)
+    result.stdout.re_match_lines([r"plcsim: --plc-seed=\d+"])
+
+
+def test_a_wrong_seed_is_an_error_of_use(suite):
+    result = suite("def test_it(plc): pass\n", "--plc-seed=x")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["*--plc-seed: 'x' is neither a number nor random*"])
+
+
+def test_repeats_multiply_tests(suite):
+    suite("def test_it(plc): plc.cycles()\n", "--plc-repeat=3").assert_outcomes(passed=3)
+
+
+def test_a_program_class_is_run_without_a_project(pytester):
+    pytester.makepyfile(
+        """
+        import pytest
+        from plcsim import Program
+        from st_types import DINT, var
+
+        class Counter(Program):
+            count = var(DINT)
+
+            def cyclic(self):
+                self.count += 1
+
+        @pytest.mark.plc(program=Counter, cycle="2ms")
+        def test_count(plc):
+            plc.run("10ms")
+            assert plc["Counter.count"] == 5
+        """
+    )
+    pytester.runpytest_inprocess(*QUICK).assert_outcomes(passed=1)
+
+
+def test_without_a_project_the_fixture_says_how_to_name_one(pytester):
+    pytester.makepyfile("def test_it(plc): pass\n")
+    result = pytester.runpytest_inprocess(*QUICK)
+    result.stdout.fnmatch_lines(["*no plc.toml in * or above it; name the project with *"])
+
+
+def test_a_run_without_plc_tests_imports_nothing_of_plcsim():
+    code = (
+        "import sys, plcsim.testing.plugin\n"
+        "loaded = [m for m in sys.modules if m.startswith(('plcsim', 'st_types'))]\n"
+        "assert sorted(loaded) == ['plcsim', 'plcsim.lazy', 'plcsim.testing',"
+        " 'plcsim.testing.plugin'], loaded\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
