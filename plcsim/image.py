@@ -51,7 +51,10 @@ class ProcessImage:
             self._scan.require(phase)
 
     def command(self, path: str, value: object) -> bool:
-        """Ask for a tag to be written in the next LATCH; return False where the queue is full.
+        """Ask for a tag to be written in a LATCH; return False where the queue is full.
+
+        It is the next one, in the order of the commands, that is not in the middle of a cycle of
+        the tag's own class: inputs stand still in RUN.
 
         Raises:
             TagError: there is no such tag, or it cannot take the value.
@@ -72,9 +75,17 @@ class ProcessImage:
         """
         self._require(Phase.LATCH)
         for _ in range(min(len(self._commands), DRAINED_PER_CYCLE)):
+            if self._is_in_cycle(self._commands[0][0]):
+                break
             self._tags.store(*self._commands.popleft())
         for bring_in in self.inputs:
             bring_in(task_class)
+
+    def _is_in_cycle(self, tag: Tag) -> bool:
+        """Return whether the tag belongs to a class that is preempted in the middle of a cycle."""
+        preempted = self._scan.in_cycle[:-1] if self._scan is not None else ()
+        owner = tag.path.partition(".")[0].upper()
+        return any(task.name.upper() == owner for c in preempted for task in c.tasks)
 
     def publish(self, task_class: TaskClass) -> None:
         """Let the watchers see the tags.

@@ -72,6 +72,14 @@ class Scan:
         image: called in LATCH and PUBLISH.
         supervisor: told of everything that goes on.
         place_of: gives "file:line" of what a program raised.
+
+    Attributes:
+        classes: in order.
+        phase: what the scan is doing.
+        in_cycle: classes whose cycle has begun and not ended; the last one runs, the others are
+            preempted.
+        active: the program that runs, None while none does.
+        origin_ns: when the grids were laid.
     """
 
     def __init__(
@@ -85,6 +93,7 @@ class Scan:
     ) -> None:
         self.classes = sorted(classes, key=lambda c: c.number)
         self.phase = Phase.SLEEP
+        self.in_cycle: list[TaskClass] = []
         self.running = False
         self.halted = False
         self.paused = False
@@ -178,9 +187,11 @@ class Scan:
         self._aborted = None
         task_class.lateness.record(self._clock.now_ns() - task_class.release_ns)
         task_class.cycles += 1
+        self.in_cycle.append(task_class)
         try:
             self._run_phases(task_class)
         finally:
+            self.in_cycle.pop()
             self.phase, self._context.release_ns, self._own_ns, self._aborted = outer
 
     def _run_phases(self, task_class: TaskClass) -> None:
