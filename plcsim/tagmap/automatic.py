@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.tag import Tag
 from plcsim.tagmap.csv_file import read_rows, write_rows
 from plcsim.tagmap.errors import TagMapError
-from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Row
+from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Point, Row
 from plcsim.tagmap.resolve import code_of
 from st_types.derived import ArrayType, DataBlockType, StringType, StructType, resolve_alias
 from st_types.views import address_of, type_of
@@ -87,21 +87,21 @@ def write_lock(folder: Path, rows: Iterable[Row]) -> None:
 
 
 def give_addresses(
-    tags: Iterable[Tag], fixed: Sequence[Row], locked: Sequence[Row]
+    tags: Iterable[Tag], fixed: Sequence[Point], locked: Sequence[Row]
 ) -> tuple[list[Row], list[Row]]:
     """Return the rows of all tags, and the rows of the new lock file.
 
     Args:
         tags: the variables; those of types that no register can hold are left out.
-        fixed: rows of tags.csv, which stay as they are; their variables get no second address.
+        fixed: points of tags.csv; their variables get no second address.
         locked: rows of the lock file.
 
     Raises:
         TagMapError: there are more variables than addresses.
     """
-    named = {row.tag.upper() for row in fixed}
+    named = {point.tag.upper() for point in fixed}
     known = {(row.tag.upper(), row.type, row.length): row for row in locked}
-    free = {area: _first_free(area, [*fixed, *locked]) for area in Area}
+    free = {area: _first_free(area, fixed, locked) for area in Area}
     rows: list[Row] = []
     given: list[Row] = []
     for tag in tags:
@@ -136,9 +136,8 @@ def _size(row: Row) -> int:
     return row.length or REGISTERS[KINDS[row.type]]
 
 
-def _first_free(area: Area, rows: Sequence[Row]) -> int:
-    """Return the first address behind all rows of an area; a type left out may take four."""
-    return max(
-        (r.offset + (_size(r) if r.type else max(4, r.length)) for r in rows if r.area is area),
-        default=0,
-    )
+def _first_free(area: Area, fixed: Sequence[Point], locked: Sequence[Row]) -> int:
+    """Return the first address behind all others of an area."""
+    ends = [point.offset + point.registers for point in fixed if point.area == area.value]
+    ends += [row.offset + _size(row) for row in locked if row.area is area]
+    return max(ends, default=0)

@@ -174,7 +174,9 @@ def write_rows(rows: Iterable[Row]) -> str:
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(COLUMNS)
     for row in rows:
-        writer.writerow([_written(getattr(row, _ATTRIBUTES.get(name, name))) for name in COLUMNS])
+        values = {name: getattr(row, _ATTRIBUTES.get(name, name)) for name in COLUMNS}
+        values["length"] = row.length or None
+        writer.writerow([_written(value) for value in values.values()])
     return out.getvalue()
 
 

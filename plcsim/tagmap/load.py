@@ -45,10 +45,11 @@ def load_map(
     """
     rows = _file_rows(settings)
     file = Path(settings.tags or folder / LOCK_FILE)
+    points = resolve(rows, tags.find, file, settings.order)
     if not settings.auto:
-        return TagMap(rows, resolve(rows, tags.find, file, settings.order), (), is_locked=True)
+        return TagMap(rows, points, (), is_locked=True)
     locked = locked_rows(folder)
-    given, lock = give_addresses(all_tags(tasks), rows, locked)
+    given, lock = give_addresses(all_tags(tasks), points, locked)
     rows = [*rows, *given]
     points = resolve(rows, tags.find, file, settings.order)
     return TagMap(rows, points, lock, is_locked=len(lock) == len(locked))
