@@ -35,13 +35,16 @@ def parse_duration_ns(text: str) -> int:
 
 
 def format_duration(duration_ns: int) -> str:
-    """Return a duration in the largest unit that keeps it above 1, three digits at most.
+    """Return a duration in the largest unit that keeps it above 1, to three digits.
 
-    Whole numbers of a unit are exact, however many digits they take.
+    Whole numbers of a unit are exact, however many digits they take, and so are the digits before
+    the point.
     """
     for unit in ("s", "ms", "us"):
         whole, rest = divmod(duration_ns, _UNITS_NS[unit])
+        if whole and not rest:
+            return f"{whole} {unit}"
         if whole:
-            number = whole if not rest else f"{duration_ns / _UNITS_NS[unit]:.3g}"
-            return f"{number} {unit}"
+            number = duration_ns / _UNITS_NS[unit]
+            return f"{number:.3g} {unit}" if number < 999.5 else f"{number:.0f} {unit}"
     return f"{duration_ns} ns"
