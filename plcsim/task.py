@@ -157,13 +157,17 @@ class TaskClass:
     ) -> None:
         if not LOWEST_CLASS <= number <= HIGHEST_CLASS:
             raise ValueError(f"task class {number} is outside {LOWEST_CLASS}..{HIGHEST_CLASS}")
-        if cycle_ns <= 0 or tolerance_ns < 0:
+        if cycle_ns <= 0:
             raise ValueError(f"task class {number}: the cycle time must be above 0")
+        first_release_ns = cycle_ns // 2 if first_release_ns is None else first_release_ns
+        for what, duration_ns in ("tolerance", tolerance_ns), ("first release", first_release_ns):
+            if duration_ns < 0:
+                raise ValueError(f"task class {number}: the {what} must not be below 0")
         self.number = number
         self.cycle_ns = cycle_ns
         self.tolerance_ns = tolerance_ns
         self.tasks = tuple(tasks)
-        self.first_release_ns = cycle_ns // 2 if first_release_ns is None else first_release_ns
+        self.first_release_ns = first_release_ns
         self.policy = policy
         self.host_policy = host_policy
         self.release_ns = 0
