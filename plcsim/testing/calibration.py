@@ -16,7 +16,7 @@ from st_types.views import Struct, var
 if TYPE_CHECKING:
     from plcsim.testing.costs import Costs
 
-REFERENCE_NS = 20_000
+REFERENCE_NS = 10_000
 """CPU time of the loop on the reference machine."""
 
 ROUNDS = 40

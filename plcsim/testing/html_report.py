@@ -46,7 +46,8 @@ th { text-align: right; color: var(--soft); font-weight: 500 }
 td, th { padding: 3px 14px 3px 0; text-align: right; white-space: nowrap }
 td:first-child, th:first-child { text-align: left }
 tr + tr td { border-top: 1px solid var(--line) }
-pre { background: var(--page); border-radius: 6px; padding: 12px; overflow-x: auto;
+pre { white-space: pre-wrap; background: var(--page); border-radius: 6px; padding: 12px;
+  overflow-x: auto;
   font: 12px/1.45 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace }
 .charts { display: flex; gap: 20px; flex-wrap: wrap }
 figure { margin: 0 } figcaption { font-size: 12px; color: var(--soft) }

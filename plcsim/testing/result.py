@@ -11,21 +11,31 @@ from plcsim.statistics import Histogram
 from plcsim.testing.costs import overhead_ns
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import pytest
 
     from plcsim.testing.calibration import Calibration
     from plcsim.testing.plc import Plc
+    from plcsim.testing.trace import Trace
 
 SCHEMA = "plcsim-test-report/1"
 
 _REPEAT = re.compile(r"-?repeat\d+(?=[\]-])")
+
+_OWN_ERROR = re.compile(r"\Aplcsim\.[\w.]+: ")
+"""What pytest puts before the message of an error of ours."""
 
 MOST_TRACES = 6
 """Traces of one test that go into the report."""
 
 
 def result_of(
-    item: pytest.Item, report: pytest.TestReport, plc: Plc, calibration: Calibration | None
+    item: pytest.Item,
+    report: pytest.TestReport,
+    plc: Plc,
+    calibration: Calibration | None,
+    traces: Sequence[Trace],
 ) -> dict[str, Any]:
     """Return what the report says of one test; docs/testing-reference.md describes each field."""
     own_ns = overhead_ns()
@@ -54,10 +64,8 @@ def result_of(
         "violations": [violation_report(v) for v in plc.controller.violations],
         "traces": [
             {"tags": [t.path for t in trace.tags], "svg": trace.to_svg()}
-            for trace in plc.traces[:MOST_TRACES]
-        ]
-        if calibration
-        else [],
+            for trace in traces[:MOST_TRACES]
+        ],
     }
 
 
@@ -70,7 +78,8 @@ def _message(report: pytest.TestReport) -> str:
     if isinstance(report.longrepr, tuple):
         return str(report.longrepr[2])
     text = getattr(getattr(report.longrepr, "reprcrash", None), "message", None)
-    return str(text or report.longrepr or "") if not report.passed else ""
+    shown = str(text or report.longrepr or "") if not report.passed else ""
+    return _OWN_ERROR.sub("", shown)
 
 
 def _program(name: str, costs_ns: list[int], own_ns: int, loop_ns: int) -> dict[str, Any]:

@@ -34,6 +34,8 @@ from st_types.errors import TypeSystemError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from plcsim.testing.trace import Trace
+
 __tracebackhide__ = True
 
 PLC: pytest.StashKey[Plc] = pytest.StashKey()
@@ -213,45 +215,61 @@ def complete(item: pytest.Item, call: pytest.CallInfo[None], report: pytest.Test
     if plc is None or report.when == "teardown" or (report.when == "setup" and report.passed):
         return
     current = plc.latest
+    traces = [*current.traces]
     if report.failed:
         try:
-            _explain(item, call, report, current)
+            traces = _traces_of_failure(call, current)
+            _explain(item, call, report, current, traces)
         except Exception as err:  # a failing test must be reported, whatever its tags are like
             report.sections.append(("plc", f"the failure could not be explained: {err!r}"))
     if plc.realtime and report.when == "call":
         _apply_verdict(item, report, plc)
-    result = result_of(item, report, current, item.stash.get(CALIBRATION, None))
+    shown = traces if item.config.getoption("--plc-report") else []
+    result = result_of(item, report, current, item.stash.get(CALIBRATION, None), shown)
     item.user_properties.extend(properties_of(result))
     report.plc = result  # type: ignore[attr-defined]
 
 
+def _tags_of(call: pytest.CallInfo[None], plc: Plc) -> tuple[str, ...]:
+    """Return the tags that a failure is about, or those that were read last."""
+    error = call.excinfo.value if call.excinfo else None
+    return error.tags if isinstance(error, ExpectationFailed) else tuple(plc.recent())
+
+
+def _traces_of_failure(call: pytest.CallInfo[None], plc: Plc) -> list[Trace]:
+    """Return what the test recorded, and the last cycles of the tags that the failure is about."""
+    leaves = [leaf for path in _tags_of(call, plc) for leaf in plc.tags.leaves(path)]
+    return [*plc.traces, *([plc.history.trace(leaves)] if leaves else [])]
+
+
 def _explain(
-    item: pytest.Item, call: pytest.CallInfo[None], report: pytest.TestReport, plc: Plc
+    item: pytest.Item,
+    call: pytest.CallInfo[None],
+    report: pytest.TestReport,
+    plc: Plc,
+    traces: list[Trace],
 ) -> None:
     """Add the last cycles where the exception does not bring them, the files, the seed."""
-    error = call.excinfo.value if call.excinfo else None
-    paths = error.tags if isinstance(error, ExpectationFailed) else tuple(plc.recent())
     lines = []
     if plc.interleaving is not None:
         lines.append(f"interleaving: {plc.interleaving}")
-    if not isinstance(error, ExpectationFailed) and paths:
+    own = call.excinfo is not None and isinstance(call.excinfo.value, ExpectationFailed)
+    paths = _tags_of(call, plc)
+    if paths and not own:
         lines.append(plc.explain(paths))
-    lines += _saved(item, plc, paths)
+    lines += _saved(item, traces)
     if plc.used_chance:
         lines.append(f"chance was in it: repeat with --plc-seed={plc.seed}")
     if lines:
         report.sections.append(("plc", "\n".join(lines)))
 
 
-def _saved(item: pytest.Item, plc: Plc, paths: tuple[str, ...]) -> list[str]:
+def _saved(item: pytest.Item, traces: list[Trace]) -> list[str]:
     """Save the traces of a failed test; return a line for each."""
     folder = _trace_folder(item.config)
     if folder is None:
         return []
     name = re.sub(r"[^\w.+-]+", "_", item.nodeid.rpartition("/")[2])
-    traces = [*plc.traces]
-    if paths:
-        traces.append(plc.history.trace([t for p in paths for t in plc.tags.leaves(p)]))
     lines = []
     for place, trace in enumerate(traces):
         suffix = f"-{place + 1}" if len(traces) > 1 else ""

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 WIDTH = 960
 LANE = 34
 GAP = 12
+GUTTER = 86
+"""Pixels beside the names: the bounds of curves stand there."""
+
 LETTER = 6.7
 """Width of a letter of the 11 px font, in pixels, with some to spare."""
 
@@ -73,7 +76,7 @@ def timing_diagram(lanes: Sequence[tuple[Tag, Changes]], end_ns: int, title: str
     """
     starts = [changes[0][0] for _, changes in lanes if changes]
     start_ns = min(starts, default=0)
-    left = min(360, 24 + LETTER * max((len(tag.path) for tag, _ in lanes), default=0))
+    left = min(420, GUTTER + LETTER * max((len(tag.path) for tag, _ in lanes), default=0))
     top = 34 if title else 14
     bottom = top + len(lanes) * (LANE + GAP)
     scale = _Scale(start_ns, end_ns + max(1, (end_ns - start_ns) // 60), left, WIDTH - 16)
@@ -155,8 +158,8 @@ def _curve(changes: Changes, scale: _Scale, y: float) -> list[str]:
     left = scale.x(scale.start_ns)
     return [
         f'<polyline class="curve" points="{" ".join(points)}"/>',
-        label(left - 4, y + 12, f"{high:g}", "soft", "end"),
-        label(left - 4, y + LANE, f"{low:g}", "soft", "end"),
+        label(left - 6, y + 12, f"{high:.4g}", "soft", "end"),
+        label(left - 6, y + LANE, f"{low:.4g}", "soft", "end"),
     ]
 
 

@@ -1,0 +1,177 @@
+"""``plcsim report compare A B``: did programs get slower between two runs of the tests?
+
+Each repeat of a test gives one number: the median CPU time of a program's cycles, in runs of the
+calibration loop that ran between them. The repeats of A and B are compared by rank.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from statistics import median
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from rich.console import Console
+from rich.table import Table
+
+from plcsim.errors import ConfigurationError
+from plcsim.rank_test import rank_test
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Mapping, Sequence
+
+SCHEMA = "plcsim-test-report/1"
+FILE_NAME = "report.json"
+
+FALSE_ALARMS = 0.01
+"""Share of comparisons of equal runs that may end in an alarm, all tests together."""
+
+SMALLEST_CHANGE = 0.1
+"""Growth that is no alarm: two runs of the same code differ by a few percent in all repeats alike,
+as objects lie elsewhere in memory."""
+
+FEWEST_REPEATS = 5
+"""With fewer a rank test could hardly ever be sure."""
+
+GOT_WORSE = 4
+"""Exit code."""
+
+Key = tuple[str, str]
+"""Test (all of its repeats) and program."""
+
+
+class Comparison(NamedTuple):
+    """One program in one test, in two runs.
+
+    Attributes:
+        test: the test without the number of the repeat.
+        program: the program.
+        repeats: of A and of B.
+        change: how much the median grew, 0.2 for a fifth.
+        probability: of such ranks if the growth were no more than the smallest that counts.
+        worse: whether this is an alarm.
+    """
+
+    test: str
+    program: str
+    repeats: tuple[int, int]
+    change: float
+    probability: float
+    worse: bool
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    parser = subparsers.add_parser("report", help="compare the reports of two test runs")
+    acts = parser.add_subparsers(title="acts", metavar="ACT", required=True)
+    command = acts.add_parser(
+        "compare",
+        help="tell whether programs got slower",
+        description="Compare two reports of `pytest --plc-report DIR --plc-repeat 30`: did a "
+        "program get slower from A to B? The unit is the calibration loop of each run, so the "
+        "machines may differ in speed.",
+        epilog=f"Exit codes: 0 nothing got slower, 1 a report is wrong, {GOT_WORSE} something did.",
+    )
+    command.add_argument("before", type=Path, metavar="A", help="folder or report.json")
+    command.add_argument("after", type=Path, metavar="B", help="folder or report.json")
+    command.add_argument(
+        "--smallest",
+        type=float,
+        default=SMALLEST_CHANGE,
+        metavar="SHARE",
+        help=f"smallest growth of the median that counts (default: {SMALLEST_CHANGE})",
+    )
+    command.set_defaults(func=compare)
+
+
+def compare(options: argparse.Namespace) -> int:
+    """Print the comparison and return the exit code."""
+    found = comparisons(read_samples(options.before), read_samples(options.after), options.smallest)
+    _print(found)
+    return GOT_WORSE if any(c.worse for c in found) else 0
+
+
+def read_samples(path: Path) -> dict[Key, list[float]]:
+    """Return the medians of all repeats by test and program.
+
+    Raises:
+        ConfigurationError: the report is missing or is none.
+    """
+    file = path / FILE_NAME if path.is_dir() else path
+    try:
+        report = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError) as err:
+        raise ConfigurationError(f"{file}: cannot be read: {err}") from None
+    if not isinstance(report, dict) or report.get("schema") != SCHEMA:
+        raise ConfigurationError(f"{file}: is no report of --plc-report ({SCHEMA})")
+    try:
+        return _samples(report["tests"])
+    except (KeyError, TypeError, AttributeError) as err:
+        raise ConfigurationError(f"{file}: is damaged: {err!r}") from None
+
+
+def _samples(tests: Sequence[Mapping[str, Any]]) -> dict[Key, list[float]]:
+    samples: dict[Key, list[float]] = {}
+    for test in tests:
+        for program in test["programs"]:
+            if test["outcome"] != "skipped" and program["median_in_loops"] > 0:
+                key = test["group"], program["name"]
+                samples.setdefault(key, []).append(float(program["median_in_loops"]))
+    return samples
+
+
+def comparisons(
+    before: Mapping[Key, Sequence[float]],
+    after: Mapping[Key, Sequence[float]],
+    smallest: float = SMALLEST_CHANGE,
+) -> list[Comparison]:
+    """Compare what both runs have.
+
+    The samples of A, made larger by the smallest growth that counts, are tested against those of B.
+    The permitted share of false alarms is divided among all comparisons (Bonferroni).
+
+    Raises:
+        ConfigurationError: the runs have no program of a test in common, or too few repeats.
+    """
+    keys = sorted(before.keys() & after.keys())
+    if not keys:
+        raise ConfigurationError("the two reports have no program of any test in common")
+    fewest = min(min(len(before[key]), len(after[key])) for key in keys)
+    if fewest < FEWEST_REPEATS:
+        raise ConfigurationError(
+            f"{fewest} repeats are too few to compare, {FEWEST_REPEATS} are needed and 30 are "
+            "good: pytest --plc-repeat 30"
+        )
+    alarm_below = FALSE_ALARMS / len(keys)
+    return [_compare(key, before[key], after[key], smallest, alarm_below) for key in keys]
+
+
+def _compare(
+    key: Key, before: Sequence[float], after: Sequence[float], smallest: float, alarm_below: float
+) -> Comparison:
+    change = median(after) / median(before) - 1
+    allowed = [value * (1 + smallest) for value in before]
+    probability = rank_test(allowed, after).probability
+    repeats = len(before), len(after)
+    return Comparison(*key, repeats, change, probability, probability < alarm_below)
+
+
+def _print(found: Sequence[Comparison]) -> None:
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    for column in ("test", "program", "repeats", "change", "p", ""):
+        left = column in ("test", "program", "")
+        table.add_column(column, justify="left" if left else "right", overflow="fold")
+    for c in found:
+        table.add_row(
+            c.test,
+            c.program,
+            f"{c.repeats[0]} / {c.repeats[1]}",
+            f"{c.change:+.1%}",
+            f"{c.probability:.2g}",
+            "[bold red]slower[/]" if c.worse else "",
+        )
+    console = Console(highlight=False)
+    console.print(table)
+    worse = sum(c.worse for c in found)
+    console.print(f"{worse} of {len(found)} got slower" if worse else "nothing got slower")
