@@ -1,0 +1,15 @@
+"""Which plant the controller's terminals are wired to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from plcsim import Program
+
+
+class Wiring:
+    """One for each controller: the programs enter themselves in INIT."""
+
+    def __init__(self, _context: object) -> None:
+        self.control: Program | None = None

@@ -1,0 +1,187 @@
+"""The service as a process beside a real scan: writes, kill -9, bad orders of the world."""
+
+import os
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from plcsim.project import Project, read_project
+from plcsim.run_file import find_run
+from plcsim.supervisor import Supervisor
+
+from .site import frame
+
+PROGRAM = """
+from plcsim import Program
+from st_types import ARRAY, UDINT, UINT, var
+
+class Echo(Program):
+    wanted = var(UINT)
+    seen = var(UINT)
+    block = var(ARRAY(UINT, (1, 120)))
+    cycles = var(UDINT)
+
+    def cyclic(self):
+        self.seen = self.wanted
+        self.cycles += 1
+"""
+
+
+def free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return int(probe.getsockname()[1])
+
+
+class Site:
+    """A project that runs under its supervisor in a thread."""
+
+    def __init__(self, folder: Path) -> None:
+        self.port = free_port()
+        (folder / "echo").mkdir()
+        (folder / "echo" / "main.py").write_text(PROGRAM)
+        rows = ["echo.wanted,hr,0", "echo.seen,hr,1", "echo.cycles,hr,2"]
+        rows += [f"echo.block[{i}],hr,{i + 9}" for i in range(1, 121)]
+        (folder / "tags.csv").write_text("\n".join(["tag,area,offset", *rows]))
+        (folder / "plc.toml").write_text(
+            f'[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
+            f'programs = ["echo"]\n[modbus]\nport = {self.port}\n'
+        )
+        self.project: Project = read_project(folder)
+        self.supervisor = Supervisor(self.project)
+        self.result: dict[str, object] = {}
+        self._thread = threading.Thread(target=self._wait)
+        self._thread.start()
+
+    def _wait(self) -> None:
+        self.result = self.supervisor.wait()
+
+    def stop(self) -> None:
+        self.supervisor.stop()
+        self._thread.join(10)
+
+    def connect(self) -> socket.socket:
+        deadline = time.monotonic() + 20
+        while True:
+            try:
+                client = socket.create_connection(("127.0.0.1", self.port), 5)
+            except ConnectionRefusedError:
+                assert time.monotonic() < deadline
+                time.sleep(0.005)
+            else:
+                client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                return client
+
+    def service_pid(self) -> int:
+        process = self.supervisor.services._services[0]._process
+        assert process is not None
+        return process.pid
+
+
+@pytest.fixture
+def site(tmp_path: Path) -> Iterator[Site]:
+    made = Site(tmp_path)
+    with made.supervisor:
+        yield made
+        made.stop()
+
+
+def ask(client: socket.socket, pdu: bytes) -> bytes:
+    """Return the PDU of the answer, "" where the connection ends."""
+    try:
+        client.sendall(frame(pdu))
+        header = b""
+        while len(header) < 7:
+            piece = client.recv(7 - len(header))
+            if not piece:
+                return b""
+            header += piece
+        rest, body = int.from_bytes(header[4:6], "big") - 1, b""
+        while len(body) < rest:
+            body += client.recv(rest - len(body))
+    except ConnectionError:
+        return b""
+    return body
+
+
+def ready(client: socket.socket) -> None:
+    while ask(client, bytes.fromhex("03 0000 0001"))[0] & 0x80:
+        time.sleep(0.005)
+
+
+def test_a_write_goes_through_the_program_and_back(site: Site) -> None:
+    with site.connect() as client:
+        ready(client)
+        for value in range(1, 50):
+            written = b"\x06\0\0" + struct.pack(">H", value)
+            assert ask(client, written) == written
+            assert ask(client, bytes.fromhex("03 0000 0002"))[2:] == struct.pack(
+                ">HH", value, value
+            )
+
+
+def test_a_killed_service_is_back_within_a_second_and_has_lost_no_acknowledged_write(
+    site: Site,
+) -> None:
+    acknowledged = 0
+    for _ in range(3):
+        with site.connect() as client:
+            ready(client)
+            block = ask(client, bytes.fromhex("03 000a 0078"))[2:]
+            values = set(struct.unpack(">120H", block))
+            assert len(values) == 1  # whole or not at all
+            assert values.pop() in (acknowledged, acknowledged + 1)
+            killer = threading.Timer(0.1, os.kill, (site.service_pid(), signal.SIGKILL))
+            killer.start()
+            value = acknowledged
+            while True:
+                data = struct.pack(">H", value + 1) * 120
+                if not ask(client, bytes.fromhex("10 000a 0078 f0") + data):
+                    break
+                value = acknowledged = value + 1
+            killed = time.monotonic()
+        with site.connect() as client:
+            ready(client)
+            assert time.monotonic() - killed < 1.0
+    assert acknowledged > 20
+    assert site.supervisor.services.starts["modbus"] == 4
+    cycles = site.supervisor.page.of_class(1).cycles
+    site.stop()
+    assert site.result["state"] == "STOPPED"
+    assert cycles > 100
+
+
+def test_a_run_is_found_by_its_folder(site: Site) -> None:
+    with site.connect():
+        run = find_run(site.project.folder)
+        assert run.pid == os.getpid()
+
+
+def test_a_stopped_run_leaves_neither_process_nor_port(site: Site) -> None:
+    with site.connect() as client:
+        ready(client)
+        pid = site.service_pid()
+        site.stop()
+    site.supervisor.services._services[0].stop()
+    assert not Path(f"/proc/{pid}").exists()
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.1", site.port), 5)
+
+
+def test_a_service_without_an_image_says_so() -> None:
+    fd = os.memfd_create("empty")
+    order = f'{{"table": "modbus", "image_fd": {fd}, "status_fd": {fd}, "wake_fd": -1}}'
+    done = subprocess.run(
+        [sys.executable, "-m", "plcsim.services.modbus", order],
+        pass_fds=[fd], capture_output=True, text=True, check=False, timeout=30,
+    )  # fmt: skip
+    os.close(fd)
+    assert done.returncode == 1
+    assert done.stderr == "plcsim: the scan process has not made the image yet\n"
