@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import importlib
 import itertools
+import os
 import sys
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -57,7 +58,7 @@ class ProgramLoader:
 
     def _load(self, source: str) -> type[Program]:
         folder = self._folder / source
-        if not folder.is_dir():
+        if not os.path.isdir(folder):  # noqa: PTH112  # no error for what can be no path
             raise ConfigurationError(f"{folder}: no such program folder{self._known()}")
         package = ".".join((self._package, *folder.relative_to(self._folder).parts))
         self._add_package(package, folder)
@@ -84,7 +85,7 @@ class ProgramLoader:
     def _import(self, folder: Path, name: str) -> ModuleType:
         try:
             return importlib.import_module(name)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             place = place_of(error) or str(folder)
             raise ConfigurationError(f"{place}: {describe(error)}") from error
 
