@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
-from plcsim.duration import format_duration
 from plcsim.errors import ConfigurationError
 from plcsim.extension import extensions
 from plcsim.library.options import check_options
@@ -34,6 +33,9 @@ DEFAULT_CYCLES_MS = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10
 
 DEFAULT_TOLERANCE_OF_8_NS = 30_000_000_000
 """Class 8 tolerates 30 s, again as in a new Automation Studio project; others their cycle time."""
+
+ANY_CPU, LAST_CPU = -1, 1023
+"""The last is the last that sched_setaffinity(2) takes without a larger set."""
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _SIZE = re.compile(r"(\d+)\s*(KiB|MiB)?")
@@ -119,6 +121,8 @@ def read_project(path: Path) -> Project:
         raise ConfigurationError(f"{file}: cannot be read: {err}") from None
     except tomllib.TOMLDecodeError as err:
         raise ConfigurationError(f"{file}: {err}") from None
+    except RecursionError:
+        raise ConfigurationError(f"{file}: brackets are nested too deep") from None
     top = Table(file, "", values)
     plc = Table(file, "plc", top.take("plc", dict, {}))
     tick_ns = plc.duration_ns("tick", 1_000_000)
@@ -152,13 +156,11 @@ def _plc_table(
     settings: dict[str, Any],
 ) -> Project:
     exception = plc.take("exception_program", str, "")
+    exception_program = _program(plc, "exception_program", exception) if exception else None
     realtime = plc.take("realtime", str, "auto")
     if realtime not in ("auto", "off", "require"):
         raise plc.error("realtime", f'{realtime!r} is not "auto", "off" or "require"')
-    priority = plc.take("priority", int, 50)
-    if not 1 <= priority <= 98:
-        raise plc.error("priority", f"{priority} is outside 1..98")
-    cpu = plc.take("cpu", int, -1)
+    cpu = plc.number("cpu", ANY_CPU, ANY_CPU, LAST_CPU)
     project = Project(
         folder=folder,
         name=plc.take("name", str, folder.resolve().name),
@@ -167,17 +169,17 @@ def _plc_table(
         watchdog_ns=plc.duration_ns("watchdog", 500_000_000),
         init_timeout_ns=plc.duration_ns("init_timeout", 10_000_000_000),
         realtime=realtime,
-        priority=priority,
-        cpu=None if cpu < 0 else cpu,
+        priority=plc.number("priority", 50, 1, 98),
+        cpu=None if cpu == ANY_CPU else cpu,
         classes=classes,
-        exception_program=ProgramEntry(exception, exception) if exception else None,
+        exception_program=exception_program,
         options=options,
         extensions=settings,
     )
     plc.finish()
     for name, value in options.items():
         if not isinstance(value, dict):
-            raise plc.error(f"library.{name}", "a table is expected")
+            raise ConfigurationError(f"{folder / FILE_NAME}: library.{name}: a table is expected")
     return project
 
 
@@ -209,9 +211,10 @@ def _task_classes(file: Path, tables: dict[str, Any], tick_ns: int) -> tuple[Tas
 
 def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
     cycle_ns = table.duration_ns("cycle", DEFAULT_CYCLES_MS[number] * 1_000_000)
-    if cycle_ns <= 0 or cycle_ns % tick_ns:
-        cycle, tick = format_duration(cycle_ns), format_duration(tick_ns)
-        raise table.error("cycle", f"{cycle} is not a multiple of the tick, {tick}")
+    if cycle_ns <= 0:
+        raise table.error("cycle", "must be above 0")
+    if cycle_ns % tick_ns:
+        raise table.error("cycle", f"{cycle_ns} ns is not a multiple of the tick, {tick_ns} ns")
     tolerance_ns = DEFAULT_TOLERANCE_OF_8_NS if number == HIGHEST_CLASS else cycle_ns
     entry = TaskClassEntry(
         number=number,
@@ -220,7 +223,9 @@ def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
         first_release_ns=table.duration_ns("first_release", cycle_ns // 2),
         policy=table.convert("on_violation", Policy.SERVICE, _policy),
         host_policy=table.convert("on_host_violation", Policy.LOG, _policy),
-        programs=tuple(_program(table, value) for value in table.take("programs", list, [])),
+        programs=tuple(
+            _program(table, "programs", value) for value in table.take("programs", list, [])
+        ),
     )
     if not entry.programs:
         raise table.error("programs", "at least one program is needed")
@@ -235,19 +240,19 @@ def _policy(text: str) -> Policy:
         raise ValueError(f'{text!r} is not "service", "log" or "exception"') from None
 
 
-def _program(table: Table, value: object) -> ProgramEntry:
+def _program(table: Table, key: str, value: object) -> ProgramEntry:
     if isinstance(value, str):
         value = {"name": value}
     if not isinstance(value, dict) or not isinstance(value.get("name"), str):
-        raise table.error("programs", f"{value!r} is neither a name nor {{name=..., source=...}}")
+        raise table.error(key, f"{value!r} is neither a name nor {{name=..., source=...}}")
     name, source = value["name"], value.get("source", value["name"])
     unknown = sorted(set(value) - {"name", "source"})
     if unknown:
-        raise table.error("programs", f"{name}: unknown key {unknown[0]}")
+        raise table.error(key, f"{name}: unknown key {unknown[0]}")
     if not _NAME.fullmatch(name):
-        raise table.error("programs", f"{name!r} is not an identifier")
+        raise table.error(key, f"{name!r} is not an identifier")
     if not isinstance(source, str) or Path(source).is_absolute() or ".." in Path(source).parts:
-        raise table.error("programs", f"{name}: source {source!r} is not a folder of the project")
+        raise table.error(key, f"{name}: source {source!r} is not a folder of the project")
     return ProgramEntry(name, source)
 
 

@@ -72,15 +72,15 @@ class Table:
         return value
 
     def convert(self, key: str, default: T, convert: Callable[[str], T]) -> T:
-        """Return a string converted, or the default where there is none or it is empty.
+        """Return a string converted, or the default where there is none.
 
         Raises:
             ConfigurationError: ``convert`` raised ValueError.
         """
-        text = self.take(key, str, "") if key in self._values else ""
-        self._known.append(key)
+        given = key in self._values
+        text = self.take(key, str, "")
         try:
-            return convert(text) if text else default
+            return convert(text) if given else default
         except ValueError as err:
             raise self.error(key, str(err)) from None
 
