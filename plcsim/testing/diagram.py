@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from plcsim.testing.values import is_number, text_of
+from plcsim.testing.values import is_number, printable, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,8 +32,8 @@ def table(rows: Sequence[Sequence[str]], head: Sequence[str]) -> str:
 
 
 def shorten(text: str, width: int = WIDEST) -> str:
-    """Return at most ``width`` characters, without line breaks."""
-    text = "".join(c if c.isprintable() else "·" for c in text)
+    """Return at most ``width`` characters, all of them printable."""
+    text = printable(text)
     return text if len(text) <= width else text[: width - 1] + "…"
 
 

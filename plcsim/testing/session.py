@@ -239,7 +239,8 @@ def _tags_of(call: pytest.CallInfo[None], plc: Plc) -> tuple[str, ...]:
 def _traces_of_failure(call: pytest.CallInfo[None], plc: Plc) -> list[Trace]:
     """Return what the test recorded, and the last cycles of the tags that the failure is about."""
     leaves = [leaf for path in _tags_of(call, plc) for leaf in plc.tags.leaves(path)]
-    return [*plc.traces, *([plc.history.trace(leaves)] if leaves else [])]
+    traces = [*plc.traces, plc.history.trace(leaves)]
+    return [trace for trace in traces if trace.tags and trace.rows]
 
 
 def _explain(
@@ -254,9 +255,9 @@ def _explain(
     if plc.interleaving is not None:
         lines.append(f"interleaving: {plc.interleaving}")
     own = call.excinfo is not None and isinstance(call.excinfo.value, ExpectationFailed)
-    paths = _tags_of(call, plc)
-    if paths and not own:
-        lines.append(plc.explain(paths))
+    cycles = plc.explain(_tags_of(call, plc))
+    if cycles and not own:
+        lines.append(cycles)
     lines += _saved(item, traces)
     if plc.used_chance:
         lines.append(f"chance was in it: repeat with --plc-seed={plc.seed}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
-from plcsim.testing.values import is_number, text_of
+from plcsim.testing.values import is_number, printable, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,7 +63,8 @@ def document(width: float, height: float, body: str) -> str:
 def label(x: float, y: float, text: str, kind: str = "", anchor: str = "start") -> str:
     """Return one line of text."""
     name = f' class="{kind}"' if kind else ""
-    return f'<text x="{x:g}" y="{y:g}"{name} text-anchor="{anchor}">{escape(text)}</text>'
+    shown = escape(printable(text))
+    return f'<text x="{x:g}" y="{y:g}"{name} text-anchor="{anchor}">{shown}</text>'
 
 
 def timing_diagram(lanes: Sequence[tuple[Tag, Changes]], end_ns: int, title: str = "") -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from typing import TYPE_CHECKING, Any
 
 from plcsim.duration import parse_duration_ns
@@ -41,10 +42,17 @@ def text_of(data_type: DataType[Any], value: object) -> str:
     if isinstance(data_type, EnumerationType):
         return next((n for n, v in data_type.values.items() if v == value), str(value))
     if isinstance(value, float):
-        return f"{value:.7g}" if data_type.size == 4 else repr(value)
+        return _real(value) if data_type.size == 4 else repr(value)
     if isinstance(value, str):
         return value
     return str(value)
+
+
+def _real(value: float) -> str:
+    """Return the shortest text that gives a 32-bit REAL back; 9 digits always do."""
+    data = struct.pack("<f", value)
+    texts = (f"{value:.{digits}g}" for digits in (6, 7, 8, 9))
+    return next((t for t in texts if struct.pack("<f", float(t)) == data), repr(value))
 
 
 def value_of(data_type: DataType[Any], text: str) -> object:
@@ -78,6 +86,11 @@ def _integer(data_type: DataType[Any], text: str) -> int:
         return int(text.replace("_", "").removeprefix("16#"), 16 if "16#" in text else 10)
     except ValueError:
         raise ValueError(f"{text!r} is not a {data_type}") from None
+
+
+def printable(text: str) -> str:
+    """Return a text with a dot for each character that is none, such as a line break."""
+    return "".join(c if c.isprintable() else "·" for c in text)
 
 
 def value_in(image: bytes, tag: Tag) -> object:
