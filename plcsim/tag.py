@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.errors import TagError
 from plcsim.memory import find
-from st_types.derived import ArrayType, StructType, resolve_alias
+from st_types.derived import ArrayType, DataBlockType, StructType, resolve_alias
 from st_types.errors import ValueRangeError
 from st_types.values import encode
 from st_types.views import address_of, type_of
@@ -109,5 +110,33 @@ def _leaves(path: str, data_type: DataType[Any], address: int) -> Iterator[Tag]:
     elif isinstance(data_type, ArrayType):
         first = ",".join(str(low) for low, _ in data_type.bounds)
         yield from _leaves(f"{path}[{first}]", data_type.element, address)
+    else:
+        yield Tag(path, data_type, address)
+
+
+def leaves(
+    path: str, data_type: DataType[Any], address: int, *, blocks: bool = True
+) -> Iterator[Tag]:
+    """Iterate over the tags below one variable, every element of an ARRAY included.
+
+    Args:
+        path: of the variable.
+        data_type: its type.
+        address: PLC address of its first byte.
+        blocks: go into the data blocks of function blocks as well.
+    """
+    data_type = resolve_alias(data_type)
+    if isinstance(data_type, StructType):
+        if not blocks and isinstance(data_type, DataBlockType):
+            return
+        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+            inner = f"{path}.{member.name}"
+            yield from leaves(inner, member.data_type, address + offset, blocks=blocks)
+    elif isinstance(data_type, ArrayType):
+        ranges = (range(low, high + 1) for low, high in data_type.bounds)
+        for place, index in enumerate(itertools.product(*ranges)):
+            inner = f"{path}[{','.join(map(str, index))}]"
+            element = address + place * data_type.element.size
+            yield from leaves(inner, data_type.element, element, blocks=blocks)
     else:
         yield Tag(path, data_type, address)

@@ -6,15 +6,14 @@ changed, gets the next free one; one that has gone leaves a hole.
 
 from __future__ import annotations
 
-import itertools
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
-from plcsim.tag import Tag
+from plcsim.tag import Tag, leaves
 from plcsim.tagmap.csv_file import read_rows, write_rows
 from plcsim.tagmap.errors import TagMapError
 from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Point, Row
 from plcsim.tagmap.resolve import code_of
-from st_types.derived import ArrayType, DataBlockType, StringType, StructType, resolve_alias
+from st_types.derived import StringType, resolve_alias
 from st_types.views import address_of, type_of
 
 if TYPE_CHECKING:
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.task import Task
-    from st_types.elementary import DataType
 
 LOCK_FILE: Final = "tags.lock"
 _HEADING = "# Addresses given by plcsim; keep this file, so that they never change.\n"
@@ -33,23 +31,8 @@ _WIDER = {"b": "h", "B": "H"}
 def all_tags(tasks: Sequence[Task]) -> Iterator[Tag]:
     """Iterate over the variables of all programs, every element of arrays, no function blocks."""
     for task in tasks:
-        yield from _leaves(task.name, type_of(task.variables), address_of(task.variables))
-
-
-def _leaves(path: str, data_type: DataType[Any], address: int) -> Iterator[Tag]:
-    data_type = resolve_alias(data_type)
-    if isinstance(data_type, DataBlockType):
-        return
-    if isinstance(data_type, StructType):
-        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-            yield from _leaves(f"{path}.{member.name}", member.data_type, address + offset)
-    elif isinstance(data_type, ArrayType):
-        ranges = (range(low, high + 1) for low, high in data_type.bounds)
-        for place, index in enumerate(itertools.product(*ranges)):
-            name = f"{path}[{','.join(map(str, index))}]"
-            yield from _leaves(name, data_type.element, address + place * data_type.element.size)
-    else:
-        yield Tag(path, data_type, address)
+        start = address_of(task.variables)
+        yield from leaves(task.name, type_of(task.variables), start, blocks=False)
 
 
 def locked_rows(folder: Path) -> list[Row]:

@@ -1,0 +1,129 @@
+"""``plcsim watch PROJECT [TAG...]``: live values of a running project."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.live import Live
+from rich.table import Table
+
+from plcsim.errors import ConfigurationError
+from plcsim.run_file import find_run
+from plcsim.shared_image import ImageError, ImageNotReady, ImageReader
+from plcsim.tag import Tag, leaves
+from st_types.derived import ArrayType, EnumerationType, StructType
+from st_types.values import decode
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator, Sequence
+
+PERIOD_S = 0.2
+PATIENCE_S = 5.0
+"""A project that has just been started may take so long until it publishes."""
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command."""
+    parser = subparsers.add_parser(
+        "watch",
+        help="show live values of a running project",
+        description="Show values of a project that runs elsewhere, until Ctrl-C. A TAG is a "
+        "program, a variable or a part of one; all are shown where none is given. The scan does "
+        "not notice.",
+    )
+    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    parser.add_argument("tags", nargs="*", metavar="TAG", help="such as tank.level")
+    parser.add_argument("--once", action="store_true", help="print the values once and end")
+    parser.set_defaults(func=watch)
+
+
+def watch(options: argparse.Namespace) -> int:
+    """Show the values."""
+    run = find_run(options.project)
+    fd = run.open(run.image_fd)
+    try:
+        reader = _open(fd)
+        tags = list(_chosen(reader, options.tags))
+        console = Console(highlight=False)
+        if options.once or not console.is_terminal:
+            console.print(_table(reader, tags))
+        else:
+            _show(console, reader, tags)
+    finally:
+        os.close(fd)
+    return 0
+
+
+def _open(fd: int) -> ImageReader:
+    """Return the image; the scan process may still be loading the project."""
+    deadline = time.monotonic() + PATIENCE_S
+    while True:
+        try:
+            reader = ImageReader(fd)
+            reader.copy(0, 0)
+        except ImageNotReady:
+            if time.monotonic() > deadline:
+                raise
+            time.sleep(PERIOD_S / 10)
+        else:
+            return reader
+
+
+def _chosen(reader: ImageReader, paths: Sequence[str]) -> Iterator[Tag]:
+    """Iterate over the tags to show: those named, or all below a STRUCT or a program."""
+    for path in paths or [v.program for v in reader.directory.variables]:
+        tag = reader.directory.find(path)
+        for leaf in leaves(path, tag.data_type, tag.address):
+            whole = isinstance(tag.data_type, StructType | ArrayType)
+            try:
+                reader.directory.place_of(leaf.address, leaf.data_type.size)
+            except ImageError:
+                if whole:
+                    continue
+                raise ConfigurationError(
+                    f"{path} is not published: of a project with many variables only those in "
+                    "tags.csv are"
+                ) from None
+            yield leaf
+
+
+def _show(console: Console, reader: ImageReader, tags: Sequence[Tag]) -> None:
+    try:
+        with Live(console=console, auto_refresh=False) as live:
+            while True:
+                live.update(_table(reader, tags), refresh=True)
+                time.sleep(PERIOD_S)
+    except KeyboardInterrupt:
+        return
+
+
+def _table(reader: ImageReader, tags: Sequence[Tag]) -> Table:
+    """Return the values of one snapshot."""
+    number, snapshot = reader.copy(0, reader.directory.bank_size)
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table.add_column(f"tag (snapshot {number})", no_wrap=True)
+    table.add_column("value", justify="right")
+    table.add_column("type")
+    for tag in tags:
+        place = reader.directory.place_of(tag.address, tag.data_type.size)
+        value = decode(tag.data_type, snapshot[place : place + tag.data_type.size])
+        table.add_row(tag.path, _shown(tag, value), str(tag.data_type))
+    return table
+
+
+def _shown(tag: Tag, value: object) -> str:
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, str):
+        return repr(value)
+    if isinstance(tag.data_type, EnumerationType):
+        names = {number: name for name, number in tag.data_type.values.items()}
+        return names.get(int(str(value)), str(value))
+    return str(value)

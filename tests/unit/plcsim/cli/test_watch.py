@@ -1,0 +1,113 @@
+import os
+from collections.abc import Iterator
+from enum import IntEnum
+from pathlib import Path
+
+import pytest
+
+from plcsim import Program
+from plcsim.cli.main import main
+from plcsim.clock import VirtualClock
+from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.network import VirtualNetwork
+from plcsim.run_file import Run, announce
+from plcsim.shared_image import ImageWriter
+from plcsim.shared_image.layout import make_file
+from st_types import ARRAY, BOOL, BYTE, ENUM, REAL, STRING, UINT, Struct, var
+
+
+class Mode(IntEnum):
+    OFF = 0
+    ON = 5
+
+
+class Axis(Struct):
+    speed = var(REAL, 1.5)
+    ready = var(BOOL, initial=True)
+
+
+class Cell(Program):
+    count = var(UINT)
+    axes = var(ARRAY(Axis, (1, 2)))
+    name = var(STRING(9), "cell")
+    mode = var(ENUM(Mode), Mode.ON)
+
+    def cyclic(self) -> None:
+        self.count += 1
+
+
+class Huge(Program):
+    waste = var(ARRAY(BYTE, (0, 100_000)))
+
+
+@pytest.fixture(autouse=True)
+def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+
+
+def running(folder: Path, program: type[Program]) -> int:
+    clock = VirtualClock()
+    network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
+    setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("cell", program)])])
+    plc = Controller(setup, network=network, clock=clock)
+    fd = make_file()
+    ImageWriter(fd, plc, project="cell", services={})
+    plc.boot()
+    plc.run(cycles=7)
+    announce(folder, Run(os.getpid(), fd, fd))
+    return fd
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Iterator[Path]:
+    fd = running(tmp_path, Cell)
+    yield tmp_path
+    os.close(fd)
+
+
+def shown(capsys: pytest.CaptureFixture[str]) -> list[list[str]]:
+    return [line.split() for line in capsys.readouterr().out.splitlines()]
+
+
+def test_all_variables_are_shown(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["watch", str(project), "--once"]) == 0
+    assert shown(capsys)[1:] == [
+        ["cell.count", "7", "UINT"],
+        ["cell.axes[1].speed", "1.5", "REAL"],
+        ["cell.axes[1].ready", "TRUE", "BOOL"],
+        ["cell.axes[2].speed", "1.5", "REAL"],
+        ["cell.axes[2].ready", "TRUE", "BOOL"],
+        ["cell.name", "'cell'", "STRING[9]"],
+        ["cell.mode", "ON", "Mode"],
+    ]
+
+
+def test_named_variables_are_shown_in_their_order(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["watch", str(project), "cell.axes[2]", "CELL.COUNT"]) == 0
+    assert [line[0] for line in shown(capsys)[1:]] == [
+        "cell.axes[2].speed",
+        "cell.axes[2].ready",
+        "CELL.COUNT",
+    ]
+
+
+def test_an_unknown_variable_is_named(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["watch", str(project), "cell.cuont", "--once"]) == 1
+    assert "no tag 'cell.cuont'" in capsys.readouterr().err
+
+
+def test_a_project_that_does_not_run_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["watch", str(tmp_path / "none")]) == 1
+    assert "is not running; start it with plcsim run" in capsys.readouterr().err
+
+
+def test_what_is_not_published_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    fd = running(tmp_path, Huge)
+    assert main(["watch", str(tmp_path), "cell.waste[5]"]) == 1
+    assert "cell.waste[5] is not published" in capsys.readouterr().err
+    assert main(["watch", str(tmp_path), "cell.waste"]) == 0
+    os.close(fd)
