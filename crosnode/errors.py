@@ -8,6 +8,7 @@
     │   └── DefinitionError          a definition that genmsg would not load, with its line
     ├── MessageValueError            ours: a value that its field cannot hold (also a ValueError)
     ├── InvalidNameError             ours: not a ROS graph name (also a ValueError)
+    ├── NodeError                the world's: a node cannot start, for it gets no port
     ├── LocalProtocolError           ours: a protocol object used out of turn
     └── RemoteProtocolError          theirs: a peer broke a protocol; its connection ends
         ├── DecodeError              bytes that are not a message of the type
@@ -42,6 +43,10 @@ class MessageValueError(CrosnodeError, ValueError):
 
 class InvalidNameError(CrosnodeError, ValueError):
     """A name is not a legal ROS graph name."""
+
+
+class NodeError(CrosnodeError):
+    """A node or a master cannot start."""
 
 
 class LocalProtocolError(CrosnodeError):

@@ -1,0 +1,184 @@
+"""The bounded step that the node and the embedded master share: listeners and links, in turn.
+
+Each step goes on at the connection where the budget of the step before ended, so that no peer can
+keep the others from their turn. Budgets of what happens less often (accepts, calls) are spent
+first come, first served.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
+
+from crosnode.link import Link
+from crosnode.tcpip_socket import SocketPool, TcpipSocketState
+
+if TYPE_CHECKING:
+    from crosnode.budget import Budget, StepLimits
+    from crosnode.link import Owner
+    from crosnode.tcpros import TcprosConnection
+    from crosnode.uri import Address
+    from crosnode.xmlrpc import XmlRpcConnection
+    from plcsim.context import Context
+
+BACKLOG: Final = 64
+REOPEN_NS: Final = 1_000_000_000
+"""Nanoseconds between two attempts to open a port that is in use."""
+
+
+Accepted: TypeAlias = "tuple[TcprosConnection | XmlRpcConnection, Owner, bool]"
+"""The protocol for a new connection, its owner, and whether it is XML-RPC."""
+
+
+class Acceptor(Protocol):
+    """Who takes the connections of a listener."""
+
+    def accepted(self, now_ns: int) -> Accepted:
+        """Return what a new connection speaks and who owns it."""
+
+
+class Listener:
+    """A port that peers connect to.
+
+    Args:
+        loop: whose sockets and links are used.
+        ip: address of the own interface, "" for all.
+        port: 0 for any free one.
+        acceptor: see ``Acceptor``.
+
+    Attributes:
+        port: the port listened at, the one wanted until it is open.
+    """
+
+    def __init__(self, loop: EventLoop, ip: str, port: int, acceptor: Acceptor) -> None:
+        self.port = port
+        self._ip = ip
+        self._loop = loop
+        self._acceptor = acceptor
+        self._socket = loop.pool.get()
+        self._retry_ns = 0
+
+    @property
+    def is_open(self) -> bool:
+        """Whether peers can connect."""
+        return self._socket.is_open
+
+    @property
+    def status(self) -> int:
+        """Status of the last block called, for messages."""
+        return self._socket.status
+
+    def open(self, now_ns: int) -> bool:
+        """Open the port where it is not, at most once a second; return whether it is."""
+        if self._socket.is_open:
+            return True
+        if now_ns < self._retry_ns:
+            return False
+        self._retry_ns = now_ns + REOPEN_NS
+        self._socket.init(self._ip, self.port)
+        if self._socket.open(listening=True) is not TcpipSocketState.DONE:
+            return False
+        self.port = self._socket.own_port
+        return True
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Take waiting connections within the budget."""
+        if not self.open(now_ns):
+            return
+        while budget.accepts > 0:
+            client = self._loop.pool.get()
+            state = self._socket.accept(client, BACKLOG)
+            if state is not TcpipSocketState.DONE:
+                self._loop.pool.put(client)
+                if state is not TcpipSocketState.IN_PROGRESS:
+                    self._socket.close()
+                return
+            budget.accepts -= 1
+            client.set_options()
+            connection, owner, is_xmlrpc = self._acceptor.accepted(now_ns)
+            self._loop.add(Link(client, connection, owner, now_ns, is_xmlrpc=is_xmlrpc))
+
+    def close(self) -> None:
+        """Close the port."""
+        self._loop.pool.put(self._socket)
+
+
+class EventLoop:
+    """All connections of a node or a master.
+
+    Args:
+        context: of the controller.
+        limits: of each step.
+
+    Attributes:
+        links: all connections.
+        listeners: all ports.
+    """
+
+    def __init__(self, context: Context, limits: StepLimits) -> None:
+        self.pool = context.library(SocketPool)
+        self.limits = limits
+        self.links: list[Link] = []
+        self.listeners: list[Listener] = []
+        self._turn = 0
+        self._listener_turn = 0
+
+    def listen(self, ip: str, port: int, acceptor: Acceptor) -> Listener:
+        """Add a port to listen at."""
+        listener = Listener(self, ip, port, acceptor)
+        self.listeners.append(listener)
+        return listener
+
+    def connect(
+        self,
+        address: Address,
+        connection: TcprosConnection | XmlRpcConnection,
+        owner: Owner,
+        now_ns: int,
+        *,
+        is_xmlrpc: bool,
+    ) -> Link:
+        """Add a connection to a peer; it is made in the steps to come."""
+        socket = self.pool.get()
+        socket.init(*address)
+        link = Link(socket, connection, owner, now_ns, is_xmlrpc=is_xmlrpc)
+        self.add(link)
+        return link
+
+    def add(self, link: Link) -> None:
+        """Add a link."""
+        self.links.append(link)
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Look at one listener, then at each link in turn while the budget lasts."""
+        if self.listeners:
+            self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
+            self.listeners[self._listener_turn].step(now_ns, budget)
+        count = min(len(self.links), budget.polls)
+        for link in self._in_turn(count):
+            link.step(now_ns, budget)
+        if any(link.is_over for link in self.links):
+            self._remove_ended()
+
+    def _in_turn(self, count: int) -> list[Link]:
+        """Return the next links, those that were waiting longest first."""
+        links = self.links
+        if not count:
+            return []
+        start = self._turn % len(links)
+        self._turn = start + (count if count < len(links) else 1)
+        return [*links[start:], *links[:start]][:count]
+
+    def _remove_ended(self) -> None:
+        for link in self.links:
+            if link.is_over:
+                self.pool.put(link.socket)
+        self.links = [link for link in self.links if not link.is_over]
+
+    def close(self, now_ns: int) -> None:
+        """End all links and close all ports at once."""
+        for link in self.links:
+            link.abort("", now_ns)
+        self._remove_ended()
+        for listener in self.listeners:
+            listener.close()
+        self.listeners.clear()

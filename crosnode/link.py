@@ -1,0 +1,210 @@
+"""A link: one protocol connection (TCPROS or XML-RPC) on one TcpipSocket.
+
+The link moves bytes between the two within the budget of a step and hands each event to its owner.
+It ends when the connection is over and what was left to say is written, or the socket is lost.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, Protocol
+
+from crosnode.connection import Failed, State
+from crosnode.dyn_buffer import DynBuffer
+from crosnode.tcpip_socket import AREA_SIZE, TcpipSocketState
+
+if TYPE_CHECKING:
+    from crosnode import tcpros, xmlrpc
+    from crosnode.budget import Budget
+    from crosnode.dyn_buffer import Data
+    from crosnode.tcpip_socket import TcpipSocket
+
+OUTBOX_MAX: Final = 1 << 30
+"""Bytes; owners bound what they send, so this is never reached."""
+
+CLOSING_NS: Final = 5_000_000_000
+"""Nanoseconds that a peer has to read what is left to say to it."""
+
+CONNECT_NS: Final = 2_000_000_000
+"""Nanoseconds after which a peer that does not answer counts as absent."""
+
+XMLRPC_READ: Final = 4_096
+"""Bytes read at once from an XML-RPC connection."""
+
+_DONE: Final = TcpipSocketState.DONE
+_IN_PROGRESS: Final = TcpipSocketState.IN_PROGRESS
+
+
+class SansIo(Protocol):
+    """What a link asks of a protocol connection; see ``crosnode.connection``."""
+
+    state: State
+
+    @property
+    def wants_data(self) -> bool:
+        """Whether bytes should be read."""
+
+    def receive_data(self, data: Data) -> None:
+        """Take bytes."""
+
+    def receive_eof(self) -> None:
+        """Take the end of the stream."""
+
+    def handle_timer(self, now_ns: int) -> Failed | None:
+        """End the connection where its time is over."""
+
+    def data_to_send(self) -> list[bytes | memoryview]:
+        """Give what is to be written."""
+
+    def close(self) -> None:
+        """End the connection."""
+
+
+class Owner(Protocol):
+    """Who a link belongs to."""
+
+    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+        """Take an event of the link's connection."""
+
+    def fill(self, link: Link) -> None:
+        """Hand waiting messages to the connection; called while little is left to write."""
+
+    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+        """Note that the link is over; its socket is closed. "" where the peer just closed."""
+
+
+class Link:
+    """One connection; made by `crosnode.event_loop.EventLoop`.
+
+    Args:
+        socket: connected, or named by ``init`` to be connected.
+        connection: the protocol.
+        owner: takes events.
+        now_ns: time of the step.
+
+    Attributes:
+        bytes_in: bytes read so far.
+        bytes_out: bytes written so far.
+        peer: who is at the other end, for messages and getBusInfo.
+    """
+
+    __slots__ = ("_closing_ns", "_inbox", "_outbox", "_reason", "_since_ns", "_xmlrpc",
+                 "bytes_in", "bytes_out", "connection", "is_over", "owner", "peer",
+                 "socket")  # fmt: skip
+
+    def __init__(
+        self,
+        socket: TcpipSocket,
+        connection: tcpros.TcprosConnection | xmlrpc.XmlRpcConnection,
+        owner: Owner,
+        now_ns: int,
+        *,
+        is_xmlrpc: bool,
+    ) -> None:
+        self.socket = socket
+        self.connection = connection
+        self.owner = owner
+        self.peer = f"{socket.ip}:{socket.port}"
+        self.bytes_in = self.bytes_out = 0
+        self.is_over = False
+        self._inbox = DynBuffer(AREA_SIZE)
+        self._outbox = DynBuffer(OUTBOX_MAX)
+        self._since_ns = now_ns
+        self._closing_ns: int | None = None
+        self._reason = ""
+        self._xmlrpc = is_xmlrpc
+
+    @property
+    def waiting(self) -> int:
+        """Bytes that wait to be written."""
+        return self._outbox.size
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Do what can be done now within the budget."""
+        budget.polls -= 1
+        if not self.socket.is_connected and not self._connect(now_ns):
+            return
+        if failed := self.connection.handle_timer(now_ns):
+            self._handle(failed, now_ns)
+        self._receive(now_ns, budget)
+        self._send(now_ns, budget)
+        if self.connection.state is State.CLOSED and not self.is_over:
+            self._finish(now_ns)
+
+    def close(self, reason: str = "") -> None:
+        """End the link from this side: what waits is still written, for a while."""
+        self._reason = self._reason or reason
+        self.connection.close()
+
+    def abort(self, reason: str, now_ns: int) -> None:
+        """End the link at once."""
+        if not self.is_over:
+            self.is_over = True
+            self.connection.close()
+            self.socket.close()
+            self.owner.ended(self, self._reason or reason, now_ns)
+
+    def _connect(self, now_ns: int) -> bool:
+        state = self.socket.connect()
+        if state is _DONE:
+            self.socket.set_options()
+            return True
+        if state is not _IN_PROGRESS:
+            self.abort(f"no connection to {self.peer}: AsTCP status {self.socket.status}", now_ns)
+        elif now_ns - self._since_ns >= CONNECT_NS or self.connection.state is State.CLOSED:
+            self.abort(f"{self.peer} does not answer", now_ns)
+        return False
+
+    def _receive(self, now_ns: int, budget: Budget) -> None:
+        self._take_events(now_ns, budget)
+        if not self.connection.wants_data:
+            return
+        size = min(XMLRPC_READ, budget.bytes_parsed) if self._xmlrpc else budget.bytes_in
+        if size <= 0:
+            return
+        state, received = self.socket.read_buffer_ex(self._inbox, size)
+        if state is _DONE:
+            self._count(received, budget)
+            self.connection.receive_data(self._inbox.take())
+            self._take_events(now_ns, budget)
+        elif state is not _IN_PROGRESS:
+            self.connection.receive_eof()
+            self._take_events(now_ns, budget)
+            self.connection.close()
+
+    def _count(self, received: int, budget: Budget) -> None:
+        self.bytes_in += received
+        if self._xmlrpc:
+            budget.bytes_parsed -= received
+        else:
+            budget.bytes_in -= received
+
+    def _take_events(self, now_ns: int, budget: Budget) -> None:
+        connection = self.connection
+        while budget.messages > 0 and (event := connection.next_event(now_ns)) is not None:
+            budget.messages -= 1
+            self._handle(event, now_ns)
+
+    def _handle(self, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+        if isinstance(event, Failed):
+            self._reason = self._reason or event.reason
+        self.owner.handle_event(self, event, now_ns)
+
+    def _send(self, now_ns: int, budget: Budget) -> None:
+        if self._outbox.size < AREA_SIZE:
+            self.owner.fill(self)
+        for piece in self.connection.data_to_send():
+            self._outbox.push_back(piece)
+        if not self._outbox.size or budget.bytes_out <= 0:
+            return
+        state, written = self.socket.write_buffer_ex(self._outbox, budget.bytes_out)
+        self.bytes_out += written
+        budget.bytes_out -= written
+        if state not in (_DONE, _IN_PROGRESS):
+            self.abort(f"{self.peer} is gone", now_ns)
+
+    def _finish(self, now_ns: int) -> None:
+        """End the link when the last bytes are written, or the peer does not take them."""
+        if self._closing_ns is None:
+            self._closing_ns = now_ns + CLOSING_NS
+        if not self._outbox.size or now_ns >= self._closing_ns:
+            self.abort("", now_ns)

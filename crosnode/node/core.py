@@ -1,0 +1,57 @@
+"""What all parts of one node share."""
+
+from __future__ import annotations
+
+from itertools import count
+from typing import TYPE_CHECKING
+
+from crosnode.node.status import Status, StatusKind
+
+if TYPE_CHECKING:
+    from crosnode.api_caller import ApiCaller
+    from crosnode.event_loop import EventLoop
+    from crosnode.hosts import HostTable
+    from crosnode.node.master_client import MasterClient
+    from crosnode.queues import DropOldestQueue
+    from crosnode.tcpros import Limits
+
+
+class NodeCore:
+    """The surroundings of publishers, subscribers and services.
+
+    Attributes:
+        name: of the node, resolved.
+        loop: its connections.
+        api: makes calls.
+        master: registers.
+        hosts: finds hosts.
+        tcpros_limits: of each topic or service connection.
+        statuses: news for the program.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        loop: EventLoop,
+        api: ApiCaller,
+        master: MasterClient,
+        hosts: HostTable,
+        tcpros_limits: Limits,
+        statuses: DropOldestQueue[Status],
+    ) -> None:
+        self.name = name
+        self.loop = loop
+        self.api = api
+        self.master = master
+        self.hosts = hosts
+        self.tcpros_limits = tcpros_limits
+        self.statuses = statuses
+        self._numbers = count(1)
+
+    def tell(self, kind: StatusKind, name: str, text: str = "") -> None:
+        """Put news into the program's queue."""
+        self.statuses.push(Status(kind, name, text[:1000]))
+
+    def next_number(self) -> int:
+        """Return the number of a new connection, for getBusInfo."""
+        return next(self._numbers)

@@ -1,0 +1,424 @@
+"""CrosNode: a ROS 1 node that does one bounded step per scan cycle.
+
+The shape is that of cROS: a program registers what it publishes, subscribes, provides and calls,
+runs ``do_events_loop`` once a cycle, and drains queues. Nothing calls back and nothing waits.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from crosnode.api_caller import ApiCall, ApiCaller
+from crosnode.budget import Budget, StepLimits
+from crosnode.errors import InvalidNameError, NodeError
+from crosnode.event_loop import EventLoop
+from crosnode.hosts import HostTable
+from crosnode.messages import MessageTypes
+from crosnode.node.acceptors import ServiceAcceptor, SlaveAcceptor, TopicAcceptor
+from crosnode.node.core import NodeCore
+from crosnode.node.master_client import MasterClient, Registration
+from crosnode.node.parameter import ParameterSubscription
+from crosnode.node.publisher import Publisher
+from crosnode.node.ros_time import RosTime
+from crosnode.node.rosout import LogLevel, Rosout
+from crosnode.node.service_caller import ServiceCaller
+from crosnode.node.service_provider import ServiceProvider
+from crosnode.node.slave_api import SlaveApi
+from crosnode.node.status import Status, StatusKind
+from crosnode.node.subscriber import Subscriber
+from crosnode.queues import DropOldestQueue
+from crosnode.tcpros import Limits as TcprosLimits
+from crosnode.uri import make_uri
+from crosnode.xmlrpc import Limits as XmlRpcLimits
+from plcsim.statistics import Histogram
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from crosnode.names import NodeSettings
+    from crosnode.xmlrpc import Value
+    from plcsim.context import Context
+
+STATUSES: Final = 200
+CLOSING_NS: Final = 3_000_000_000
+"""Nanoseconds that ``close`` gives the master to take the registrations back, as in cROS."""
+
+
+class NodeOptions(NamedTuple):
+    """What a node may take and where it listens.
+
+    Attributes:
+        step: bounds of one step.
+        tcpros: bounds of a topic or service connection.
+        xmlrpc: bounds of an XML-RPC connection.
+        bind_ip: own interface to listen on, "" for all.
+        hosts: addresses of host names.
+        epoch_ns: added to a release gives nanoseconds since 1970.
+        clock_ns: measures the step for ``statistics``; None measures nothing.
+    """
+
+    step: StepLimits = StepLimits()
+    tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
+    xmlrpc: XmlRpcLimits = XmlRpcLimits()
+    bind_ip: str = ""
+    hosts: Mapping[str, str] | None = None
+    epoch_ns: int = 0
+    clock_ns: Callable[[], int] | None = None
+
+
+class CrosNode:
+    """A node.
+
+    Args:
+        context: of the controller.
+        settings: name, namespace, master, host and remappings (`crosnode.names.node_settings`).
+        types: message types; ``MessageTypes()`` has the common ones.
+        options: see ``NodeOptions``.
+
+    Attributes:
+        name: resolved.
+        host: name or number under which others reach it.
+        uri: of its slave API, "" until its ports are open.
+        publishers: by topic. ``subscribers`` by topic, ``providers`` by service.
+        statuses: news for the program, to be popped.
+        statistics: how long the steps took.
+        is_shut_down: somebody asked the node to end, or ``close`` was called.
+        is_closed: all is taken back and closed.
+    """
+
+    def __init__(
+        self,
+        context: Context,
+        settings: NodeSettings,
+        types: MessageTypes | None = None,
+        options: NodeOptions | None = None,
+    ) -> None:
+        self.options = options or NodeOptions()
+        self.types = types or MessageTypes()
+        self.name = settings.names.node
+        self.host = settings.host
+        self.pid = os.getpid()
+        self.publishers: dict[str, Publisher] = {}
+        self.subscribers: dict[str, Subscriber] = {}
+        self.providers: dict[str, ServiceProvider] = {}
+        self.params: list[ParameterSubscription] = []
+        self.callers: list[ServiceCaller] = []
+        self.statuses: DropOldestQueue[Status] = DropOldestQueue(STATUSES)
+        self.statistics = Histogram()
+        self.is_shut_down = False
+        self.is_closed = False
+        self._closing_ns: int | None = None
+        self._context = context
+        self._names = settings.names
+        self._open(settings.master_uri)
+        self._time = RosTime(self, self.options.epoch_ns)
+        self._rosout = Rosout(self)
+        for key, value in settings.parameters.items():
+            self.set_param(key, value)
+
+    def _open(self, master_uri: str) -> None:
+        """Open the three ports and make what needs their numbers."""
+        now_ns, options = self._context.release_ns, self.options
+        loop = EventLoop(self._context, options.step)
+        slave = SlaveAcceptor(SlaveApi(self), options.xmlrpc)
+        topics, services = TopicAcceptor(self), ServiceAcceptor(self)
+        self._slave_listener = loop.listen(options.bind_ip, 0, slave)
+        self.topic_listener = loop.listen(options.bind_ip, 0, topics)
+        self._service_listener = loop.listen(options.bind_ip, 0, services)
+        for listener in loop.listeners:
+            if not listener.open(now_ns):
+                raise NodeError(f"{self.name}: no port: AsTCP status {listener.status}.")
+        self.uri = make_uri("http", self.host, self._slave_listener.port)
+        hosts = HostTable(options.hosts)
+        api = ApiCaller(loop, hosts, options.xmlrpc)
+        master = MasterClient(api, master_uri, self.name, self.uri, self.statuses)
+        self.core = NodeCore(self.name, loop, api, master, hosts, options.tcpros, self.statuses)
+
+    @property
+    def now_ns(self) -> int:
+        """ROS time of this cycle: nanoseconds since 1970, or simulated; 0 before it is known."""
+        return self._time.now_ns(self._context.release_ns)
+
+    @property
+    def is_registered(self) -> bool:
+        """Whether the master knows all that shall be registered."""
+        return self.core.master.is_registered
+
+    # What a program registers
+
+    def register_publisher(
+        self,
+        topic: str,
+        type_name: str,
+        *,
+        queue_size: int = 10,
+        latching: bool = False,
+        loop_period_ns: int = 0,
+    ) -> Publisher:
+        """Publish a topic; call it in INIT, for a type's first use takes milliseconds.
+
+        Args:
+            topic: name, resolved and remapped by the node's rules.
+            type_name: ``pkg/Name``.
+            queue_size: messages that may wait for each subscriber.
+            latching: a new subscriber gets the last message at once.
+            loop_period_ns: nanoseconds after which ``pop`` gives the next message to fill, 0 for
+                never.
+
+        Raises:
+            InvalidNameError: not a legal name, or the topic is published already.
+            MessageTypeError: the type cannot be had.
+        """
+        topic = self._new_name(topic, self.publishers)
+        message_type = self.types.message(type_name)
+        message_type.warm()
+        registration = Registration(
+            topic,
+            ("registerPublisher", [topic, message_type.name, self.uri]),
+            ("unregisterPublisher", [topic, self.uri]),
+        )
+        publisher = self.publishers[topic] = Publisher(
+            topic,
+            message_type,
+            registration,
+            queue_size=queue_size,
+            latching=latching,
+            loop_period_ns=loop_period_ns,
+        )
+        self.core.master.add(registration)
+        return publisher
+
+    def register_subscriber(
+        self, topic: str, type_name: str, *, queue_size: int = 10, tcp_nodelay: bool = True
+    ) -> Subscriber:
+        """Subscribe to a topic; arguments and errors as for ``register_publisher``."""
+        topic = self._new_name(topic, self.subscribers)
+        message_type = self.types.message(type_name)
+        message_type.warm()
+        registration = Registration(
+            topic,
+            ("registerSubscriber", [topic, message_type.name, self.uri]),
+            ("unregisterSubscriber", [topic, self.uri]),
+        )
+        subscriber = self.subscribers[topic] = Subscriber(
+            topic,
+            message_type,
+            registration,
+            self.core,
+            queue_size=queue_size,
+            tcp_nodelay=tcp_nodelay,
+        )
+        registration.on_value = subscriber.update
+        self.core.master.add(registration)
+        return subscriber
+
+    def register_service_provider(
+        self, service: str, type_name: str, *, queue_size: int = 100
+    ) -> ServiceProvider:
+        """Provide a service; errors as for ``register_publisher``.
+
+        Args:
+            service: name, resolved and remapped by the node's rules.
+            type_name: ``pkg/Name``.
+            queue_size: requests that may wait for the program; further ones are refused.
+        """
+        service = self._new_name(service, self.providers)
+        service_type = self.types.service(type_name)
+        service_type.warm()
+        uri = make_uri("rosrpc", self.host, self._service_listener.port)
+        registration = Registration(
+            service,
+            ("registerService", [service, uri, self.uri]),
+            ("unregisterService", [service, uri]),
+        )
+        provider = self.providers[service] = ServiceProvider(
+            service, service_type, registration, queue_size=queue_size
+        )
+        self.core.master.add(registration)
+        return provider
+
+    def register_service_caller(
+        self,
+        service: str,
+        type_name: str,
+        *,
+        persistent: bool = False,
+        queue_size: int = 10,
+        loop_period_ns: int = 0,
+    ) -> ServiceCaller:
+        """Make ready to call a service; errors as for ``register_publisher``.
+
+        Args:
+            service: name, resolved and remapped by the node's rules.
+            type_name: ``pkg/Name``.
+            persistent: keep the connection from call to call.
+            queue_size: calls that may wait, and replies.
+            loop_period_ns: nanoseconds after which ``pop_packet`` gives the next request to fill.
+        """
+        service_type = self.types.service(type_name)
+        service_type.warm()
+        caller = ServiceCaller(
+            self._names.resolve(service),
+            service_type,
+            self.core,
+            persistent=persistent,
+            queue_size=queue_size,
+            loop_period_ns=loop_period_ns,
+        )
+        self.callers.append(caller)
+        return caller
+
+    def subscribe_param(self, name: str, *, queue_size: int = 10) -> ParameterSubscription:
+        """Follow a parameter, or all below a namespace."""
+        name = self._names.resolve(name)
+        registration = Registration(
+            name,
+            ("subscribeParam", [self.uri, name]),
+            ("unsubscribeParam", [self.uri, name]),
+        )
+        param = ParameterSubscription(name, registration, queue_size=queue_size)
+        registration.on_value = param.set_all
+        self.params.append(param)
+        self.core.master.add(registration)
+        return param
+
+    def unregister(
+        self, role: Publisher | Subscriber | ServiceProvider | ServiceCaller | ParameterSubscription
+    ) -> None:
+        """Take a registration back and end its connections; other roles are not touched."""
+        if isinstance(role, ServiceCaller):
+            self.callers.remove(role)
+            role.close()
+            return
+        self.core.master.remove(role.registration)
+        if isinstance(role, Publisher):
+            del self.publishers[role.topic]
+        elif isinstance(role, Subscriber):
+            del self.subscribers[role.topic]
+            role.update([])
+        elif isinstance(role, ServiceProvider):
+            del self.providers[role.service]
+        else:
+            self.params.remove(role)
+        for link in self.core.loop.links:
+            if role in (
+                getattr(link.owner, "publisher", None),
+                getattr(link.owner, "provider", None),
+            ):
+                link.close("unregistered")
+
+    def _new_name(self, name: str, taken: Mapping[str, object]) -> str:
+        name = self._names.resolve(name)
+        if name in taken:
+            raise InvalidNameError(f"{self.name} has {name} already.")
+        return name
+
+    # Calls to the master and to other nodes; the result is in the ApiCall when it is there
+
+    def get_param(self, name: str) -> ApiCall:
+        """Ask for a parameter or a whole namespace."""
+        return self.core.master.call("getParam", [self._names.resolve(name)])
+
+    def set_param(self, name: str, value: Value) -> ApiCall:
+        """Set a parameter, or a whole namespace by a dict."""
+        return self.core.master.call("setParam", [self._names.resolve(name), value])
+
+    def has_param(self, name: str) -> ApiCall:
+        """Ask whether a parameter is set."""
+        return self.core.master.call("hasParam", [self._names.resolve(name)])
+
+    def delete_param(self, name: str) -> ApiCall:
+        """Delete a parameter or a whole namespace."""
+        return self.core.master.call("deleteParam", [self._names.resolve(name)])
+
+    def search_param(self, name: str) -> ApiCall:
+        """Ask for the name of a parameter, searched from the node's namespace upwards."""
+        return self.core.master.call("searchParam", [name])
+
+    def get_param_names(self) -> ApiCall:
+        """Ask for the names of all parameters."""
+        return self.core.master.call("getParamNames", [])
+
+    def call_master(self, method: str, *params: Value) -> ApiCall:
+        """Call any other method of the master API, such as ``getSystemState``."""
+        return self.core.master.call(method, list(params))
+
+    def call_node(self, uri: str, method: str, *params: Value) -> ApiCall:
+        """Call a method of another node's slave API, such as ``getBusInfo``."""
+        return self.core.api.start(ApiCall(uri, method, [self.name, *params]))
+
+    # The step
+
+    def do_events_loop(self) -> None:
+        """Do one bounded step; call it once a cycle. It never waits."""
+        if self.is_closed:
+            return
+        clock_ns = self.options.clock_ns
+        start_ns = clock_ns() if clock_ns else 0
+        self._step(self._context.release_ns, Budget(self.options.step))
+        if clock_ns:
+            self.statistics.record(clock_ns() - start_ns)
+
+    def _step(self, now_ns: int, budget: Budget) -> None:
+        core = self.core
+        core.loop.step(now_ns, budget)
+        for publisher in self.publishers.values():
+            publisher.tick(now_ns)
+        for subscriber in list(self.subscribers.values()):
+            subscriber.step(now_ns, budget)
+        for caller in self.callers:
+            caller.step(now_ns, budget)
+        self._rosout.step()
+        self._time.step()
+        core.master.step(now_ns)
+        core.api.step(now_ns, budget)
+        if self.is_shut_down:
+            self._go_on_closing(now_ns)
+
+    def pop_status(self) -> Status | None:
+        """Return the oldest news, None where there is none."""
+        return self.statuses.pop()
+
+    def log(
+        self, level: LogLevel, text: str, *, file: str = "", line: int = 0, function: str = ""
+    ) -> None:
+        """Publish an entry on ``/rosout``, where its level is not below the node's."""
+        self._rosout.log(level, text, file, line, function)
+
+    # The end
+
+    def shut_down(self, reason: str) -> None:
+        """Begin to close, as ``close`` does, and tell the program why."""
+        if not self.is_shut_down:
+            self.core.tell(StatusKind.SHUTDOWN, self.name, reason)
+            self.close()
+
+    def close(self) -> None:
+        """Begin to take all registrations back; ``do_events_loop`` goes on until ``is_closed``."""
+        if not self.is_shut_down:
+            self.is_shut_down = True
+            self._closing_ns = self._context.release_ns + CLOSING_NS
+            self.core.master.remove_all()
+
+    def destroy(self, steps: int = 20_000) -> None:
+        """Close at once: for EXIT, which has no further cycles.
+
+        Args:
+            steps: of the loop at most, within which the master can take the registrations back.
+        """
+        self.close()
+        while not self.is_closed and steps:
+            self.do_events_loop()
+            steps -= 1
+        self._end(self._context.release_ns)
+
+    def _go_on_closing(self, now_ns: int) -> None:
+        is_late = self._closing_ns is not None and now_ns >= self._closing_ns
+        if is_late or (self.core.master.is_clean and self.core.api.is_idle):
+            self._end(now_ns)
+
+    def _end(self, now_ns: int) -> None:
+        if not self.is_closed:
+            self.is_closed = True
+            self.core.loop.close(now_ns)

@@ -1,0 +1,71 @@
+"""Parameter subscriptions: the value of a parameter or a namespace, kept up to date."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from crosnode.names import SEPARATOR, canonical
+from crosnode.queues import DropOldestQueue
+
+if TYPE_CHECKING:
+    from crosnode.node.master_client import Registration
+    from crosnode.xmlrpc import Value
+
+UNSET: Final[dict[str, object]] = {}
+"""What a master tells of a parameter that is not there (any more)."""
+
+
+class ParameterUpdate(NamedTuple):
+    """A change: the parameter that changed, the subscribed one or one below it, and its value."""
+
+    name: str
+    value: Value
+
+
+class ParameterSubscription:
+    """A subscribed parameter; made by ``CrosNode.subscribe_param``.
+
+    Attributes:
+        name: resolved name.
+        value: what it holds, all levels below it included; {} where it is not set.
+        updates: changes that wait for the program; the oldest is dropped.
+        registration: with the master.
+    """
+
+    def __init__(self, name: str, registration: Registration, *, queue_size: int) -> None:
+        self.name = name
+        self.value: Value = dict(UNSET)
+        self.updates: DropOldestQueue[ParameterUpdate] = DropOldestQueue(queue_size)
+        self.registration = registration
+
+    def pop(self) -> ParameterUpdate | None:
+        """Return the oldest change, None where there is none."""
+        return self.updates.pop()
+
+    def set_all(self, value: Value) -> None:
+        """Take the value of the parameter itself."""
+        self.value = value
+        self.updates.push(ParameterUpdate(self.name, value))
+
+    def covers(self, name: str) -> bool:
+        """Whether ``name`` is this parameter or lies below it."""
+        below = self.name.rstrip(SEPARATOR) + SEPARATOR
+        return name == self.name or name.startswith(below)
+
+    def update(self, name: str, value: Value) -> None:
+        """Take the value of ``name``, which is this parameter or one below it."""
+        name = canonical(name)
+        if name == self.name:
+            self.set_all(value)
+            return
+        *path, last = name[len(self.name) :].strip(SEPARATOR).split(SEPARATOR)
+        place = self.value = dict(self.value) if isinstance(self.value, dict) else {}
+        for step in path:
+            inner = place.get(step)
+            place[step] = dict(inner) if isinstance(inner, dict) else {}
+            place = place[step]
+        if value == UNSET:
+            place.pop(last, None)
+        else:
+            place[last] = value
+        self.updates.push(ParameterUpdate(name, value))

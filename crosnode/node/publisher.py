@@ -1,0 +1,180 @@
+"""Publishers: one message goes to all subscribers, each at its own pace."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from crosnode.messages.definition import HEADER
+from crosnode.node.period import Period
+from crosnode.node.status import StatusKind
+from crosnode.queues import DropOldestQueue
+from crosnode.tcpip_socket import AREA_SIZE
+from crosnode.tcpros import HeaderReceived, PublisherConnection, TypeInfo
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from crosnode import tcpros, xmlrpc
+    from crosnode.link import Link
+    from crosnode.messages import Message, MessageType
+    from crosnode.node.core import NodeCore
+    from crosnode.node.master_client import Registration
+
+SEQ_MASK: Final = 0xFFFF_FFFF
+
+
+class Publisher:
+    """A topic that a node publishes; made by ``CrosNode.register_publisher``.
+
+    Attributes:
+        topic: resolved name.
+        message_type: type of its messages.
+        latching: whether a new subscriber gets the last message at once.
+        queue_size: messages that wait for each subscriber; the oldest is dropped.
+        sent: messages sent so far.
+        bytes_sent: bytes handed to subscribers so far.
+        links: connections to subscribers.
+        registration: with the master.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        message_type: MessageType,
+        registration: Registration,
+        *,
+        queue_size: int,
+        latching: bool,
+        loop_period_ns: int,
+    ) -> None:
+        self.topic = topic
+        self.message_type = message_type
+        self.registration = registration
+        self.latching = latching
+        self.queue_size = queue_size
+        self.sent = 0
+        self.bytes_sent = 0
+        self.links: dict[Link, SubscriberLink] = {}
+        self._latched: memoryview | bytes | None = None
+        self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
+        self._period = Period(loop_period_ns)
+        first = message_type.fields[:1]
+        self._has_header = bool(first and first[0].base == HEADER and first[0].name == "header")
+
+    @property
+    def subscribers(self) -> int:
+        """Subscribers connected now."""
+        return len(self.links)
+
+    @property
+    def dropped(self) -> int:
+        """Messages dropped for subscribers that are connected and too slow."""
+        return sum(owner.queue.dropped for owner in self.links.values())
+
+    def new(self, **values: object) -> Message:
+        """Return a new message with ``values``, defaults elsewhere."""
+        return self.message_type.new(**values)
+
+    def pop(self) -> Message | None:
+        """Return a new message to fill and send, once a loop period; None in between."""
+        return self._packets.pop()
+
+    def send(self, message: Message) -> None:
+        """Send a message to all subscribers; ``header.seq`` is overwritten, as in all of ROS.
+
+        Raises:
+            MessageValueError: a field cannot hold its value; nothing is sent.
+        """
+        if self._has_header:
+            message.header.seq = self.sent & SEQ_MASK  # type: ignore[attr-defined]  # made at run time
+        self.send_raw(self.message_type.encode(message))
+
+    def send_raw(self, body: bytes | memoryview) -> None:
+        """Send the bytes of a message, which must not change any more."""
+        self.sent += 1
+        if self.latching:
+            self._latched = body
+        for owner in self.links.values():
+            owner.queue.push(body)
+        self.bytes_sent += len(body) * len(self.links)
+
+    def tick(self, now_ns: int) -> None:
+        """Put a message into the program's queue when the loop period is over."""
+        if self._period.is_due(now_ns):
+            self._packets.push(self.message_type.new())
+
+    def accept(self, link: Link, owner: SubscriberLink) -> None:
+        """Take a new subscriber."""
+        self.links[link] = owner
+        owner.queue = DropOldestQueue(self.queue_size)
+        if self._latched is not None:
+            owner.queue.push(self._latched)
+
+    def type_info(self) -> TypeInfo:
+        """Return what the header says of the type."""
+        found = self.message_type
+        return TypeInfo(found.name, found.md5sum, found.full_text)
+
+
+class SubscriberLink:
+    """Owner of the link to one subscriber.
+
+    Attributes:
+        queue: messages that wait for it.
+        publisher: whom it subscribed to, None before its header.
+        subscriber: name of its node.
+        number: of the connection in getBusInfo.
+    """
+
+    def __init__(
+        self,
+        connection: PublisherConnection,
+        publishers: Mapping[str, Publisher],
+        core: NodeCore,
+    ) -> None:
+        self.queue: DropOldestQueue[bytes | memoryview] = DropOldestQueue(1)
+        self.publisher: Publisher | None = None
+        self.subscriber = ""
+        self.number = core.next_number()
+        self._connection = connection
+        self._publishers = publishers
+        self._core = core
+
+    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+        """Take or refuse the subscriber by its header."""
+        if not isinstance(event, HeaderReceived):
+            return
+        topic = event.fields.get("topic", "")
+        self.subscriber = event.fields.get("callerid", "")
+        publisher = self._publishers.get(topic)
+        if publisher is None and "topic" in event.fields:
+            self._connection.refuse(f"{self._core.name} does not publish {topic[:100]}")
+        elif publisher is None:
+            self._connection.refuse("missing required 'topic' field")
+        elif self._connection.accept(
+            publisher.type_info(), self._core.name, latching=publisher.latching
+        ):
+            self.publisher = publisher
+            publisher.accept(link, self)
+            self._core.tell(StatusKind.CONNECTED, topic, self.subscriber)
+            return
+        self._core.tell(
+            StatusKind.PEER_REFUSED, topic[:100], f"{self.subscriber[:100]} at {link.peer}"
+        )
+
+    def fill(self, link: Link) -> None:
+        """Hand messages over until about one transfer area of them waits."""
+        size, queue = link.waiting, self.queue
+        while queue and size < AREA_SIZE:
+            body = queue.pop()
+            assert body is not None
+            self._connection.send_message(body)
+            size += len(body) + 4
+
+    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+        """Forget the subscriber."""
+        if self.publisher:
+            self.publisher.links.pop(link, None)
+            self._core.tell(
+                StatusKind.DISCONNECTED, self.publisher.topic, reason or self.subscriber
+            )

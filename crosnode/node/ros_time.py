@@ -1,0 +1,62 @@
+"""ROS time: the controller's clock moved to the epoch, or ``/clock`` with ``/use_sim_time``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from crosnode.api_caller import CallState
+
+if TYPE_CHECKING:
+    from crosnode.api_caller import ApiCall
+    from crosnode.node.node import CrosNode
+    from crosnode.node.subscriber import Subscriber
+
+
+class RosTime:
+    """Tells the time of ROS.
+
+    Args:
+        node: whose time it is.
+        epoch_ns: what is added to a release to give nanoseconds since 1970.
+
+    Attributes:
+        is_simulated: whether ``/use_sim_time`` is set; time is 0 until ``/clock`` comes.
+    """
+
+    def __init__(self, node: CrosNode, epoch_ns: int) -> None:
+        self.is_simulated = False
+        self._node = node
+        self._epoch_ns = epoch_ns
+        self._simulated_ns = 0
+        self._clock: Subscriber | None = None
+        self._question: ApiCall | None = None
+        self._is_known = False
+
+    def now_ns(self, release_ns: int) -> int:
+        """Return nanoseconds since 1970, or of simulated time."""
+        return self._simulated_ns if self.is_simulated else self._epoch_ns + release_ns
+
+    def step(self) -> None:
+        """Ask the master once whether time is simulated, then follow ``/clock``."""
+        if not self._is_known:
+            self._ask()
+        elif self._clock is not None:
+            while (message := self._clock.pop()) is not None:
+                self._simulated_ns = message.clock.to_ns()  # type: ignore[attr-defined]  # made at run time
+
+    def _ask(self) -> None:
+        question = self._question
+        if question is None:
+            if self._node.core.master.is_found:
+                self._question = self._node.get_param("/use_sim_time")
+        elif question.state is not CallState.WAITING:
+            self._question = None
+            self._is_known = question.was_answered
+            self._use(question.state is CallState.DONE and question.value is True)
+
+    def _use(self, is_simulated: bool) -> None:  # a setter
+        self.is_simulated = is_simulated
+        if is_simulated and self._clock is None:
+            self._clock = self._node.register_subscriber(
+                "/clock", "rosgraph_msgs/Clock", queue_size=1
+            )

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Installs ROS 1 from Debian's own packages: master, rospy, roscpp, the command-line tools and the
+# common messages. No third-party source.
+set -euo pipefail
+export DEBIAN_FRONTEND=noninteractive
+
+tools=(rosout topic-tools python3-{roslaunch,rosmaster,rospy,rostopic,rosservice,rosnode,rosparam}
+  python3-{rosmsg,rosbag,topic-tools,roswtf,message-filters,gencpp})
+common=(geometry sensor nav diagnostic trajectory visualization actionlib tf2 stereo shape)
+messages=(python3-std-msgs python3-std-srvs ros-std-msgs ros-std-srvs ros-roscpp-msg
+  ros-rosgraph-msgs ros-topic-tools-srvs libroscpp-dev
+  libstd-msgs-dev libstd-srvs-dev libgeometry-msgs-dev libsensor-msgs-dev)
+for name in "${common[@]}"; do messages+=("python3-$name-msgs" "ros-$name-msgs"); done
+
+apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends \
+  g++ pkg-config "${tools[@]}" "${messages[@]}" >/dev/null

@@ -1,0 +1,114 @@
+"""The node and its master on bad days: absent, restarted, restarted with the same pid, refusing."""
+
+from crosnode.node import StatusKind
+from plcsim.network import Outcome
+
+from .world import MASTER_IP, OTHER_IP, STRING, World, drain, news, words
+
+
+def test_a_node_waits_for_a_master_that_comes_later() -> None:
+    world = World(master=False)
+    world.net.host(MASTER_IP)
+    node = world.node("n")
+    world.run(3_000)
+    assert not node.is_registered
+    world.restart_master()
+    assert world.until(lambda: node.is_registered) <= 1_200
+
+
+def test_after_a_restart_all_is_registered_again_and_no_message_is_lost() -> None:
+    world = World()
+    talker, listener = world.node("talker"), world.node("listener", OTHER_IP)
+    publisher = talker.register_publisher("/x", STRING)
+    subscriber = listener.register_subscriber("/x", STRING, queue_size=1000)
+    talker.register_service_provider("/set", "std_srvs/SetBool")
+    param = listener.subscribe_param("/p")
+    world.until(lambda: publisher.subscribers and listener.is_registered)
+    world.run(50)
+    sent = 0
+    for tick in range(4_000):
+        if tick == 500:
+            world.kill_master()
+        if tick == 1_500:
+            world.restart_master()
+        if tick % 10 == 0:
+            publisher.send(publisher.new(data=str(sent)))
+            sent += 1
+        world.run(1)
+    assert words(subscriber.pop) == [str(number) for number in range(sent)]
+    assert talker.is_registered
+    assert listener.is_registered
+    assert world.master
+    state = str(world.master.master.get_system_state("/x"))
+    for name in ("/x", "/set", "/talker", "/listener"):
+        assert f"'{name}'" in state
+    talker.set_param("/p", 5)
+    world.until(lambda: param.value == 5, 50)
+    kinds = {s.kind for s in drain(talker.pop_status)}
+    assert {StatusKind.MASTER_FOUND, StatusKind.MASTER_LOST} <= kinds
+
+
+def test_a_master_that_forgot_all_while_the_connection_stayed_is_told_again() -> None:
+    world = World()
+    node = world.node("n")
+    node.subscribe_param("/p")
+    world.until(lambda: node.is_registered)
+    world.run(50)
+    assert world.master
+    pid = world.master.master._pid
+    world.master.master = type(world.master.master)(world.master.uri, pid)
+    assert world.until(lambda: "/n" in str(world.master.master.get_system_state("/x"))) <= 1_100  # type: ignore[union-attr]
+
+
+def test_a_registration_that_is_refused_is_told_and_the_others_stay() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/x", STRING)
+    publisher.registration.register = ("registerPublisher", ["/x"])
+    world.until(lambda: node.is_registered)
+    refused = news(node, StatusKind.REGISTRATION_REFUSED)
+    assert [status.name for status in refused] == ["/x"]
+
+
+def test_a_master_that_does_not_answer_delays_nothing_but_itself() -> None:
+    world = World()
+    talker, listener = world.node("talker"), world.node("listener", OTHER_IP)
+    publisher = talker.register_publisher("/x", STRING)
+    subscriber = listener.register_subscriber("/x", STRING, queue_size=1000)
+    world.until(lambda: publisher.subscribers)
+    world.faults.silence(MASTER_IP)
+    for number in range(100):
+        publisher.send(publisher.new(data=str(number)))
+        world.run(20)
+    assert len(words(subscriber.pop)) == 100
+
+
+def test_a_port_that_speaks_no_xml_rpc_is_no_master() -> None:
+    world = World(master=False)
+    listener = world.net.host(MASTER_IP).open("", 11311).socket
+    assert listener is not None
+    listener.listen(5)
+    node = world.node("n")
+    for _ in range(20):
+        world.run(100)
+        if (accepted := listener.accept()).outcome is Outcome.OK:
+            assert accepted.socket
+            accepted.socket.send(b"SSH-2.0-hello\r\n\r\n" * 10)
+            accepted.socket.close()
+    assert not node.is_registered
+    assert node.core.loop.listeners
+    listener.close()
+    world.run(100)
+    world.restart_master()
+    world.until(lambda: node.is_registered)
+
+
+def test_an_unknown_host_of_the_master_is_told() -> None:
+    world = World()
+    node = world.node("n", environment={"ROS_MASTER_URI": "http://robot:11311"})
+    call = node.get_param("/x")
+    world.run(10)
+    assert "host 'robot' is not known" in call.error
+    known = world.node("m", OTHER_IP, environment={"ROS_MASTER_URI": "http://robot:11311"},
+                       hosts={"robot": MASTER_IP})  # fmt: skip
+    world.until(lambda: known.is_registered)

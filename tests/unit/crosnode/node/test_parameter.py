@@ -1,0 +1,102 @@
+from typing import Any
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from crosnode.node import ParameterUpdate, StatusKind
+from crosnode.node.master_client import Registration
+from crosnode.node.parameter import ParameterSubscription
+
+from .world import OTHER_IP, World, drain, news
+
+
+def subscription(name: str = "/p") -> ParameterSubscription:
+    return ParameterSubscription(name, Registration(name, ("", []), ("", [])), queue_size=3)
+
+
+def test_a_subscriber_hears_the_value_and_every_change() -> None:
+    world = World()
+    node, setter = world.node("n"), world.node("setter", OTHER_IP)
+    setter.set_param("/p", 1)
+    world.until(lambda: setter.core.api.is_idle and setter.is_registered)
+    param = node.subscribe_param("/p")
+    world.until(lambda: param.value == 1)
+    setter.set_param("/p", "two")
+    world.until(lambda: param.value == "two")
+    setter.delete_param("/p")
+    world.until(lambda: param.value == {})
+    assert drain(param.pop) == [
+        ParameterUpdate("/p", 1),
+        ParameterUpdate("/p", "two"),
+        ParameterUpdate("/p", {}),
+    ]
+    assert len(news(node, StatusKind.PARAM_UPDATE)) == 2
+
+
+def test_a_leaf_changes_only_its_place_in_the_namespace() -> None:
+    world = World()
+    node, setter = world.node("n"), world.node("setter", OTHER_IP)
+    param, prefix = node.subscribe_param("/p"), node.subscribe_param("/po")
+    setter.set_param("/p", {"a": {"b": 1}, "c": 2})
+    setter.set_param("/p/a/b", 5)
+    setter.set_param("/p/d/e", 6)
+    setter.set_param("/pother", 7)
+    world.until(lambda: isinstance(param.value, dict) and "d" in param.value)
+    world.run(20)
+    assert param.value == {"a": {"b": 5}, "c": 2, "d": {"e": 6}}
+    assert prefix.value == {}
+
+
+def test_two_subscriptions_of_one_name_both_hear() -> None:
+    world = World()
+    node, setter = world.node("n"), world.node("setter", OTHER_IP)
+    one, two = node.subscribe_param("/p"), node.subscribe_param("/p")
+    world.until(lambda: node.is_registered)
+    setter.set_param("/p", 3)
+    world.until(lambda: one.value == 3 and two.value == 3)
+
+
+def test_after_unsubscribing_nothing_comes() -> None:
+    world = World()
+    node, setter = world.node("n"), world.node("setter", OTHER_IP)
+    param = node.subscribe_param("/p")
+    world.until(lambda: node.is_registered)
+    node.unregister(param)
+    world.run(20)
+    setter.set_param("/p", 3)
+    world.run(30)
+    assert param.value == {}
+
+
+def test_deleting_a_leaf_takes_it_out() -> None:
+    param = subscription()
+    param.set_all({"a": 1, "b": {"c": 2}})
+    param.update("/p/b/c/", {})
+    assert param.value == {"a": 1, "b": {}}
+
+
+def test_the_value_handed_out_before_does_not_change() -> None:
+    param = subscription()
+    param.set_all({"a": {"b": 1}})
+    before = param.value
+    param.update("/p/a/b", 2)
+    assert before == {"a": {"b": 1}}
+    assert param.value == {"a": {"b": 2}}
+
+
+names = st.lists(st.sampled_from("abc"), min_size=1, max_size=3)
+
+
+@given(st.lists(st.tuples(names, st.integers())))
+def test_updates_build_the_tree_that_a_dict_would(updates: list[tuple[list[str], int]]) -> None:
+    param, model = subscription(), {}
+    for path, value in updates:
+        param.update("/p/" + "/".join(path), value)
+        place: dict[str, Any] = model
+        for step in path[:-1]:
+            if not isinstance(place.get(step), dict):
+                place[step] = {}
+            place = place[step]
+        place[path[-1]] = value
+    assert param.value == model
+    assert len(param.updates) <= 3

@@ -1,0 +1,93 @@
+"""The step is bounded and fair; see also node/test_node.py."""
+
+from itertools import pairwise
+
+from crosnode.budget import StepLimits
+from crosnode.tcpros.header import encode_header
+
+from .node.world import OTHER_IP, PLC_IP, STRING, World, words
+
+
+def test_all_connections_have_their_turn_though_few_fit_into_a_step() -> None:
+    world = World()
+    node = world.node("n", step=StepLimits(polls=4))
+    publisher = node.register_publisher("/chatter", STRING)
+    sockets = [world.subscribe_raw(node) for _ in range(20)]
+    world.until(lambda: publisher.subscribers == 20, 200)
+    for number in range(5):
+        publisher.send(publisher.new(data=f"<{number}>"))
+        world.run(10)
+    for socket in sockets:
+        data = socket.recv(65_536).data
+        assert all(b"<%d>" % number in data for number in range(5))
+
+
+def test_a_flood_on_one_connection_leaves_the_others_their_turn() -> None:
+    world = World()
+    limits = StepLimits(bytes_in=2_000)
+    listener = world.node("listener", step=limits)
+    subscriber = listener.register_subscriber("/x", STRING, queue_size=10_000)
+    flood = world.node("flood", OTHER_IP).register_publisher("/x", STRING, queue_size=10_000)
+    calm = world.node("calm", "192.168.0.21").register_publisher("/x", STRING)
+    world.until(lambda: flood.subscribers and calm.subscribers)
+    for _ in range(500):
+        flood.send(flood.new(data="f" * 500))
+    world.run(5)
+    calm.send(calm.new(data="calm"))
+    world.run(8)
+    assert "calm" in words(subscriber.pop)
+
+
+def test_accepts_are_bounded() -> None:
+    world = World()
+    node = world.node("n", step=StepLimits(accepts=2))
+    world.until(lambda: node.is_registered)
+    before = len(node.core.loop.links)
+    dialled = [world.peer().open("", 0).socket for _ in range(12)]
+    address = world.subscribe_raw(node, topic="/rosout").peer
+    assert address
+    for socket in dialled:
+        assert socket
+        socket.connect(address)
+    grown = []
+    for _ in range(12):
+        world.run(1)
+        grown.append(len(node.core.loop.links))
+    steps = [later - earlier for earlier, later in pairwise(grown)]
+    assert max(steps) <= 2
+    assert grown[-1] > before + 4
+
+
+def test_two_hundred_connections_that_say_nothing() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/x", STRING)
+    subscriber = world.node("l", OTHER_IP).register_subscriber("/x", STRING, queue_size=100)
+    world.until(lambda: publisher.subscribers)
+    sockets = [world.peer().open("", 0).socket for _ in range(200)]
+    target = world.subscribe_raw(node).peer
+    assert target
+    for socket in sockets:
+        assert socket
+        socket.connect(target)
+        world.run(1)
+    assert len(node.core.loop.links) > 100
+    for number in range(20):
+        publisher.send(publisher.new(data=str(number)))
+        world.run(20)
+    assert words(subscriber.pop) == [str(number) for number in range(20)]
+    world.run(33_000)
+    assert len(node.core.loop.links) < 10
+
+
+def test_a_port_that_lost_its_socket_is_opened_again() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/chatter", STRING)
+    world.until(lambda: node.is_registered)
+    node.topic_listener._socket.close()
+    world.run(1_100)
+    assert node.topic_listener.is_open
+    header = {"callerid": "/raw", "topic": "/chatter", "md5sum": "*"}
+    world.dial(PLC_IP, node.topic_listener.port, encode_header(header))
+    world.until(lambda: publisher.subscribers, 50)
