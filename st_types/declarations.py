@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from st_types.collector import collector_paused
 from st_types.diagnostics import DiagnosticLog
 from st_types.lexer import MAX_TOKENS, TokenKind, Tokens, kind_of, unnest_comments
 from st_types.reader import UnexpectedTokenError
@@ -42,7 +43,8 @@ def parse_declarations(source: Source) -> DeclarationFile:
     Errors are in the ``diagnostics`` of the result, whose ``raise_errors`` makes an exception of
     them.
     """
-    first = _parse(source)
+    with collector_paused():
+        first = _parse(source)
     if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
         return first
     second = _parse(Source(source.path, text, source.encoding))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from st_types.collector import collector_paused
 from st_types.file_resolver import FileResolver
 from st_types.name_index import Entry, NameIndex, SourceFile, nearest, report_duplicates
 from st_types.syntax import FunctionDeclaration
@@ -152,6 +153,7 @@ def resolve(
         library: further files whose names may be used; their findings are of no interest.
         strict: an unknown name is an error, not a warning.
     """
-    table = TypeTable(files, library, strict=strict)
-    table.resolve_all()
+    with collector_paused():
+        table = TypeTable(files, library, strict=strict)
+        table.resolve_all()
     return table

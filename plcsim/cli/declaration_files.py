@@ -1,0 +1,99 @@
+"""Finding and reading .typ, .var and .fun files, with progress on a terminal."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import track
+
+from plcsim.errors import PlcError
+from st_types.declarations import parse_declarations
+from st_types.errors import SourceError
+from st_types.source import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from st_types.syntax import DeclarationFile
+
+SUFFIXES = frozenset([".typ", ".var", ".fun"])
+
+LIBRARY = Path(__file__).parents[1] / "library"
+"""Declarations of the controller libraries that plcsim has."""
+
+MANY_FILES = 50
+"""From as many files on, progress is shown."""
+
+
+def find_files(paths: Iterable[Path]) -> list[Path]:
+    """Return the declaration files at and below ``paths``, each once, in order.
+
+    Raises:
+        PlcError: a path does not exist, or is a file of another kind.
+    """
+    found: dict[Path, None] = {}
+    for path in paths:
+        if path.is_dir():
+            found.update(dict.fromkeys(_files_below(path)))
+        elif not path.exists():
+            raise PlcError(f"{path}: no such file or folder.")
+        elif path.suffix.lower() not in SUFFIXES:
+            raise PlcError(f"{path}: not a .typ, .var or .fun file.")
+        else:
+            found[path] = None
+    return list(found)
+
+
+def _files_below(folder: Path) -> Iterator[Path]:
+    for place, folders, names in os.walk(folder):
+        folders.sort()
+        for name in sorted(names):
+            if os.path.splitext(name)[1].lower() in SUFFIXES:  # noqa: PTH122  # a Path each would take longer than the parser
+                yield Path(place, name)
+
+
+class Reading:
+    """Files as they were read.
+
+    Attributes:
+        files: parsed files.
+        failures: a line for each file that could not be read.
+        lines: lines of text in all files.
+    """
+
+    def __init__(self) -> None:
+        self.files: list[DeclarationFile] = []
+        self.failures: list[str] = []
+        self.lines = 0
+
+    def read(self, path: Path) -> None:
+        """Parse one file."""
+        try:
+            source = Source.read(path)
+        except OSError as err:
+            self.failures.append(f"{path}: error: {err.strerror or err}")
+        except SourceError as err:
+            self.failures.append(str(err))
+        else:
+            self.lines += source.line_count
+            self.files.append(parse_declarations(source))
+
+
+def read_files(paths: Sequence[Path]) -> Reading:
+    """Parse files, with a progress bar where stderr is a terminal and the files are many."""
+    reading = Reading()
+    shown: Iterable[Path] = paths
+    if len(paths) >= MANY_FILES and sys.stderr.isatty():
+        shown = track(paths, "reading", console=Console(stderr=True), transient=True)
+    for path in shown:
+        reading.read(path)
+    return reading
+
+
+def library_files() -> list[DeclarationFile]:
+    """Return the declarations of the controller libraries that plcsim has."""
+    return read_files(find_files([LIBRARY])).files

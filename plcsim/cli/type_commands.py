@@ -1,0 +1,171 @@
+"""What the commands of ``plcsim types`` do; `plcsim.cli.types` declares them."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from plcsim.cli.declaration_files import Reading, find_files, library_files, read_files
+from plcsim.cli.message_files import MessageFiles, common_folders
+from plcsim.errors import PlcError
+from st_types.c_header import c_header
+from st_types.collector import collector_paused
+from st_types.derived import DataBlockType, StructType, resolve_alias
+from st_types.diagnostics import Severity
+from st_types.layout_table import layout_rows
+from st_types.printer import print_file, print_item
+from st_types.python_source import python_source
+from st_types.resolve import TypeTable, resolve
+from st_types.ros import Limits, struct_name, structs_from_ros
+from st_types.ros_export import messages_from_struct
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from st_types.elementary import DataType
+
+
+def check(options: argparse.Namespace) -> int:
+    """Print what is wrong in the files, and how many they are."""
+    reading, table = _resolved(options.paths, strict=options.strict)
+    if not reading.files and not reading.failures:
+        raise PlcError("no .typ, .var or .fun file was found.")
+    errors = _report(reading, print)
+    warnings = sum(file.diagnostics.warning_count for file in reading.files)
+    types = [data_type for _, data_type in table.types()]
+    blocks = sum(isinstance(data_type, DataBlockType) for data_type in types)
+    print(
+        f"{_count(len(reading.files), 'file')}, {_count(reading.lines, 'line')}: "
+        f"{_count(len(types) - blocks, 'type')}, {_count(blocks, 'function block')}, "
+        f"{_count(len(table.functions), 'function')}, {_count(len(table.variables), 'variable')}; "
+        f"{_count(errors, 'error')}, {_count(warnings, 'warning')}"
+    )
+    return 1 if errors else 0
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _resolved(paths: Sequence[Path], *, strict: bool = False) -> tuple[Reading, TypeTable]:
+    with collector_paused():
+        reading = read_files(find_files(paths))
+        return reading, resolve(reading.files, library_files(), strict=strict)
+
+
+def _report(reading: Reading, show: Callable[[str], object], *, warnings: bool = True) -> int:
+    """Show all findings and return the number of errors."""
+    for failure in reading.failures:
+        show(failure)
+    for file in reading.files:
+        for record in sorted(file.diagnostics.records, key=lambda r: (r.line, r.column)):
+            if warnings or record.severity is Severity.ERROR:
+                show(record.render())
+        if file.diagnostics.omitted:
+            show(f"{file.path}: {file.diagnostics.omitted} more findings are not shown")
+    return len(reading.failures) + sum(file.diagnostics.error_count for file in reading.files)
+
+
+def _sound(paths: Sequence[Path]) -> TypeTable:
+    """Return the declarations of files without errors.
+
+    Raises:
+        PlcError: there are errors; they are printed.
+    """
+    reading, table = _resolved(paths)
+    errors = _report(reading, lambda line: print(line, file=sys.stderr), warnings=False)
+    if errors:
+        raise PlcError(f"{_count(errors, 'error')} in the declarations.")
+    return table
+
+
+def layout(options: argparse.Namespace) -> int:
+    """Print a table of offsets."""
+    data_type = _find(_sound(options.paths), options.type)
+    print(f"{options.type}: {_count(data_type.size, 'byte')}, alignment {data_type.alignment}")
+    rows = [row for row in layout_rows(data_type) if options.deep or row.path.isidentifier()]
+    width = max(len(text) for text in ("member", *(row.path for row in rows)))
+    if rows:
+        print(f"{'offset':>8}  {'bytes':>8}  {'member':{width}}  type")
+    for row in rows:
+        print(f"{row.offset:>8}  {row.size:>8}  {row.path:{width}}  {row.data_type}")
+    return 0
+
+
+def _find(table: TypeTable, name: str) -> DataType[object]:
+    data_type = table.find_type(name)
+    if data_type is None:
+        raise PlcError(f"no type with a layout is called {name}.")
+    return data_type
+
+
+def header(options: argparse.Namespace) -> int:
+    """Print a C header."""
+    name = options.name or options.paths[0].resolve().stem
+    print(c_header(_sound(options.paths), name), end="")
+    return 0
+
+
+def python(options: argparse.Namespace) -> int:
+    """Print a Python module."""
+    paths = " ".join(map(str, options.paths))
+    title = f"Types of {paths}, written by plcsim types python"
+    print(python_source(_sound(options.paths), title), end="")
+    return 0
+
+
+def print_files(options: argparse.Namespace) -> int:
+    """Print the declarations again."""
+    reading = read_files(find_files(options.paths))
+    errors = _report(reading, lambda line: print(line, file=sys.stderr))
+    for file in reading.files:
+        print(print_file(file), end="")
+    return 1 if errors else 0
+
+
+def from_ros(options: argparse.Namespace) -> int:
+    """Print or write the STRUCTs of a message or a service."""
+    files = MessageFiles([*options.path, *common_folders()])
+    found = structs_from_ros(options.type, files.read, Limits(options.array, options.string))
+    texts = {".typ": print_item(found.types), ".var": print_item(found.constants)}
+    if not found.constants.declarations:
+        del texts[".var"]
+    for suffix, text in texts.items():
+        if options.output is None:
+            print(text, end="")
+        else:
+            _write(options.output / (struct_name(options.type) + suffix), text)
+    return 0
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    except OSError as err:
+        raise PlcError(f"{path}: {err.strerror or err}.") from err
+    print(path)
+
+
+def to_ros(options: argparse.Namespace) -> int:
+    """Print the messages of a STRUCT, those that it contains first."""
+    data_type = resolve_alias(_find(_sound(options.paths), options.type))
+    if not isinstance(data_type, StructType):
+        raise PlcError(f"{options.type} is no STRUCT.")
+    for name, text in messages_from_struct(data_type, options.package).items():
+        print(f"# {name}\n{text}")
+    return 0
+
+
+COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "check": check,
+    "layout": layout,
+    "header": header,
+    "python": python,
+    "print": print_files,
+    "from-ros": from_ros,
+    "to-ros": to_ros,
+}
+"""What each command runs; the results are exit codes."""

@@ -1,0 +1,93 @@
+"""``plcsim types``: the arguments of its commands; `plcsim.cli.type_commands` does the work."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+from pathlib import Path
+
+EPILOG = "Exit codes: 0 done, 1 errors were found, 2 wrong usage."
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the command and its sub-commands."""
+    parser = subparsers.add_parser(
+        "types",
+        help="check, lay out, print and convert .typ, .var and .fun files",
+        description="Work with the declarations of a B&R project: .typ, .var and .fun files.",
+        epilog=EPILOG,
+    )
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    check = _add(commands, "check", "read files and report what is wrong in them")
+    check.add_argument(
+        "--strict", action="store_true", help="a name that no file declares is an error"
+    )
+    layout = _add(commands, "layout", "show where the members of a type lie", "type")
+    layout.add_argument("--deep", action="store_true", help="show members of inner STRUCTs too")
+    header = _add(commands, "header", "write the C header that Automation Studio would generate")
+    header.add_argument("--name", default="", help="name for the guard; default: the first path's")
+    _add(commands, "python", "write a Python module of typed views")
+    _add(commands, "print", "write the declarations again, in Automation Studio's shape")
+    _add(commands, "to-ros", "write the ROS messages of a STRUCT", "type").add_argument(
+        "--package", default="plc", help="package of STRUCTs not named pkg_Type; default: plc"
+    )
+    _add_from_ros(commands)
+
+
+def _add(
+    commands: argparse._SubParsersAction[argparse.ArgumentParser],
+    name: str,
+    text: str,
+    *arguments: str,
+) -> argparse.ArgumentParser:
+    parser = commands.add_parser(name, help=text, description=_sentence(text), epilog=EPILOG)
+    for argument in arguments:
+        parser.add_argument(argument, metavar=argument.upper(), help="name, in any case")
+    parser.add_argument(
+        "paths",
+        nargs="+" if name == "check" else "*",
+        type=Path,
+        default=None if name == "check" else [Path()],
+        metavar="PATH",
+        help="file, or folder with all below it"
+        + ("" if name == "check" else "; default: this folder"),
+    )
+    parser.set_defaults(func=_run, act=name)
+    return parser
+
+
+def _add_from_ros(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    text = "write the STRUCTs of a ROS message or service"
+    parser = commands.add_parser("from-ros", help=text, description=_sentence(text), epilog=EPILOG)
+    parser.add_argument("type", metavar="PKG/TYPE", help="such as sensor_msgs/JointState")
+    parser.add_argument(
+        "--path",
+        type=Path,
+        action="append",
+        default=[],
+        help="folder with packages, before those of ROS_PACKAGE_PATH and the common ones",
+    )
+    parser.add_argument("--array", type=_count, default=16, help="elements of T[]; default: 16")
+    parser.add_argument("--string", type=_count, default=80, help="characters; default: 80")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FOLDER", help="write PKG_TYPE.typ and .var there"
+    )
+    parser.set_defaults(func=_run, act="from-ros")
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _count(text: str) -> int:
+    """Return a number from 1 to 65535."""
+    if not text.isdecimal() or not 1 <= int(text[:9]) <= 0xFFFF:
+        raise argparse.ArgumentTypeError(f"{text[:20]!r} is no number from 1 to 65535")
+    return int(text)
+
+
+def _run(options: argparse.Namespace) -> int:
+    # Imported here, so that other commands start without the parsers.
+    commands = import_module("plcsim.cli.type_commands")
+    code: int = commands.COMMANDS[options.act](options)
+    return code

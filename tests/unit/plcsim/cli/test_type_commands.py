@@ -1,0 +1,184 @@
+import argparse
+import ast
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from plcsim.cli import types
+from plcsim.cli.declaration_files import LIBRARY
+from plcsim.errors import PlcError
+from st_types.declarations import parse_text
+from st_types.errors import DeclarationError
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+def parse(*arguments: str) -> argparse.Namespace:
+    parser = argparse.ArgumentParser()
+    types.register(parser.add_subparsers(required=True))
+    return parser.parse_args(["types", *arguments])
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    def call(*arguments: object) -> tuple[int, str, str]:
+        options = parse(*map(str, arguments))
+        code = options.func(options)
+        return code, *capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    (tmp_path / "Global.TYP").write_bytes(
+        b"TYPE\r\n\tAxis : STRUCT (*Achse f\xfcr X*)\r\n\t\tpos : LREAL; (*mm*)\r\n"
+        b"\t\ttimer : TON;\r\n\t\ton : BOOL;\r\n\tEND_STRUCT;\r\nEND_TYPE\r\n"
+    )
+    (tmp_path / "Main").mkdir()
+    (tmp_path / "Main" / "Variables.var").write_text(
+        "VAR CONSTANT MAX : USINT := 3; END_VAR VAR axes : ARRAY[0..MAX] OF Axis; END_VAR\n"
+    )
+    (tmp_path / "Main" / "notes.txt").write_text("no declarations")
+    return tmp_path
+
+
+def test_check_of_sound_files(run: Run, project: Path) -> None:
+    code, out, err = run("check", project)
+    assert (code, err) == (0, "")
+    assert out == (
+        "2 files, 8 lines: 1 type, 0 function blocks, 0 functions, 2 variables; 0 errors, "
+        "0 warnings\n"
+    )
+
+
+def test_check_shows_findings_in_order_and_their_number(run: Run, project: Path) -> None:
+    (project / "Bad.typ").write_text("TYPE\n\tA : Lib;\n\tB : INT := 'x';\n\tC INT;\nEND_TYPE\n")
+    code, out, err = run("check", project)
+    assert (code, err) == (1, "")
+    places = [line.removeprefix(f"{project}/") for line in out.splitlines() if "Bad.typ" in line]
+    assert [place[:18] for place in places] == [
+        "Bad.typ:2:6: warni",
+        "Bad.typ:3:13: erro",
+        "Bad.typ:4:4: error",
+    ]
+    assert "     4 |  C INT;\n       |    ^\n" in out
+    assert out.endswith("2 errors, 1 warning\n")
+
+
+def test_an_unknown_name_is_an_error_if_told_so(run: Run, project: Path) -> None:
+    (project / "Lib.typ").write_text("TYPE A : Lib; END_TYPE")
+    assert run("check", project)[0] == 0
+    assert run("check", "--strict", project)[0] == 1
+
+
+def test_check_reports_a_file_that_cannot_be_read(run: Run, project: Path) -> None:
+    (project / "Dead.typ").symlink_to(project / "nowhere")
+    code, out, _ = run("check", project)
+    assert code == 1
+    assert "Dead.typ: error: No such file or directory" in out
+
+
+def test_check_of_nothing_is_an_error(run: Run, tmp_path: Path) -> None:
+    with pytest.raises(PlcError, match=r"no \.typ, \.var or \.fun file was found"):
+        run("check", tmp_path)
+    with pytest.raises(PlcError, match="nope: no such file or folder"):
+        run("check", tmp_path / "nope")
+    (tmp_path / "a.txt").touch()
+    with pytest.raises(PlcError, match=r"a\.txt: not a \.typ, \.var or \.fun file"):
+        run("check", tmp_path / "a.txt")
+
+
+def test_layout(run: Run, project: Path) -> None:
+    assert run("layout", "axis", project)[1] == (
+        "axis: 32 bytes, alignment 4\n"
+        "  offset     bytes  member  type\n"
+        "       0         8  pos     LREAL\n"
+        "       8        20  timer   TON\n"
+        "      28         1  on      BOOL\n"
+    )
+    assert (
+        "      24         1  timer.IN         BOOL\n" in run("layout", "--deep", "Axis", project)[1]
+    )
+
+
+def test_layout_of_a_library_block_needs_no_path(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run("layout", "TcpOpen")[1].startswith("TcpOpen: 32 bytes, alignment 4\n")
+    with pytest.raises(PlcError, match="no type with a layout is called Nothing"):
+        run("layout", "Nothing")
+
+
+def test_header(run: Run, project: Path) -> None:
+    out = run("header", "--name", "Cell", project)[1]
+    assert "#ifndef _CELL_H_" in out
+    assert "typedef struct Axis {\n\tdouble pos;\n\tstruct TON timer;\n\tplcbit on;\n} Axis;" in out
+
+
+def test_python(run: Run, project: Path) -> None:
+    out = run("python", project)[1]
+    names = [node.name for node in ast.parse(out).body if isinstance(node, ast.ClassDef)]
+    assert names == ["TON", "Axis", "Variables"]
+
+
+def test_commands_refuse_wrong_declarations(run: Run, project: Path) -> None:
+    (project / "Bad.typ").write_text("TYPE A : INT := 'x'; END_TYPE")
+    for command in ("header", "python"):
+        with pytest.raises(PlcError, match="1 error in the declarations"):
+            run(command, project)
+
+
+def test_print_gives_the_same_declarations(run: Run, project: Path) -> None:
+    code, out, _ = run("print", project / "Main", project / "Global.TYP")
+    assert code == 0
+    assert [type(item).__name__ for item in parse_text(out).items] == [
+        *["VariableBlock", "VariableBlock", "TypeBlock"],
+    ]
+    assert "(*Achse für X*)" in out
+    (project / "Bad.typ").write_text("TYPE A INT; END_TYPE")
+    code, _, err = run("print", project / "Bad.typ")
+    assert code == 1
+    assert "expected ':' after the name A" in err
+
+
+def test_from_ros_finds_the_common_messages(run: Run) -> None:
+    code, out, _ = run("from-ros", "sensor_msgs/JointState", "--array", "6", "--string", "20")
+    assert code == 0
+    names = [d.name for item in parse_text(out).items for d in item.declarations]
+    assert names[:3] == ["ros_time", "std_msgs_Header", "sensor_msgs_JointState"]
+    assert "sensor_msgs_JointState_position_MAX : UDINT := 5;" in out
+
+
+def test_from_ros_writes_files_that_check_and_go_back(run: Run, tmp_path: Path) -> None:
+    share = tmp_path / "share" / "cell" / "msg"
+    share.mkdir(parents=True)
+    (share / "State.msg").write_text("Header header\nfloat64[] q\n")
+    (share / "Plain.msg").write_text("int8 x\n")
+    out = tmp_path / "out"
+    printed = run("from-ros", "cell/State", "--path", tmp_path / "share", "-o", out)[1]
+    assert printed.split() == [str(out / "cell_State.typ"), str(out / "cell_State.var")]
+    run("from-ros", "cell/Plain", "--path", tmp_path / "share", "-o", out)
+    assert not (out / "cell_Plain.var").exists()
+    assert run("check", "--strict", out)[0] == 0
+    assert (
+        "# cell/State\nstd_msgs/Header header\nfloat64[] q\n" in run("to-ros", "cell_State", out)[1]
+    )
+    with pytest.raises(PlcError, match=r"Not a directory|File exists"):
+        run("from-ros", "cell/Plain", "--path", tmp_path / "share", "-o", share / "State.msg")
+
+
+def test_what_has_no_ros_form_is_refused(run: Run, project: Path) -> None:
+    with pytest.raises(DeclarationError, match="a function block has no ROS form"):
+        run("to-ros", "Axis", project)
+    (project / "Main" / "E.typ").write_text("TYPE E : (a, b); END_TYPE")
+    with pytest.raises(PlcError, match="E is no STRUCT"):
+        run("to-ros", "E", project)
+    with pytest.raises(DeclarationError, match="no message and no service is called x/Nothing"):
+        run("from-ros", "x/Nothing")
+
+
+def test_our_own_library_is_sound(run: Run) -> None:
+    assert run("check", "--strict", LIBRARY)[0] == 0

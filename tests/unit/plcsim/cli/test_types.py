@@ -1,0 +1,51 @@
+import argparse
+
+import pytest
+
+from plcsim.cli import types
+from plcsim.cli.type_commands import COMMANDS
+
+
+@pytest.fixture
+def parser() -> argparse.ArgumentParser:
+    made = argparse.ArgumentParser(prog="plcsim")
+    types.register(made.add_subparsers(required=True))
+    return made
+
+
+ARGUMENTS = {
+    "check": ["check", "folder"],
+    "layout": ["layout", "TON"],
+    "header": ["header"],
+    "python": ["python"],
+    "print": ["print"],
+    "to-ros": ["to-ros", "A"],
+    "from-ros": ["from-ros", "p/A"],
+}
+
+
+def test_every_command_has_arguments_and_an_act(parser: argparse.ArgumentParser) -> None:
+    assert set(ARGUMENTS) == set(COMMANDS)
+    for name, arguments in ARGUMENTS.items():
+        assert parser.parse_args(["types", *arguments]).act == name
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["check"],
+        ["layout"],
+        ["from-ros"],
+        ["from-ros", "p/A", "--array", "0"],
+        ["from-ros", "p/A", "--string", "x"],
+        ["from-ros", "p/A", "--string", "99999"],
+    ],
+)
+def test_wrong_usage(
+    parser: argparse.ArgumentParser, arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as caught:
+        parser.parse_args(["types", *arguments])
+    assert caught.value.code == 2
+    assert "usage: plcsim types" in capsys.readouterr().err
