@@ -1,0 +1,65 @@
+"""programs/tank as a user runs it, on a port of its own, for every client here."""
+
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+TANK = HERE.parents[2] / "programs" / "tank"
+TIMEOUT_S = 20.0
+
+
+def free_port() -> int:
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return int(probe.getsockname()[1])
+
+
+class Running:
+    """The tank under ``plcsim run``."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.port = free_port()
+        file = folder / "plc.toml"
+        text, changes = re.subn(r"^port = \d+", f"port = {self.port}", file.read_text(), flags=re.M)
+        assert changes == 1
+        file.write_text(text)
+        command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet", str(folder)]
+        self._process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+        self._wait()
+
+    def _wait(self) -> None:
+        """Wait until the first snapshot can be read."""
+        deadline = time.monotonic() + TIMEOUT_S
+        request = bytes.fromhex("000100000006010300000001")
+        while time.monotonic() < deadline:
+            try:
+                with socket.create_connection(("127.0.0.1", self.port), 1) as probe:
+                    probe.sendall(request)
+                    if probe.recv(260)[7:8] == b"\x03":
+                        return
+            except OSError:
+                pass
+            time.sleep(0.05)
+        raise AssertionError("programs/tank does not serve")
+
+    def stop(self) -> int:
+        self._process.send_signal(signal.SIGINT)
+        return self._process.wait(TIMEOUT_S)
+
+
+@pytest.fixture
+def tank(tmp_path: Path) -> Iterator[Running]:
+    folder = tmp_path / "tank"
+    shutil.copytree(TANK, folder, ignore=shutil.ignore_patterns("__pycache__", ".*"))
+    running = Running(folder)
+    yield running
+    assert running.stop() == 0
