@@ -9,7 +9,7 @@ import argparse
 import sys
 from importlib.metadata import entry_points, version
 
-from plcsim.cli import check, doctor, new, report, run, tags, watch
+from plcsim.cli import check, doctor, new, report, run, tags, types, watch
 from plcsim.errors import PlcError
 from st_types.errors import TypeSystemError
 
@@ -26,7 +26,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (run, check, doctor, new, report, tags, watch):
+    for command in (run, check, doctor, new, report, tags, watch, types):
         command.register(subparsers)
     for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
         entry.load()(subparsers)
