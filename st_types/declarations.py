@@ -114,7 +114,8 @@ class DeclarationParser(SpecificationParser):
             return []
         rule = _ITEM_RULES.get(keyword)
         if rule is None:
-            self.fail("expected TYPE, VAR, FUNCTION or FUNCTION_BLOCK")
+            hint = "a pragma ends with '}'" if keyword == "{" else ""
+            self.fail("expected TYPE, VAR, FUNCTION or FUNCTION_BLOCK", hint)
         return [rule(self)]
 
     def _type_block(self) -> TypeBlock:

@@ -219,7 +219,11 @@ class FileResolver(ConstantResolver):
         if item.value is None:
             return following
         number = self.integer(item.value)
-        return following if number is None else number
+        if number is None:
+            return following
+        if not DINT.minimum <= number < 2**32:
+            self.error(item.value, f"{number} is outside {DINT.minimum}..{DINT.maximum} of DINT")
+        return number
 
     def _made(self, node: Node, make: Callable[[], T]) -> T | None:
         try:

@@ -81,7 +81,9 @@ class TokenReader:
         """
         found = self.texts[self.index]
         if found != text and found.upper() != text:
-            self.fail(f"expected '{text}' {context}")
+            if text.isidentifier():
+                self.fail(f"expected '{text}' {context}")
+            self.fail_before(f"expected '{text}' {context}")
         self.index += 1
         return self.index - 1
 
@@ -98,13 +100,26 @@ class TokenReader:
         return text
 
     def fail(self, expected: str, hint: str = "") -> NoReturn:
-        """Give up at the next token: ``expected`` says what should stand here.
+        """Give up at the next token: ``expected`` says what should stand in its place.
 
         Raises:
             UnexpectedTokenError: always.
         """
-        message = f"{expected}, found {self.found()}"
-        raise UnexpectedTokenError(self.gap_offset(), message, hint)
+        raise UnexpectedTokenError(self.here(), f"{expected}, found {self.found()}", hint)
+
+    def fail_before(self, expected: str) -> NoReturn:
+        """Give up as `fail` does, where ``expected`` should stand before the next token.
+
+        Something forgotten at the end of a line is shown there, not at the start of the next one.
+
+        Raises:
+            UnexpectedTokenError: always.
+        """
+        trivia = self.tokens.trivia[self.index]
+        if self.index and ("\n" in trivia or "\r" in trivia):
+            offset = self.tokens.end_offset(self.index - 1)
+            raise UnexpectedTokenError(offset, f"{expected}, found {self.found()}")
+        self.fail(expected)
 
     def found(self) -> str:
         """Return the next token as a message names it."""
@@ -116,15 +131,9 @@ class TokenReader:
         shown = text if len(text) <= NAMED_TOKEN_LENGTH else text[:NAMED_TOKEN_LENGTH] + "..."
         return f"'{shown}'" if shown.isprintable() else f"the character U+{ord(shown[0]):04X}"
 
-    def gap_offset(self) -> int:
-        """Return where something is missing: at the next token, or behind the last if on its line.
-
-        A forgotten semicolon is shown at the end of its own line.
-        """
-        line_ended = (
-            "\n" in self.tokens.trivia[self.index] or "\r" in self.tokens.trivia[self.index]
-        )
-        if self.index and (line_ended or not self.texts[self.index]):
+    def here(self) -> int:
+        """Return the offset of the next token, at the end of the text that of its end."""
+        if self.index and not self.texts[self.index]:
             return self.tokens.end_offset(self.index - 1)
         return self.tokens.offset(self.index)
 

@@ -83,7 +83,7 @@ class SpecificationParser(InitialParser):
                 self.recover(err, depth, index)
         keyword = texts[self.index].upper()
         if keyword != end:
-            self.diagnostics.error(self.gap_offset(), f"expected {end}, found {self.found()}")
+            self.diagnostics.error(self.here(), f"expected {end}, found {self.found()}")
         if keyword == end or (keyword in _SINGLE_ENDS and end in _SINGLE_ENDS):
             self.index += 1
         return found
@@ -176,7 +176,7 @@ class SpecificationParser(InitialParser):
         elif (
             self.texts[self.index - 1].upper() != "END_STRUCT" and self.keyword not in END_KEYWORDS
         ):
-            self.fail(f"expected ';' after the declaration of {name}")
+            self.fail_before(f"expected ';' after the declaration of {name}")
 
     def specification(self) -> TypeSpecification:
         """Parse a type as it stands behind the colon of a declaration.

@@ -43,7 +43,17 @@ def test_what_was_found(text: str, message: str) -> None:
 def test_what_is_missing_is_missing_on_its_own_line(text: str, place: int) -> None:
     found = reader(text)
     found.index = 1
-    assert found.gap_offset() == place
+    with pytest.raises(UnexpectedTokenError) as caught:
+        found.expect(";", "after a")
+    assert caught.value.offset == place
+
+
+def test_a_wrong_word_is_shown_where_it_stands() -> None:
+    found = reader("a\n b")
+    found.index = 1
+    with pytest.raises(UnexpectedTokenError) as caught:
+        found.expect("OF", "after a")
+    assert caught.value.offset == found.here() == 3
 
 
 def test_no_name() -> None:

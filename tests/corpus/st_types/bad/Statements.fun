@@ -1,0 +1,6 @@
+FUNCTION_BLOCK A
+	VAR
+		x : INT;
+	END_VAR
+	x := x + 1;
+END_FUNCTION_BLOCK

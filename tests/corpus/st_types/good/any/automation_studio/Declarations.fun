@@ -1,0 +1,10 @@
+
+FUNCTION Largest : ANY_NUM
+	VAR_INPUT
+		A : ANY_NUM;
+		B : ANY_INT;
+		C : ANY_REAL;
+		D : ANY;
+		E : ANY_BIT;
+	END_VAR
+END_FUNCTION

@@ -1,0 +1,17 @@
+
+FUNCTION_BLOCK CountParts
+	VAR CONSTANT
+		SIZE : UINT := 16;
+		IDLE : INT := 0;
+	END_VAR
+	VAR_INPUT
+		Enable : BOOL;
+	END_VAR
+	VAR RETAIN
+		Total : UDINT;
+	END_VAR
+	VAR
+		History : ARRAY[0..SIZE] OF UINT;
+		State : INT := IDLE;
+	END_VAR
+END_FUNCTION_BLOCK

@@ -1,0 +1,15 @@
+
+FUNCTION_BLOCK Backwards
+	VAR
+		Inner : DINT;
+	END_VAR
+	VAR_OUTPUT
+		Done : BOOL;
+	END_VAR
+	VAR_INPUT
+		Start : BOOL;
+	END_VAR
+	VAR_OUTPUT
+		Error : UINT;
+	END_VAR
+END_FUNCTION_BLOCK

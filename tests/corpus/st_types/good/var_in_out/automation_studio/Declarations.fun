@@ -1,0 +1,11 @@
+
+FUNCTION_BLOCK FillTank
+	VAR_INPUT
+		Enable : BOOL;
+	END_VAR
+	VAR_IN_OUT
+		Level : REAL;
+		Values : ARRAY[0..9] OF INT;
+		Name : STRING[20];
+	END_VAR
+END_FUNCTION_BLOCK
