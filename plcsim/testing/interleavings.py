@@ -9,6 +9,7 @@ from random import Random
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.duration import format_duration
+from plcsim.task import Policy
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
@@ -49,9 +50,17 @@ class Interleaving(NamedTuple):
         return ", ".join(texts)
 
     def apply(self, setup: Setup) -> Setup:
-        """Return the setup of a controller on which the classes meet in this way."""
+        """Return the setup of a controller on which the classes meet in this way.
+
+        Cycle time violations are only logged on it, as the overruns are made on purpose.
+        """
         classes = [
-            replace(c, first_release_ns=self.first_release_ns.get(c.number, c.first_release_ns))
+            replace(
+                c,
+                first_release_ns=self.first_release_ns.get(c.number, c.first_release_ns),
+                policy=Policy.LOG,
+                host_policy=Policy.LOG,
+            )
             for c in setup.classes
         ]
         return replace(setup, classes=classes)

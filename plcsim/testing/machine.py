@@ -36,7 +36,7 @@ __tracebackhide__ = True
 
 F = TypeVar("F", bound="Callable[[Any], object]")
 
-LONGEST_RUN = 50
+LONGEST_RUN = 20
 """Cycles that one step of the machine runs at most."""
 
 

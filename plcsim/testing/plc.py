@@ -30,13 +30,14 @@ if TYPE_CHECKING:
 
     from plcsim.controller import Setup
     from plcsim.network import Network
+    from plcsim.tag import Tag
     from plcsim.task import TaskClass
     from plcsim.testing.condition import Given
 
 __tracebackhide__ = True
 
 MOST_TAGS = 8
-"""Tags shown of a failure that does not say which ones are involved."""
+"""Tags shown of a failure at most."""
 
 
 class Plc(World, Expectations):
@@ -324,13 +325,13 @@ class Plc(World, Expectations):
         return f"{text} (interleaving: {self.interleaving})" if self.interleaving else text
 
     def explain(self, paths: Iterable[str] = ()) -> str:
-        """Return the last cycles of tags as a table and as a timing diagram.
-
-        Args:
-            paths: the tags; none for those that were read last.
-        """
+        """Return the last cycles of tags, and of those recorded, as a table and as a diagram."""
         leaves = [leaf for path in paths for leaf in self.tags.leaves(path)]
-        return self.history.explain(leaves[:MOST_TAGS])
+        leaves += [tag for trace in self.traces for tag in trace.tags]
+        shown: dict[str, Tag] = {}
+        for leaf in leaves:
+            shown.setdefault(leaf.path.upper(), leaf)
+        return self.history.explain(list(shown.values())[:MOST_TAGS])
 
     def recent(self) -> list[str]:
         """Return the tags that were read last."""

@@ -239,7 +239,10 @@ def _tags_of(call: pytest.CallInfo[None], plc: Plc) -> tuple[str, ...]:
 def _traces_of_failure(call: pytest.CallInfo[None], plc: Plc) -> list[Trace]:
     """Return what the test recorded, and the last cycles of the tags that the failure is about."""
     leaves = [leaf for path in _tags_of(call, plc) for leaf in plc.tags.leaves(path)]
-    traces = [*plc.traces, plc.history.trace(leaves)]
+    recorded = {tag.path.upper() for trace in plc.traces for tag in trace.tags}
+    traces = [*plc.traces]
+    if any(leaf.path.upper() not in recorded for leaf in leaves):
+        traces.append(plc.history.trace(leaves))
     return [trace for trace in traces if trace.tags and trace.rows]
 
 
@@ -258,14 +261,14 @@ def _explain(
     cycles = plc.explain(_tags_of(call, plc))
     if cycles and not own:
         lines.append(cycles)
-    lines += _saved(item, traces)
+    lines += _saved(item, traces, str(call.excinfo.value) if own and call.excinfo else "")
     if plc.used_chance:
         lines.append(f"chance was in it: repeat with --plc-seed={plc.seed}")
     if lines:
         report.sections.append(("plc", "\n".join(lines)))
 
 
-def _saved(item: pytest.Item, traces: list[Trace]) -> list[str]:
+def _saved(item: pytest.Item, traces: list[Trace], failure: str) -> list[str]:
     """Save the traces of a failed test; return a line for each."""
     folder = _trace_folder(item.config)
     if folder is None:
@@ -275,7 +278,7 @@ def _saved(item: pytest.Item, traces: list[Trace]) -> list[str]:
     for place, trace in enumerate(traces):
         suffix = f"-{place + 1}" if len(traces) > 1 else ""
         try:
-            files = trace.save(folder, name + suffix, item.name)
+            files = trace.save(folder, name + suffix, item.name, failure)
         except OSError as err:
             return [f"the trace could not be saved: {err}"]
         lines.append(f"trace: {_short(files[0])} and {files[1].name}")

@@ -34,7 +34,7 @@ text { font: 11px ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace; 
 .bus { stroke: #7c4a03; stroke-width: 1.2; fill: #fdf6ec }
 .bar { fill: #1d4ed8 }
 .limit { stroke: #c81e1e; stroke-width: 1.4; stroke-dasharray: 4 3 }
-.alarm { fill: #c81e1e }
+text.alarm { fill: #c81e1e }
 </style>"""
 
 
@@ -67,22 +67,30 @@ def label(x: float, y: float, text: str, kind: str = "", anchor: str = "start") 
     return f'<text x="{x:g}" y="{y:g}"{name} text-anchor="{anchor}">{shown}</text>'
 
 
-def timing_diagram(lanes: Sequence[tuple[Tag, Changes]], end_ns: int, title: str = "") -> str:
+def timing_diagram(
+    lanes: Sequence[tuple[Tag, Changes]], end_ns: int, title: str = "", failure: str = ""
+) -> str:
     """Return a timing diagram.
 
     Args:
         lanes: each tag with its changes, (time_ns, value).
         end_ns: time up to which the last values hold.
         title: printed above.
+        failure: what was expected and did not happen by the end; printed in red, marked by a line.
     """
     starts = [changes[0][0] for _, changes in lanes if changes]
     start_ns = min(starts, default=0)
     left = min(420, GUTTER + LETTER * max((len(tag.path) for tag, _ in lanes), default=0))
-    top = 34 if title else 14
+    top = 14 + (20 if title else 0) + (20 if failure else 0)
     bottom = top + len(lanes) * (LANE + GAP)
     scale = _Scale(start_ns, end_ns + max(1, (end_ns - start_ns) // 60), left, WIDTH - 16)
     parts = [label(12, 20, title, "title")] if title else []
     parts += _axis(scale, top, bottom)
+    if failure:
+        x, room = scale.x(end_ns), int((WIDTH - 24) / LETTER)
+        shown = failure if len(failure) <= room else failure[: room - 1] + "…"
+        parts.append(label(12, top - 12, shown, "alarm"))
+        parts.append(f'<line class="limit" x1="{x}" y1="{top}" x2="{x}" y2="{bottom}"/>')
     for place, (tag, changes) in enumerate(lanes):
         y = top + place * (LANE + GAP)
         parts.append(label(12, y + LANE / 2 + 4, tag.path))
@@ -208,7 +216,8 @@ def histogram(
         )
     for place in range(low, low + max(count, 8) + 1, max(1, max(count, 8) // 4)):
         x = left + (place - low) * step
-        parts.append(label(x, bottom + 14, _short(2 ** (place / 4)), "soft"))
+        if x < width - 6 * LETTER:
+            parts.append(label(x, bottom + 14, _short(2 ** (place / 4)), "soft"))
     if limit_ns:
         x = left + (_place(limit_ns) - low) * step
         if left <= x <= width - left:

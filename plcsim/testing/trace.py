@@ -120,10 +120,10 @@ class Trace:
             writer.writerow([row.time_ns, row.task_class, row.cycle, *texts])
         return file.getvalue()
 
-    def to_svg(self, title: str = "") -> str:
-        """Return the trace as a timing diagram, an SVG picture."""
+    def to_svg(self, title: str = "", failure: str = "") -> str:
+        """Return the trace as a timing diagram, an SVG picture; a failure is marked at its end."""
         lanes = [(tag, self[tag.path]) for tag in self.tags]
-        return timing_diagram(lanes, self.end_ns, title)
+        return timing_diagram(lanes, self.end_ns, title, failure)
 
     def to_text(self, width: int = 100) -> str:
         """Return the trace as a timing diagram of text, one column for a share of the time."""
@@ -146,7 +146,9 @@ class Trace:
             lanes.append((tag, values))
         return draw(lanes, 1, "")
 
-    def save(self, folder: Path, name: str, title: str = "") -> tuple[Path, Path]:
+    def save(
+        self, folder: Path, name: str, title: str = "", failure: str = ""
+    ) -> tuple[Path, Path]:
         """Write ``name``.csv and ``name``.svg into a folder, made if it is not there.
 
         Returns:
@@ -155,5 +157,5 @@ class Trace:
         folder.mkdir(parents=True, exist_ok=True)
         table, picture = folder / f"{name}.csv", folder / f"{name}.svg"
         table.write_text(self.to_csv(), "utf-8")
-        picture.write_text(self.to_svg(title), "utf-8")
+        picture.write_text(self.to_svg(title, failure), "utf-8")
         return table, picture

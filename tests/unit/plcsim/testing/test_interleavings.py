@@ -71,6 +71,15 @@ def test_every_controller_starts_afresh_and_its_classes_meet_otherwise(new_plc):
     assert len(seen) == 8
 
 
+def test_overruns_on_purpose_do_not_lead_to_service(new_plc):
+    seen = 0
+    for plc in new_plc(10, 20).every_interleaving(step="5ms", overrun_cycles=1):
+        plc.cost("Cell", "40ms", cycle=3)
+        plc.run("100ms")
+        seen += len(plc.controller.violations)
+    assert seen >= 20
+
+
 def test_the_first_that_breaks_the_invariant_is_reported(new_plc):
     plc = new_plc(10, 20)
     broken = lambda one: one["Cell.count"] >= 2 * one["Cell2.count"] - 1  # noqa: E731
