@@ -56,6 +56,7 @@ class NodeOptions(NamedTuple):
         hosts: addresses of host names.
         epoch_ns: added to a release gives nanoseconds since 1970.
         clock_ns: measures the step for ``statistics``; None measures nothing.
+        beside: called between the steps of ``destroy``: an embedded master that must answer.
     """
 
     step: StepLimits = StepLimits()
@@ -65,6 +66,7 @@ class NodeOptions(NamedTuple):
     hosts: Mapping[str, str] | None = None
     epoch_ns: int = 0
     clock_ns: Callable[[], int] | None = None
+    beside: Callable[[], None] | None = None
 
 
 class CrosNode:
@@ -410,6 +412,8 @@ class CrosNode:
         self.close()
         while not self.is_closed and steps:
             self.do_events_loop()
+            if self.options.beside:
+                self.options.beside()
             steps -= 1
         self._end(self._context.release_ns)
 

@@ -20,7 +20,9 @@ def test_an_unknown_name_says_where_to_add_it() -> None:
 
 
 def test_a_hosts_file_is_read() -> None:
-    text = "127.0.0.1 localhost # x\n\n::1 ip6\n10.1.1.1\trobot robot.lan\n10.2.2.2 robot\n# 1.1.1.1"
+    text = (
+        "127.0.0.1 localhost # x\n\n::1 ip6\n10.1.1.1\trobot robot.lan\n10.2.2.2 robot\n# 1.1.1.1"
+    )
     assert parse_hosts(text) == {
         "localhost": "127.0.0.1",
         "robot": "10.1.1.1",

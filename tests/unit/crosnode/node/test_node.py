@@ -153,8 +153,7 @@ def test_exit_closes_a_node_within_one_call() -> None:
     assert world.master
     master = world.master
     world.steps.clear()
-    step = node.do_events_loop
-    node.do_events_loop = lambda: (step(), master.step())  # type: ignore[method-assign,assignment,func-returns-value]  # one host runs both
+    node.options = node.options._replace(beside=master.step)
     node.destroy()
     assert node.is_closed
     assert "/n" not in str(master.master.get_system_state("/x")[2])

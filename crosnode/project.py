@@ -1,0 +1,123 @@
+"""Nodes of programs: ``create_node`` in INIT, with what [ros] in plc.toml says.
+
+The settings lie in the options of the controller's context, where `crosnode.extension` put them;
+without a table [ros] the ROS_* environment counts.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Final, NamedTuple, cast
+
+from crosnode.master_server import MasterOptions, MasterServer
+from crosnode.messages import MessageTypes
+from crosnode.names import NodeSettings, node_settings
+from crosnode.node import CrosNode, NodeOptions
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from crosnode.budget import StepLimits
+    from crosnode.settings import RosSettings
+    from plcsim.context import Context
+
+OPTIONS: Final = "ros"
+
+
+class Surroundings(NamedTuple):
+    """What the extension knows of the controller.
+
+    Attributes:
+        settings: table [ros].
+        epoch_ns: added to a release gives nanoseconds since 1970.
+        clock_ns: measures steps.
+    """
+
+    settings: RosSettings
+    epoch_ns: int
+    clock_ns: Callable[[], int]
+
+
+def surroundings(context: Context) -> Surroundings | None:
+    """Return what the extension left, None where the project has no table [ros]."""
+    return cast("Surroundings | None", context.options.get(OPTIONS, {}).get("surroundings"))
+
+
+class SharedTypes(MessageTypes):
+    """The message types of one controller, read and compiled once for all its nodes.
+
+    Args:
+        context: of the controller.
+    """
+
+    def __init__(self, context: Context) -> None:
+        found = surroundings(context)
+        super().__init__(found.settings.packages if found else ())
+
+
+class EmbeddedMaster(MasterServer):
+    """The master inside the scan: ``context.library(EmbeddedMaster)``; a restart makes another.
+
+    Args:
+        context: of a controller whose [ros] says ``master = "embedded"``.
+    """
+
+    def __init__(self, context: Context) -> None:
+        found = surroundings(context)
+        assert found is not None
+        settings = found.settings
+        super().__init__(
+            context,
+            MasterOptions(
+                host=settings.host,
+                port=settings.master_port,
+                bind_ip=settings.bind_ip,
+                pid=os.getpid(),
+                parameters={"/run_id": f"plcsim-{os.getpid()}", "/rosdistro": "noetic\n"},
+                hosts=settings.hosts,
+            ),
+        )
+
+
+def create_node(
+    context: Context,
+    name: str,
+    *arguments: str,
+    namespace: str = "",
+    step: StepLimits | None = None,
+) -> CrosNode:
+    """Make a node; call it in INIT, and ``do_events_loop`` of the node in CYCLIC.
+
+    Args:
+        context: of the program.
+        name: base name of the node.
+        arguments: remapping arguments such as ``chatter:=/other``, beside those of [ros].
+        namespace: of the node, where [ros] and the environment name none.
+        step: bounds of one step, by default those of `StepLimits`.
+
+    Raises:
+        InvalidNameError: a name is not legal.
+        NodeError: no port can be opened.
+    """
+    found = surroundings(context)
+    options = NodeOptions() if step is None else NodeOptions(step=step)
+    if found is None:
+        settings = node_settings(name, arguments, os.environ, namespace=namespace, host="127.0.0.1")
+        return CrosNode(context, settings, context.library(SharedTypes), options)
+    ros = found.settings
+    options = options._replace(
+        bind_ip=ros.bind_ip, hosts=ros.hosts, epoch_ns=found.epoch_ns, clock_ns=found.clock_ns
+    )
+    if ros.is_embedded:
+        options = options._replace(beside=lambda: context.library(EmbeddedMaster).step())
+    settings = _settings(ros, name, arguments, namespace)
+    return CrosNode(context, settings, context.library(SharedTypes), options)
+
+
+def _settings(
+    ros: RosSettings, name: str, arguments: tuple[str, ...], namespace: str
+) -> NodeSettings:
+    """Return the node's settings; [ros] goes before the environment."""
+    given = [*ros.arguments, *arguments]
+    found = node_settings(name, given, {"ROS_NAMESPACE": ros.namespace or namespace})
+    return found._replace(master_uri=ros.master_uri, host=ros.host)

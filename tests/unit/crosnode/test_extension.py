@@ -1,0 +1,79 @@
+"""[ros] on a controller: settings for its programs, a restart, no bridge without topics."""
+
+from pathlib import Path
+
+from crosnode.extension import EXTENSION
+from crosnode.project import EmbeddedMaster, create_node, surroundings
+from plcsim.clock import VirtualClock
+from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.network import VirtualNetwork
+from plcsim.system import State
+from plcsim.table import Table
+from plcsim.task import Program
+from st_types import BOOL, UDINT, var
+
+MS = 1_000_000
+
+
+class Talker(Program):
+    __slots__ = ("node",)
+    count = var(UDINT)
+    broken = var(BOOL)
+
+    def init(self) -> None:
+        self.node = create_node(self.context, "talker", "chatter:=/other")
+        self.node.register_publisher("chatter", "std_msgs/String")
+
+    def cyclic(self) -> None:
+        self.node.do_events_loop()
+        self.count += 1
+        if self.count == 100 and self.broken:
+            raise ValueError("broken")
+
+
+def controller(**values: object) -> Controller:
+    clock = VirtualClock()
+    host = VirtualNetwork(clock.now_ns).host("192.168.0.10")
+    classes = [TaskClassSetup(1, MS, [ProgramSetup("talker", Talker)])]
+    plc = Controller(Setup(classes), network=host, clock=clock)
+    table = Table(Path("plc.toml"), "ros", {"master": "embedded", "host": "127.0.0.1"} | values)
+    attachment = EXTENSION.attach(EXTENSION.read(table, Path()), plc)
+    assert not attachment.exports
+    return plc
+
+
+def test_programs_get_the_settings_and_the_master_runs_in_the_scan() -> None:
+    plc = controller(namespace="/cell")
+    plc.boot()
+    plc.run(cycles=100)
+    node = plc.tasks[0].variables.node  # type: ignore[attr-defined]
+    assert node.name == "/cell/talker"
+    assert list(node.publishers) == ["/rosout", "/other"]
+    assert node.is_registered
+    assert node.now_ns == plc.context.release_ns
+    assert node.statistics.last_ns > 0
+    found = surroundings(plc.context)
+    assert found
+    assert found.epoch_ns == 0
+
+
+def test_after_service_a_restart_makes_node_and_master_anew() -> None:
+    plc = controller()
+    plc.boot()
+    first = plc.context.library(EmbeddedMaster)
+    plc.tasks[0].variables.broken = True  # type: ignore[attr-defined]
+    assert plc.run(cycles=200) is State.SERVICE
+    assert plc.boot() is State.RUN
+    plc.run(cycles=80)
+    second = plc.context.library(EmbeddedMaster)
+    assert second is not first
+    assert "/talker" in str(second.master.get_system_state("/x"))
+    plc.shutdown()
+
+
+def test_without_topics_there_is_no_bridge() -> None:
+    plc = controller()
+    plc.boot()
+    plc.run(cycles=50)
+    state = plc.context.library(EmbeddedMaster).master.get_system_state("/x")
+    assert "plc_bridge" not in str(state)
