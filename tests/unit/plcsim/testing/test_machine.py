@@ -1,7 +1,7 @@
 """The state machine helper: it finds what breaks an invariant, in one cycle of many."""
 
 import pytest
-from hypothesis import settings
+from hypothesis import Phase, settings
 from hypothesis.stateful import run_state_machine_as_test
 
 from plcsim import Program
@@ -43,7 +43,13 @@ class SafeMachine(PressMachine):
     inputs = ("SafePress.start", "SafePress.door_closed")
 
 
-QUICK = settings(max_examples=30, deadline=None, derandomize=True, stateful_step_count=10)
+QUICK = settings(
+    max_examples=30,
+    deadline=None,
+    derandomize=True,
+    stateful_step_count=10,
+    phases=[Phase.generate],
+)
 
 
 def test_a_broken_invariant_is_found():
