@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.values import text_of
+from st_types.values import decode
 
 if TYPE_CHECKING:
     from types import CodeType
@@ -41,9 +42,9 @@ class Condition:
             self.text = given
             self._holds: Callable[[], object] = lambda: tags[given]
         elif isinstance(given, Mapping):
-            wanted = {path: tags.encode(path, value) for path, value in given.items()}
+            wanted = {path: self._wanted(path, value) for path, value in given.items()}
             self.text = " and ".join(self._equation(*item) for item in given.items())
-            self._holds = lambda: all(tags.raw(path) == data for path, data in wanted.items())
+            self._holds = lambda: all(tags.peek(path) == value for path, value in wanted.items())
             self.paths = dict.fromkeys(given)
         elif callable(given):
             self.text = source_of(given)
@@ -52,6 +53,10 @@ class Condition:
             raise PlcTestError(
                 f"{given!r} is no condition: give a tag, {{tag: value}} or a function"
             )
+
+    def _wanted(self, path: str, value: object) -> object:
+        """Return a value as the tag would hold it: REAL rounded, an enumeration's name resolved."""
+        return decode(self._tags.find(path).data_type, self._tags.encode(path, value))
 
     def _equation(self, path: str, value: object) -> str:
         data_type = self._tags.find(path).data_type

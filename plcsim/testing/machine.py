@@ -45,7 +45,7 @@ def every_cycle(method: F) -> F:
 
     It fails by an assertion, or by answering False.
     """
-    method._plc_every_cycle = True  # type: ignore[attr-defined]
+    method._plc_every_cycle = True  # type: ignore[attr-defined]  # a mark on a function
     return method
 
 

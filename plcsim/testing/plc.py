@@ -20,7 +20,7 @@ from plcsim.testing.history import History
 from plcsim.testing.interleavings import Interleaving, interleavings
 from plcsim.testing.tags import Tags
 from plcsim.testing.times import duration_ns
-from plcsim.testing.trace import Row, Trace
+from plcsim.testing.trace import Trace
 from plcsim.testing.wall_clock import WallClock
 from plcsim.testing.watchdog import watchdog
 from plcsim.testing.world import CONTROLLER_IP, World
@@ -106,8 +106,6 @@ class Plc(World, Expectations):
             raise PlcTestError(f"there is no task class {number}; there are {known}")
         return found
 
-    # --- life ---
-
     def boot(self) -> None:
         """Give all variables their initial values and run every INIT.
 
@@ -162,12 +160,11 @@ class Plc(World, Expectations):
         else:
             self.controller.context.restart()
 
-    # --- time ---
-
     @property
     def time_ns(self) -> int:
         """Time since the start of the controller, in nanoseconds."""
-        return self.clock.now_ns() - self.controller.scan.origin_ns
+        origin_ns = self.controller.scan.origin_ns
+        return self.clock.now_ns() - origin_ns if origin_ns else 0
 
     @property
     def last_release_ns(self) -> int:
@@ -220,8 +217,6 @@ class Plc(World, Expectations):
         self._check_fault()
         return self._stopped
 
-    # --- tags ---
-
     def __getitem__(self, path: str) -> Any:
         """Return the plain value of a tag: a dict for a STRUCT, a list for an ARRAY.
 
@@ -249,7 +244,7 @@ class Plc(World, Expectations):
         """
         trace = Trace([leaf for path in paths for leaf in self.tags.leaves(path)])
         self.traces.append(trace)
-        self._sample(trace, 0, 0, max(0, self.time_ns))
+        trace.sample(self.controller.memory, 0, 0, self.time_ns)
         return trace
 
     def cost(self, program: str, duration: str | int, cycle: int | None = None) -> None:
@@ -311,8 +306,6 @@ class Plc(World, Expectations):
             plc.close()
         self.latest = self
 
-    # --- failures ---
-
     def fail(self, text: str, paths: Iterable[str]) -> NoReturn:
         """Raise ExpectationFailed with the last cycles of tags.
 
@@ -360,8 +353,6 @@ class Plc(World, Expectations):
         shown = tuple(p for p in self.recent() if p in paths) or tuple(paths[:MOST_TAGS])
         raise ControllerFault(text, shown, self.explain(shown)) from None
 
-    # --- what happens in every cycle ---
-
     def _latch(self, task_class: TaskClass) -> None:
         """Bring in what acts on the programs."""
         time_ns = self.controller.context.release_ns - self.controller.scan.origin_ns
@@ -377,7 +368,7 @@ class Plc(World, Expectations):
         self._forces.apply()
         self.history.add(task_class)
         for trace in self.traces:
-            self._sample(trace, task_class.number, task_class.cycles, time_ns)
+            trace.sample(self.controller.memory, task_class.number, task_class.cycles, time_ns)
         for act in self.after_cycle:
             act()
         try:
@@ -400,8 +391,3 @@ class Plc(World, Expectations):
     def _end_run(self, error: BaseException) -> None:
         self._pending = self._pending or error
         self.controller.scan.pause()
-
-    def _sample(self, trace: Trace, task_class: int, cycle: int, time_ns: int) -> None:
-        memory = self.controller.memory
-        raw = tuple(memory.read(tag.address, tag.data_type.size) for tag in trace.tags)
-        trace.add(Row(time_ns, task_class, cycle, raw))

@@ -169,7 +169,7 @@ def run_with_budget(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
     verdict = ""
     for _ in range(MOST_RUNS):
         if measured.runs:
-            item._initrequest()  # type: ignore[attr-defined]
+            item._initrequest()  # type: ignore[attr-defined]  # of Function items only
         reports = runtestprotocol(item, nextitem=nextitem, log=False)
         if not all(report.passed for report in reports):
             break
@@ -227,7 +227,7 @@ def complete(item: pytest.Item, call: pytest.CallInfo[None], report: pytest.Test
     shown = traces if item.config.getoption("--plc-report") else []
     result = result_of(item, report, current, item.stash.get(CALIBRATION, None), shown)
     item.user_properties.extend(properties_of(result))
-    report.plc = result  # type: ignore[attr-defined]
+    report.plc = result  # type: ignore[attr-defined]  # travels with the report
 
 
 def _tags_of(call: pytest.CallInfo[None], plc: Plc) -> tuple[str, ...]:
@@ -305,7 +305,7 @@ def _trace_folder(config: pytest.Config) -> Path | None:
 
 def _apply_verdict(item: pytest.Item, report: pytest.TestReport, plc: Plc) -> None:
     verdict = judge(plc.controller, failed=report.failed)
-    report.plc_verdict = verdict.value  # type: ignore[attr-defined]
+    report.plc_verdict = verdict.value  # type: ignore[attr-defined]  # for result_of
     if verdict is Verdict.HOST:
         text = f"host could not hold the tick: {figures(plc.controller)}"
         if item.config.getoption("--require-realtime"):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from plcsim.memory import Memory
     from plcsim.tag import Tag
 
 __tracebackhide__ = True
@@ -62,6 +63,11 @@ class Trace:
         self.end_ns = max(self.end_ns, row.time_ns)
         if not self.rows or self.rows[-1].raw != row.raw:
             self.rows.append(row._replace(time_ns=self.end_ns))
+
+    def sample(self, memory: Memory, task_class: int, cycle: int, time_ns: int) -> None:
+        """Add the present values of the tags; for the arguments see `Row`."""
+        raw = tuple(memory.read(tag.address, tag.data_type.size) for tag in self.tags)
+        self.add(Row(time_ns, task_class, cycle, raw))
 
     def __len__(self) -> int:
         return len(self.rows)

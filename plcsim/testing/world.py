@@ -82,7 +82,7 @@ class World(ABC):
                 reads outputs from ``tags`` and writes inputs to it, or returns them by tag. May be
                 used as a decorator.
         """
-        self._plants.append(Plant(model, self.tags, max(0, self.time_ns)))
+        self._plants.append(Plant(model, self.tags, self.time_ns))
         return model
 
     def stimulate(
@@ -113,7 +113,7 @@ class World(ABC):
 
     def at(self, time: str | int, act: Callable[[], None]) -> None:
         """Plan an act for a time from now; it happens before the first cycle at or after it."""
-        self._by_time.plan(max(0, self.time_ns) + duration_ns(time, "at"), act)
+        self._by_time.plan(self.time_ns + duration_ns(time, "at"), act)
 
     def at_cycle(self, number: int, act: Callable[[], None]) -> None:
         """Plan an act for just before a cycle of the task class under test, counted from 1."""

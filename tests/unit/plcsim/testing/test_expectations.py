@@ -21,6 +21,14 @@ def test_until_takes_a_tag_a_mapping_or_a_function(cell_plc):
     assert cell_plc["Cell.count"] == 9
 
 
+def test_a_real_is_compared_as_the_tag_holds_it(cell_plc):
+    cell_plc["Cell.level"] = 0.1
+    assert cell_plc["Cell.level"] != 0.1
+    cell_plc.until({"Cell.level": 0.1}, within="0ms")
+    cell_plc["Cell.level"] = -0.0
+    cell_plc.until({"Cell.level": 0}, within="0ms")
+
+
 def test_until_that_never_holds_shows_what_it_saw(cell_plc):
     with pytest.raises(ExpectationFailed) as caught:
         cell_plc.until(lambda: cell_plc["Cell.count"] > 30, within="250ms")

@@ -172,6 +172,17 @@ def test_10_s_at_1_ms_take_less_than_a_second(new_plc):
     assert time.thread_time() - begin < 1.0
 
 
+def test_what_is_planned_before_the_boot_counts_from_the_start(cell_plc):
+    plc = Plc("cell", cell_plc.setup)
+    plc.stimulate([("30ms", {"Cell.start": True})])
+    assert plc.time_ns == 0
+    plc.boot()
+    plc.run("30ms")
+    assert not plc["Cell.start"]
+    plc.run("10ms")
+    assert plc["Cell.start"]
+
+
 def test_used_chance_tells_whether_the_seed_mattered(cell_plc):
     cell_plc.run("100ms")
     assert not cell_plc.used_chance
