@@ -1,0 +1,172 @@
+"""A ROS 1 system of real processes on ports of its own: master, tools, peers, and our node."""
+
+import contextlib
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from crosnode.messages import MessageTypes
+from crosnode.names import node_settings
+from crosnode.node import CrosNode, NodeOptions
+from plcsim.context import Context
+from plcsim.memory import Memory
+from plcsim.network import OsNetwork
+
+PYTHON = "/usr/bin/python3"
+HERE = Path(__file__).parent
+ROOT = HERE.parents[2]
+PROGRAMS = ROOT / "programs"
+NS_PER_MS = 1_000_000
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port: int = probe.getsockname()[1]
+        return port
+
+
+class Process:
+    """A process whose output is read without waiting for it."""
+
+    def __init__(self, command: list[str], env: dict[str, str], log: Path) -> None:
+        self.log = log
+        with log.open("wb") as file:
+            self._popen = subprocess.Popen(
+                command, env=env, stdout=file, stderr=subprocess.STDOUT, start_new_session=True
+            )
+
+    @property
+    def text(self) -> str:
+        return re.sub(r"\x1b\[[0-9;]*m", "", self.log.read_text(errors="replace"))
+
+    @property
+    def is_running(self) -> bool:
+        return self._popen.poll() is None
+
+    def kill(self, number: int = signal.SIGKILL, patience_s: float = 10) -> None:
+        if self.is_running:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(self._popen.pid, number)
+        try:
+            self._popen.wait(patience_s)
+        except subprocess.TimeoutExpired:
+            os.killpg(self._popen.pid, signal.SIGKILL)
+            self._popen.wait()
+
+
+class Ros:
+    """A master, and whatever a test starts beside it.
+
+    Args:
+        master: "rosmaster" or "plcsim".
+        folder: for logs.
+    """
+
+    def __init__(self, master: str, folder: Path) -> None:
+        self.kind = master
+        self.folder = folder
+        self.port = free_port()
+        self.uri = f"http://127.0.0.1:{self.port}/"
+        keep = ("PATH", "HOME", "LANG", "PYTHONHASHSEED")
+        self.env = {key: os.environ[key] for key in keep if key in os.environ} | {
+            "ROS_MASTER_URI": self.uri,
+            "ROS_IP": "127.0.0.1",
+            "ROS_HOME": str(folder / "home"),
+            "ROS_LOG_DIR": str(folder / "log"),
+            "ROS_PACKAGE_PATH": f"{PROGRAMS / 'talker' / 'packages'}:/usr/share",
+            "PYTHONUNBUFFERED": "1",
+            "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
+        }
+        self._processes: list[Process] = []
+        self._nodes: list[tuple[Context, CrosNode]] = []
+        self.steps: list[Callable[[], object]] = []
+        self.start_master()
+
+    def start_master(self) -> None:
+        commands = {
+            "rosmaster": [PYTHON, "/usr/bin/rosmaster", "--core", "-p", str(self.port)],
+            "plcsim": [sys.executable, "-m", "plcsim.cli.main", "master", "-p", str(self.port)],
+        }
+        self.master = self.start(commands[self.kind])
+        deadline = time.monotonic() + 15
+        while time.monotonic() < deadline:
+            with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", self.port)):
+                return
+            time.sleep(0.02)
+        raise AssertionError(f"no master: {self.master.text}")
+
+    def start(self, command: list[str]) -> Process:
+        log = self.folder / f"{len(self._processes)}.log"
+        self._processes.append(Process(command, self.env, log))
+        return self._processes[-1]
+
+    def rospy(self, *arguments: str) -> Process:
+        return self.start([PYTHON, str(HERE / "peers" / "rospy_peer.py"), *arguments])
+
+    def tool(self, name: str, *arguments: str, seconds: float = 20) -> str:
+        """Run a command-line tool of ROS while our nodes go on; return what it says."""
+        process = self.start(["timeout", str(seconds), PYTHON, f"/usr/bin/{name}", *arguments])
+        self.until(lambda: not process.is_running, seconds + 5)
+        return process.text
+
+    def program(self, name: str) -> Process:
+        """Run one of our example projects in its own scan process."""
+        command = [sys.executable, "-m", "plcsim.cli.main", "run", str(PROGRAMS / name)]
+        return self.start(command)
+
+    def node(self, name: str, *arguments: str) -> CrosNode:
+        context = Context(Memory(), OsNetwork())
+        context.release_ns = time.monotonic_ns()
+        settings = node_settings(name, arguments, self.env)
+        types = MessageTypes([PROGRAMS / "talker" / "packages"])
+        epoch_ns = time.time_ns() - context.release_ns
+        node = CrosNode(context, settings, types, NodeOptions(epoch_ns=epoch_ns))
+        self._nodes.append((context, node))
+        return node
+
+    def tick(self) -> None:
+        """Let our nodes do a cycle of a millisecond."""
+        for context, node in self._nodes:
+            context.release_ns = time.monotonic_ns()
+            node.do_events_loop()
+        for step in self.steps:
+            step()
+        time.sleep(0.001)
+
+    def until(self, condition: Callable[[], Any], seconds: float = 15) -> float:
+        """Run until something is so; return the seconds it took."""
+        start = time.monotonic()
+        while not condition():
+            if time.monotonic() - start > seconds:
+                texts = [f"{p.log.name}: {p.text[-800:]}" for p in self._processes]
+                raise AssertionError("not so in time\n" + "\n".join(texts))
+            self.tick()
+        return time.monotonic() - start
+
+    def run(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.tick()
+
+    def close(self) -> None:
+        for _, node in self._nodes:
+            node.destroy(steps=2_000)
+        for process in reversed(self._processes):
+            process.kill(signal.SIGINT if process is not self.master else signal.SIGKILL, 3)
+
+
+@contextlib.contextmanager
+def ros_system(master: str, folder: Path) -> Iterator[Ros]:
+    ros = Ros(master, folder)
+    try:
+        yield ros
+    finally:
+        ros.close()

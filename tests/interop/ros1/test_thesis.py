@@ -1,0 +1,19 @@
+"""The thesis' test (section 1.3.2): our talker, a roscpp listener; and the reverse."""
+
+from pathlib import Path
+
+from .rig import Ros
+
+
+def test_our_talker_and_a_roscpp_listener(ros: Ros, roscpp: Path) -> None:
+    talker = ros.program("talker")
+    listener = ros.start([str(roscpp / "listener")])
+    ros.until(lambda: listener.text.count("I heard: [Hello world!!!]") >= 3, 25)
+    assert talker.is_running
+
+
+def test_a_roscpp_talker_and_our_listener(ros: Ros, roscpp: Path) -> None:
+    ros.program("listener")
+    ros.start([str(roscpp / "talker")])
+    said = ros.tool("rostopic", "echo", "-n", "20", "/rosout/msg", seconds=20)
+    assert said.count("I heard: [roscpp ") >= 10
