@@ -18,7 +18,7 @@ FIRST_PAUSE_NS = 100_000_000
 """Between the end of a service and its next start."""
 
 LONGEST_PAUSE_NS = 10_000_000_000
-"""The pause doubles up to here while a service does not live longer than its last pause."""
+"""The pause doubles up to here for a service that gives up by itself, with exit code 1."""
 
 STOP_S = 2.0
 """A service has this long to end by itself."""
@@ -31,7 +31,6 @@ class _Service:
         self.order = order
         self.starts = 0
         self._process: subprocess.Popen[bytes] | None = None
-        self._started_ns = 0
         self._next_ns = 0
         self._pause_ns = FIRST_PAUSE_NS
 
@@ -40,15 +39,16 @@ class _Service:
         if self._process is not None:
             if self._process.poll() is None:
                 return
+            gave_up = self._process.returncode == 1
             self._process = None
-            lived_ns = now_ns - self._started_ns
-            short = lived_ns < max(1_000_000_000, self._pause_ns)
-            self._pause_ns = min(2 * self._pause_ns, LONGEST_PAUSE_NS) if short else FIRST_PAUSE_NS
-            self._next_ns = now_ns + (self._pause_ns if short else FIRST_PAUSE_NS)
+            self._pause_ns = (
+                min(2 * self._pause_ns, LONGEST_PAUSE_NS) if gave_up else FIRST_PAUSE_NS
+            )
+            self._next_ns = now_ns + self._pause_ns
         if now_ns >= self._next_ns:
-            self._start(now_ns)
+            self._start()
 
-    def _start(self, now_ns: int) -> None:
+    def _start(self) -> None:
         order = self.order
         module = extensions()[order.table].service
         self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
@@ -57,7 +57,6 @@ class _Service:
             process_group=0,
             stdin=subprocess.DEVNULL,
         )
-        self._started_ns = now_ns
         self.starts += 1
 
     def stop(self) -> None:

@@ -80,10 +80,11 @@ def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Servi
     os.close(status)
 
 
-def wait_for_end(processes: ServiceProcesses) -> None:
+def wait_for_end(processes: ServiceProcesses, *, kill: bool = True) -> None:
     process = processes._services[0]._process
     assert process is not None
-    process.kill()
+    if kill:
+        process.kill()
     deadline = time.monotonic() + 10
     while process.poll() is None:
         assert time.monotonic() < deadline
@@ -107,14 +108,15 @@ def test_a_service_starts_when_the_image_is_there_and_again_within_a_second(
     assert processes.starts == {"web": 2}
 
 
-def test_a_service_that_never_lives_long_is_started_less_and_less_often(
-    processes: ServiceProcesses,
+def test_a_service_that_gives_up_is_started_less_and_less_often(
+    processes: ServiceProcesses, tmp_path: Path
 ) -> None:
+    (tmp_path / "service_for_tests.py").write_text("raise SystemExit(1)\n")
     os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
     now_ns, pauses = 0, []
     for _ in range(4):
         processes.tend(now_ns)
-        wait_for_end(processes)
+        wait_for_end(processes, kill=False)
         before, starts = now_ns, processes.starts["web"]
         while processes.starts["web"] == starts:
             now_ns += 10_000_000
