@@ -81,8 +81,7 @@ def test_parameters_with_rosparam(ros: Ros) -> None:
     param = node.subscribe_param("/gains")
     ros.until(lambda: node.is_registered)
     ros.tool("rosparam", "set", "/gains", "{p: 1.5, i: [1, 2], name: a<b & c}")
-    ros.until(lambda: param.value)
-    assert param.value == {"p": 1.5, "i": [1, 2], "name": "a<b & c"}
+    ros.until(lambda: param.value == {"p": 1.5, "i": [1, 2], "name": "a<b & c"})
     ros.tool("rosparam", "set", "/gains/p", "1.0e-09")
     ros.until(lambda: param.value["p"] == 1e-09)
     node.set_param("/from_plc", {"deep": {"list": [True, "x", 3]}})
