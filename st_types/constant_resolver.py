@@ -123,7 +123,7 @@ class ConstantResolver:
 
     def integer(self, node: Expression) -> int | None:
         """Return the value of a constant integer expression, None after a finding."""
-        constant = self.evaluate(node)
+        constant = node.constant if type(node) is Literal else self.evaluate(node)
         if constant is None:
             return None
         if isinstance(constant.value, int):

@@ -92,14 +92,12 @@ class DeclarationParser(SpecificationParser):
 
     def _check_end(self) -> None:
         trivia = self.trivia[self.index]
-        end = self.tokens.offset(self.index)
         if (place := open_comment(trivia)) is not None:
-            start = end - len(trivia) + place
+            start = self.tokens.offset(self.index) - len(trivia) + place
             self.diagnostics.error(start, "the comment that starts here is never closed")
         if self.tokens.truncated:
-            self.diagnostics.error(
-                end, f"the file has more than {MAX_TOKENS} tokens; the rest is not read"
-            )
+            message = f"the file has more than {MAX_TOKENS} tokens; the rest is not read"
+            self.diagnostics.error(self.tokens.offset(self.index), message)
 
     def _items(self) -> list[Item]:
         keyword = self.keyword

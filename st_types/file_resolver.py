@@ -250,18 +250,20 @@ class FileResolver(ConstantResolver):
                 if declaration.initial is not None:
                     initial = self.initial(declaration, data_type)
                 members.append(Member(declaration.name, data_type, initial, section))
-        names = {declaration.name.upper() for declaration in declarations}
-        if len(names) < len(declarations):
-            self._report_duplicates(declarations, name)
+        if self._report_duplicates(declarations, name):
             return None
         return members if len(members) == len(declarations) else None
 
-    def _report_duplicates(self, declarations: Sequence[Declaration], name: str) -> None:
+    def _report_duplicates(self, declarations: Sequence[Declaration], name: str) -> bool:
+        """Report names that are declared twice; False if there are none."""
+        if len({declaration.name.upper() for declaration in declarations}) == len(declarations):
+            return False
         seen: set[str] = set()
         for declaration in declarations:
             if declaration.name.upper() in seen:
                 self.error(declaration, f"{name} declares {declaration.name} twice")
             seen.add(declaration.name.upper())
+        return True
 
     def _function_block(self, node: FunctionBlockDeclaration) -> DataType[object] | None:
         outer, self.local = self.local, self._local_constants(node.blocks)

@@ -40,6 +40,7 @@ END_KEYWORDS = frozenset(
     ["END_TYPE", "END_VAR", "END_STRUCT", "END_FUNCTION", "END_FUNCTION_BLOCK"]
 )
 _EDGES = ("R_EDGE", "F_EDGE")
+_AFTER_TYPE = (";", ":=")
 _SINGLE_ENDS = frozenset(["END_TYPE", "END_VAR"])
 """Ends of blocks that lie in no other list of declarations: one taken for the other ends both."""
 
@@ -135,12 +136,15 @@ class SpecificationParser(InitialParser):
         others, address = ([], "") if texts[at + 1] == ":" else self._others_and_address()
         colon = self.expect(":", f"after the name {name}")
         specification = self.specification()
-        edge = self._edge() if texts[self.index] != ";" else ""
+        edge = self._edge() if texts[self.index] not in _AFTER_TYPE else ""
         initial: Initial | None = None
         if texts[self.index] == ":=":
             self.index += 1
             initial = self.initial()
-        self._end_of_declaration(name)
+        if texts[self.index] == ";":
+            self.index += 1
+        else:
+            self._end_without_semicolon(name)
         pragmas = pragmas_in(trivia[at] + trivia[colon + 1]) if self._has_pragmas else ()
         behind = trivia[self.index]
         into.append(
@@ -170,12 +174,9 @@ class SpecificationParser(InitialParser):
         self.index += 1
         return self.texts[self.index - 1].upper()
 
-    def _end_of_declaration(self, name: str) -> None:
-        if self.texts[self.index] == ";":
-            self.index += 1
-        elif (
-            self.texts[self.index - 1].upper() != "END_STRUCT" and self.keyword not in END_KEYWORDS
-        ):
+    def _end_without_semicolon(self, name: str) -> None:
+        ended = self.texts[self.index - 1].upper() == "END_STRUCT"
+        if not ended and self.keyword not in END_KEYWORDS:
             self.fail_before(f"expected ';' after the declaration of {name}")
 
     def specification(self) -> TypeSpecification:
@@ -185,13 +186,14 @@ class SpecificationParser(InitialParser):
             UnexpectedTokenError: there is none here.
         """
         text = self.texts[self.index]
-        rule = _RULES.get(text) or _RULES.get(text.upper())
+        keyword = text.upper()
+        rule = _RULES.get(keyword)
         if rule is not None:
             self.enter()
             found = rule(self)
             self.leave()
             return found
-        if not text.isidentifier() or text.upper() in END_KEYWORDS:
+        if not text.isidentifier() or keyword in END_KEYWORDS:
             self.fail("expected a type")
         self.index += 1
         if self.texts[self.index] == "(":

@@ -48,6 +48,8 @@ def pragmas_in(trivia: str) -> tuple[str, ...]:
 
 def open_comment(trivia: str) -> int | None:
     """Return the offset of a comment that is never closed, None if there is none."""
+    if "*" not in trivia:
+        return None
     pieces = list(_PIECE.finditer(trivia))
     if not pieces or pieces[-1].lastgroup != "block":
         return None
