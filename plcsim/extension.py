@@ -86,12 +86,14 @@ class ServiceOrder:
         image_fd: the shared image.
         status_fd: the status page.
         wake_fd: an eventfd, raised when the scan acknowledged commands of this service.
+        quiet: print nothing but errors.
     """
 
     table: str
     image_fd: int
     status_fd: int
     wake_fd: int
+    quiet: bool = False
 
     def to_json(self) -> str:
         """Return the order as the argument of the process."""

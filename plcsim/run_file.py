@@ -24,6 +24,11 @@ class Run(NamedTuple):
     image_fd: int
     status_fd: int
 
+    @property
+    def is_alive(self) -> bool:
+        """False once the supervisor has gone."""
+        return Path(f"/proc/{self.pid}/fd/{self.image_fd}").exists()
+
     def open(self, fd: int) -> int:
         """Return a descriptor of our own for one of the supervisor's.
 
@@ -81,6 +86,6 @@ def find_run(project: Path) -> Run:
         run = Run(values["pid"], values["image_fd"], values["status_fd"])
     except (OSError, ValueError, KeyError, TypeError):
         raise PlcError(f"{project} is not running; start it with plcsim run") from None
-    if not Path(f"/proc/{run.pid}/fd/{run.image_fd}").exists():
+    if not run.is_alive:
         raise PlcError(f"{project} is not running any more; start it with plcsim run")
     return run

@@ -77,18 +77,19 @@ class ServiceProcesses:
     Args:
         settings: of the extensions of the project, by table.
         status_fd: the status page.
+        quiet: the services print nothing but errors.
 
     Attributes:
         image_fd: the shared image, for the scan process to lay out.
         wake_fds: an eventfd for each service, in the order of the tables.
     """
 
-    def __init__(self, settings: Mapping[str, Any], status_fd: int) -> None:
+    def __init__(self, settings: Mapping[str, Any], status_fd: int, *, quiet: bool = False) -> None:
         self.image_fd = make_file()
         names = services_of(settings)
         self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in names]
         self._services = [
-            _Service(ServiceOrder(name, self.image_fd, status_fd, wake_fd))
+            _Service(ServiceOrder(name, self.image_fd, status_fd, wake_fd, quiet))
             for name, wake_fd in zip(names, self.wake_fds, strict=True)
         ]
 

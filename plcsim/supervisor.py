@@ -51,6 +51,7 @@ class Supervisor:
         virtual: run on the virtual clock and network.
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
+        quiet: the services print nothing but errors.
 
     Attributes:
         page: the status page.
@@ -64,13 +65,16 @@ class Supervisor:
         virtual: bool = False,
         for_ns: int | None = None,
         cycles: int | None = None,
+        quiet: bool = False,
     ) -> None:
         self.page = StatusPage()
         self._project = project
         self._classes = self._class_of_each_task(project)
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
-        self.services = ServiceProcesses({} if virtual else project.extensions, self.page.fd)
+        self.services = ServiceProcesses(
+            {} if virtual else project.extensions, self.page.fd, quiet=quiet
+        )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)
         self._process = _start(

@@ -74,7 +74,11 @@ def run(options: argparse.Namespace) -> int:
     project = read_project(options.project)
     _check_report_file(options.report)
     with Supervisor(
-        project, virtual=options.virtual, for_ns=options.for_ns, cycles=options.cycles
+        project,
+        virtual=options.virtual,
+        for_ns=options.for_ns,
+        cycles=options.cycles,
+        quiet=options.quiet,
     ) as supervisor:
         _forward_signals(supervisor)
         if options.quiet:

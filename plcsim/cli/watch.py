@@ -12,7 +12,7 @@ from rich.live import Live
 from rich.table import Table
 
 from plcsim.errors import ConfigurationError
-from plcsim.run_file import find_run
+from plcsim.run_file import Run, find_run
 from plcsim.shared_image import ImageError, ImageNotReady, ImageReader
 from plcsim.tag import Tag, leaves
 from st_types.derived import ArrayType, EnumerationType, StructType
@@ -53,7 +53,7 @@ def watch(options: argparse.Namespace) -> int:
         if options.once or not console.is_terminal:
             console.print(_table(reader, tags))
         else:
-            _show(console, reader, tags)
+            _show(console, run, reader, tags)
     finally:
         os.close(fd)
     return 0
@@ -92,14 +92,16 @@ def _chosen(reader: ImageReader, paths: Sequence[str]) -> Iterator[Tag]:
             yield leaf
 
 
-def _show(console: Console, reader: ImageReader, tags: Sequence[Tag]) -> None:
+def _show(console: Console, run: Run, reader: ImageReader, tags: Sequence[Tag]) -> None:
+    """Draw the values anew until Ctrl-C, or until the run ends."""
     try:
         with Live(console=console, auto_refresh=False) as live:
-            while True:
+            while run.is_alive:
                 live.update(_table(reader, tags), refresh=True)
                 time.sleep(PERIOD_S)
     except KeyboardInterrupt:
         return
+    console.print("The run has ended.")
 
 
 def _table(reader: ImageReader, tags: Sequence[Tag]) -> Table:

@@ -70,10 +70,11 @@ async def _serve(order: ServiceOrder) -> int:
     with AuditLog(settings.audit) as audit:
         server = Server(device, settings, audit)
         await server.start(order.wake_fd)
-        sys.stderr.write(
-            f"modbus: serving {len(device.points)} tags on {settings.host}:{server.port}"
-            f"{' with TLS' if settings.tls else ''}\n"
-        )
+        if not order.quiet:
+            sys.stderr.write(
+                f"modbus: serving {len(device.points)} tags on {settings.host}:{server.port}"
+                f"{' with TLS' if settings.tls else ''}\n"
+            )
         await stopped.wait()
         await server.stop()
     return 0

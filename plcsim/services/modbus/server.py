@@ -60,7 +60,9 @@ class Server:
         self.refused = 0
         self.faults = 0
         self.now_ns = now_ns
-        self.limits = Limits(frozenset(settings.unit_ids), settings.write_timeout_ns)
+        # a slow project needs longer: a write waits for its next LATCH
+        timeout_ns = max(settings.write_timeout_ns, 3 * device.image.directory.cycle_ns)
+        self.limits = Limits(frozenset(settings.unit_ids), timeout_ns)
         self.peers: set[_Peer] = set()
         self._audit = audit
         self._networks = [ipaddress.ip_network(network) for network in settings.allow]

@@ -111,3 +111,15 @@ def test_what_is_not_published_is_named(tmp_path: Path, capsys: pytest.CaptureFi
     assert "cell.waste[5] is not published" in capsys.readouterr().err
     assert main(["watch", str(tmp_path), "cell.waste"]) == 0
     os.close(fd)
+
+
+def test_on_a_terminal_values_are_drawn_until_the_run_ends(
+    project: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    looks = iter([True, True, True, False])
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setattr(Run, "is_alive", property(lambda _: next(looks)))
+    assert main(["watch", str(project), "cell.count"]) == 0
+    shown_text = capsys.readouterr().out
+    assert shown_text.count("cell.count") >= 2
+    assert "The run has ended." in shown_text
