@@ -28,22 +28,26 @@ BLANKS = r"[\s\xa0\ufeff\x1a]"
 """Blanks: also the no-break space, a byte order mark inside the text and the DOS end of file."""
 
 _TRIVIA = rf"""
-    (?> {BLANKS}++
-      | \(\* [^*]*+ (?: \*(?!\)) [^*]*+ )*+ (?: \*\) | \Z )
-      | // [^\r\n]*+
-      | /\* [^*]*+ (?: \*(?!/) [^*]*+ )*+ (?: \*/ | \Z )
-      | \{{ [^{{}}]*+ \}}
-    )*+
+    {BLANKS}*+
+    (?: (?> \(\* [^*]*+ (?: \*(?!\)) [^*]*+ )*+ (?: \*\) | \Z )
+          | // [^\r\n]*+
+          | /\* [^*]*+ (?: \*(?!/) [^*]*+ )*+ (?: \*/ | \Z )
+          | \{{ [^{{}}]*+ \}} )
+        {BLANKS}*+ )*+
 """
+# The commonest tokens stand first; an identifier before # is part of a literal.
 _LEXEME = r"""
-    (?> (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*+
+    (?> [A-Za-z_] \w*+ (?!\#)
+      | ;
+      | :=?+
+      | (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*+
       | [A-Za-z_] \w*+
         (?: \# (?> ' (?: [^'$\r\n] | \$. )*+ '
                  | " (?: [^"$\r\n] | \$. )*+ "
                  | [+-]?+ \d++ \# \w++
                  | [+-]?+ \d (?: \w | \.(?=\d) | (?<=[eE])[+-](?=\d) )*+
                  | [A-Za-z_] \w*+ ) )?+
-      | := | \.\. | => | <> | <= | >= | \*\*
+      | \.\. | => | <> | <= | >= | \*\*
       | \d++ \# \w++
       | \d [\d_]*+ (?: \. (?: \d [\d_]*+ | (?![.\w]) ) )?+ (?: [eE] [+-]?+ \d++ )?+
       | ' (?: [^'$\r\n] | \$. )*+ '
