@@ -9,13 +9,14 @@ starts beside the scan and starts again when it ends.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
 
     from plcsim.controller import Controller
@@ -65,11 +66,27 @@ class Extension(Protocol):
         """
 
 
+class _Installed(Mapping[str, "Extension"]):
+    """The installed extensions; one is imported when a project has its table, not before."""
+
+    def __init__(self) -> None:
+        self._entries = {entry.name: entry for entry in entry_points(group=GROUP)}
+
+    def __getitem__(self, name: str) -> Extension:
+        extension: Extension = self._entries[name].load()
+        return extension
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(sorted(self._entries))
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+
 @cache
 def extensions() -> Mapping[str, Extension]:
     """Return the installed extensions by the table they claim."""
-    found = sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
-    return {entry.name: entry.load() for entry in found}
+    return _Installed()
 
 
 def services_of(settings: Mapping[str, Any]) -> list[str]:

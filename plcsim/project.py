@@ -131,8 +131,8 @@ def read_project(path: Path) -> Project:
     classes = _task_classes(file, top.take("task_class", dict, {}), tick_ns)
     options = top.take("library", dict, {})
     settings = {
-        name: _extension_table(extension, top.table(name), file.parent)
-        for name, extension in extensions().items()
+        name: _extension_table(extensions()[name], top.table(name), file.parent)
+        for name in extensions()
         if name in top
     }
     top.finish(*extensions())

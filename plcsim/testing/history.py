@@ -81,8 +81,12 @@ class History:
             trace.add(Row(cycle.time_ns, cycle.task_class, cycle.number, raw))
         return trace
 
-    def explain(self, tags: Sequence[Tag]) -> str:
-        """Return the last `SHOWN` cycles of the tags as a table and as a timing diagram."""
+    def explain(self, given: Sequence[Tag], most: int = 100) -> str:
+        """Return the last `SHOWN` cycles of tags, at most ``most``, as a table and as a diagram."""
+        by_path: dict[str, Tag] = {}
+        for tag in given:
+            by_path.setdefault(tag.path.upper(), tag)
+        tags = list(by_path.values())[:most]
         cycles = self._cycles(tags)[-SHOWN:]
         if not cycles or not tags:
             return ""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import islice, product
 from math import prod
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple
@@ -69,29 +68,34 @@ class Interleaving(NamedTuple):
 def interleavings(
     setup: Setup, classes: Sequence[int], step_ns: int, overrun_cycles: int, most: int, seed: int
 ) -> Iterator[Interleaving]:
-    """Iterate over all interleavings, or over ``most`` of them chosen by the seed.
+    """Iterate over all interleavings, or over ``most`` of them chosen by the seed, in one order.
 
     The offset of each class goes from 0 up to its cycle time, or up to the longest cycle time of
     the others where that is shorter, in steps: later offsets repeat what was there. A program
     overruns in one of its first cycles, by half of the shortest cycle time or by one and a half.
 
     Raises:
-        PlcTestError: there is no such class, or fewer than two.
+        PlcTestError: there is no such class, or fewer than two; the step is 0.
     """
+    if not step_ns:
+        raise PlcTestError("every_interleaving: the step must be above 0")
     chosen = _chosen(setup, classes)
     offsets = _offsets(chosen, step_ns)
     overruns = _overruns(chosen, overrun_cycles)
     count = prod(len(range_) for range_ in offsets) * len(overruns)
     numbers = [c.number for c in chosen]
-    every = (
-        Interleaving(dict(zip(numbers, place, strict=True)), overrun)
-        for overrun in overruns
-        for place in product(*offsets)
-    )
+
+    def one(index: int) -> Interleaving:
+        place: dict[int, int] = {}
+        for number, choices in zip(reversed(numbers), reversed(offsets), strict=True):
+            index, digit = divmod(index, len(choices))
+            place[number] = choices[digit]
+        return Interleaving(dict(sorted(place.items())), overruns[index])
+
     if count <= most:
-        return every
-    picked = set(Random(seed).sample(range(count), most))  # noqa: S311  # repeatable on purpose
-    return (one for place, one in enumerate(islice(every, count)) if place in picked)
+        return map(one, range(count))
+    picked = Random(seed).sample(range(count), most)  # noqa: S311  # repeatable on purpose
+    return map(one, sorted(picked))
 
 
 def _chosen(setup: Setup, classes: Sequence[int]) -> list[TaskClassSetup]:

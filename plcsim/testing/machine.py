@@ -70,7 +70,8 @@ class PlcMachine(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self._target = self._load()
-        self.plc = Plc(self._target.name, self._target.setup)
+        target = self._target
+        self.plc = Plc(target.name, target.setup, settings=target.settings)
         for name in dir(type(self)):
             if getattr(getattr(type(self), name), "_plc_every_cycle", False):
                 self.plc.always(_named(name, getattr(self, name)))

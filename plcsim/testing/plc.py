@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller
 from plcsim.errors import ProgramError
+from plcsim.extension import extensions
+from plcsim.logbook import Severity
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.system import State
 from plcsim.testing.condition import Condition
@@ -26,11 +28,10 @@ from plcsim.testing.watchdog import watchdog
 from plcsim.testing.world import CONTROLLER_IP, World
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
     from plcsim.controller import Setup
     from plcsim.network import Network
-    from plcsim.tag import Tag
     from plcsim.task import TaskClass
     from plcsim.testing.condition import Given
 
@@ -43,8 +44,8 @@ MOST_TAGS = 8
 class Plc(World, Expectations):
     """A controller with its programs, on a clock that the test moves.
 
-    Tags are read and written as ``plc["program.variable"]``; a write is seen by the programs in
-    their next cycle. Time moves only in `run`, `cycles`, `until` and the assertions.
+    Tags are read and written as ``plc["program.variable"]``. Time moves only in `run`, `cycles`,
+    `until` and the assertions.
 
     Args:
         name: of the project.
@@ -53,6 +54,7 @@ class Plc(World, Expectations):
         realtime: run on the wall clock instead of the virtual one.
         host_network: use the sockets of the host instead of a virtual network.
         task_class: number of the class whose cycles `cycles` counts; by default the lowest.
+        settings: tables of extensions in plc.toml; those without a service hook in.
 
     Attributes:
         controller: the controller itself.
@@ -60,6 +62,7 @@ class Plc(World, Expectations):
         costs: CPU time of the programs, cycle by cycle.
         faults: faults of the network and of tags.
         traces: all traces made by `record`.
+        after_cycle: functions called after every cycle, to step what runs beside the controller.
         interleaving: how the task classes meet, where `every_interleaving` made this controller.
     """
 
@@ -72,6 +75,7 @@ class Plc(World, Expectations):
         realtime: bool = False,
         host_network: bool = False,
         task_class: int | None = None,
+        settings: Mapping[str, Any] | None = None,
     ) -> None:
         self.name = name
         self.seed = seed
@@ -80,7 +84,9 @@ class Plc(World, Expectations):
         self.clock: VirtualClock | WallClock = WallClock() if realtime else VirtualClock()
         net = None if host_network else VirtualNetwork(self.clock.now_ns, seed=seed)
         network: Network = OsNetwork() if net is None else net.host(CONTROLLER_IP)
+        self.settings = dict(settings or {})
         self.controller = Controller(setup, network=network, clock=self.clock)
+        self._attach_extensions()
         World.__init__(self, Tags(self.controller), net, seed)
         Expectations.__init__(self)
         self.costs = Costs(self.controller)
@@ -97,6 +103,13 @@ class Plc(World, Expectations):
         self._last_release_ns = 0
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.append(self._publish)
+
+    def _attach_extensions(self) -> None:
+        """Let extensions hook in; those whose service is a process of its own have none here."""
+        for name, settings in self.settings.items():
+            extension = extensions()[name]
+            if not extension.service:
+                extension.attach(settings, self.controller)
 
     def _find_class(self, number: int | None) -> TaskClass:
         classes = {c.number: c for c in self.controller.classes}
@@ -295,7 +308,9 @@ class Plc(World, Expectations):
         step_ns = min(1_000_000, shortest_ns // 2) if step is None else duration_ns(step, "step")
         every = interleavings(self.setup, tuple(classes), step_ns, overrun_cycles, most, self.seed)
         for one in every:
-            plc = self.latest = Plc(self.name, one.apply(self.setup), seed=self.seed)
+            setup = one.apply(self.setup)
+            plc = Plc(self.name, setup, seed=self.seed, settings=self.settings)
+            self.latest = plc
             plc.interleaving = one
             if one.overrun is not None:
                 plc.cost(one.overrun.program, one.overrun.cost_ns, one.overrun.cycle)
@@ -321,10 +336,7 @@ class Plc(World, Expectations):
         """Return the last cycles of tags, and of those recorded, as a table and as a diagram."""
         leaves = [leaf for path in paths for leaf in self.tags.leaves(path)]
         leaves += [tag for trace in self.traces for tag in trace.tags]
-        shown: dict[str, Tag] = {}
-        for leaf in leaves:
-            shown.setdefault(leaf.path.upper(), leaf)
-        return self.history.explain(list(shown.values())[:MOST_TAGS])
+        return self.history.explain(leaves, MOST_TAGS)
 
     def recent(self) -> list[str]:
         """Return the tags that were read last."""
@@ -347,7 +359,7 @@ class Plc(World, Expectations):
             fault.__cause__, KeyboardInterrupt | SystemExit
         ):
             raise fault.__cause__
-        errors = [e.text for e in self.controller.logbook if e.severity.value == "error"]
+        errors = [e.text for e in self.controller.logbook if e.severity is Severity.ERROR]
         text = self._in_place(f"the controller is in SERVICE: {errors[-1] if errors else fault}")
         paths = [p for p in self.tags.paths() if p.upper().startswith(f"{program.upper()}.")]
         shown = tuple(p for p in self.recent() if p in paths) or tuple(paths[:MOST_TAGS])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from random import SystemRandom
 from typing import TYPE_CHECKING, Any
@@ -90,7 +91,7 @@ def plain_errors() -> Iterator[None]:
 
 
 def open_for(request: pytest.FixtureRequest, seed_step: int) -> Iterator[Plc]:
-    """Open the controller of a test, and close it afterwards."""
+    """Open the controller of a test; it is closed afterwards, also where an INIT failed."""
     item, config = request.node, request.config
     with plain_errors():
         marker = _marker_of(item)
@@ -103,17 +104,25 @@ def open_for(request: pytest.FixtureRequest, seed_step: int) -> Iterator[Plc]:
             realtime=realtime,
             host_network=marker.get("network", "virtual") == "host",
             task_class=marker.get("task_class"),
+            settings=target.settings,
         )
         item.stash[PLC] = plc
+        request.addfinalizer(partial(_close, plc, target))
         _calibrate(item, plc)
         if realtime:
             sharpen_timers()
         if marker.get("boot", True):
             plc.boot()
     yield plc
+
+
+def _close(plc: Plc, target: Target) -> None:
+    """Run the EXITs and forget the project, whatever came before."""
     with plain_errors():
-        plc.close()
-        target.unload()
+        try:
+            plc.close()
+        finally:
+            target.unload()
 
 
 def _marker_of(item: pytest.Item) -> dict[str, Any]:
@@ -167,7 +176,9 @@ def run_with_budget(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
     item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
     measured = item.stash[MEASUREMENT] = Measurement()
     verdict = ""
+    properties = list(item.user_properties)
     for _ in range(MOST_RUNS):
+        item.user_properties[:] = properties
         if measured.runs:
             item._initrequest()  # type: ignore[attr-defined]  # of Function items only
         reports = runtestprotocol(item, nextitem=nextitem, log=False)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
 from plcsim.duration import parse_duration_ns
@@ -14,7 +14,7 @@ from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     from plcsim.task import Program
@@ -34,12 +34,14 @@ class Target:
         setup: what the controller is made from.
         folder: of the project, None for program classes.
         modules: names of the modules that were loaded for it.
+        settings: tables of extensions in plc.toml.
     """
 
     name: str
     setup: Setup
     folder: Path | None = None
     modules: tuple[str, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
 
     def unload(self) -> None:
         """Forget the modules of the project, so that the next test loads them afresh."""
@@ -75,7 +77,7 @@ def project_target(folder: Path) -> Target:
         setup = load_setup(project)
     finally:
         loaded = tuple(m for m in sys.modules if m not in before and m.startswith(_LOADED))
-    return Target(project.name, setup, project.folder, loaded)
+    return Target(project.name, setup, project.folder, loaded, project.extensions)
 
 
 def program_target(
@@ -122,7 +124,7 @@ def open_plc(
     else:
         given = program if isinstance(program, list | tuple) else [program]
         target = program_target([p for p in given if isinstance(p, type)], cycle)
-    plc = Plc(target.name, target.setup, seed=seed)
+    plc = Plc(target.name, target.setup, seed=seed, settings=target.settings)
     try:
         plc.boot()
         yield plc

@@ -147,6 +147,12 @@ def test_a_program_over_its_budget_fails_after_all_runs_and_says_why(budget_run)
     )
 
 
+def test_junit_has_the_properties_of_one_run(budget_run, pytester):
+    budget_run('p50="10ns"', "plc.run('2s')", "--junitxml=junit.xml")
+    text = (pytester.path / "junit.xml").read_text()
+    assert text.count('"plc.time_ns"') == 1
+
+
 def test_a_test_that_fails_by_itself_is_run_once(budget_run):
     result = budget_run('p50="10ns"', "assert plc['Worker.x'] == 1")
     result.assert_outcomes(passed=1, failed=1)

@@ -44,6 +44,16 @@ def test_a_sample_is_chosen_by_the_seed_and_keeps_the_order(new_plc):
     assert [whole.index(one) for one in sample] == sorted(whole.index(one) for one in sample)
 
 
+def test_a_sample_of_very_many_is_quick(new_plc):
+    plc = new_plc(100, 1000, 1000)
+    assert len(every(plc, step=MS, overrun_cycles=10, most=50)) == 50
+
+
+def test_a_step_of_0(new_plc):
+    with pytest.raises(PlcTestError, match="step must be above 0"):
+        every(new_plc(10, 20), step=0)
+
+
 @pytest.mark.parametrize(
     ("cycles", "classes", "text"),
     [((10,), (), "at least two"), ((10, 20), (1,), "at least two"), ((10, 20), (1, 4), "class 4")],

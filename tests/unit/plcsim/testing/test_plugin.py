@@ -1,5 +1,6 @@
 """The plugin in a pytest of its own: what a person sees."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -139,6 +140,17 @@ def test_a_program_that_cannot_be_imported_is_named_with_its_line(suite, pyteste
     result.stdout.fnmatch_lines(["*cell/main.py:2: SyntaxError: invalid syntax*"])
 
 
+def test_an_init_that_fails_is_an_error_and_leaves_no_module_behind(suite, pytester):
+    (pytester.path / "cell" / "main.py").write_text(
+        CELL.replace("def exit(self) -> None:", "def init(self) -> None:\n        1 / 0")
+    )
+    before = {m for m in sys.modules if m.startswith("plcsim_project_")}
+    result = suite("def test_it(plc): pass\n")
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*cell INIT: division by zero (*main.py:*)*"])
+    assert {m for m in sys.modules if m.startswith("plcsim_project_")} == before
+
+
 def test_an_exit_that_fails_is_an_error_of_the_test(suite, pytester):
     (pytester.path / "cell" / "main.py").write_text(
         CELL.replace("self.exits += 1", "raise ValueError('no exit')")
@@ -209,6 +221,38 @@ def test_without_a_project_the_fixture_says_how_to_name_one(pytester):
     pytester.makepyfile("def test_it(plc): pass\n")
     result = pytester.runpytest_inprocess(*QUICK)
     result.stdout.fnmatch_lines(["*no plc.toml in * or above it; name the project with *"])
+
+
+PROGRAMS = Path(__file__).parents[4] / "programs"
+
+
+def test_a_test_imports_no_extension_that_its_project_does_not_use(pytester):
+    shutil.copytree(PROGRAMS / "blinky", pytester.path, dirs_exist_ok=True)
+    pytester.makepyfile(
+        """
+        import sys
+
+        def test_it(plc):
+            assert not [m for m in sys.modules if m.startswith(("crosnode", "pymodbus"))]
+        """
+    )
+    result = pytester.runpytest_subprocess(*QUICK, *pytester.path.glob("test_*.py"))
+    result.assert_outcomes(passed=1)
+
+
+def test_extensions_that_step_with_the_scan_do_so_in_tests(pytester):
+    shutil.copytree(PROGRAMS / "talker", pytester.path, dirs_exist_ok=True)
+    with (pytester.path / "plc.toml").open("a") as file:
+        file.write('master = "embedded"\n')
+    pytester.makepyfile(
+        """
+        def test_it(plc):
+            plc.run("2s")
+            assert len(plc.controller.image.inputs) > 1  # the master steps, and the test's own
+        """
+    )
+    result = pytester.runpytest_subprocess(*QUICK, *pytester.path.glob("test_*.py"))
+    result.assert_outcomes(passed=1)
 
 
 def test_a_run_without_plc_tests_imports_nothing_of_plcsim():
