@@ -41,14 +41,32 @@ def modpoll(export: Export) -> str:
                 continue
             first, count = extent(same)
             rows.append(["poll", name, first, count, endian])
-            rows += [_modpoll_ref(entry) for entry in same]
+            if area.has_registers:
+                rows += [_modpoll_ref(entry) for entry in same]
+            else:
+                rows += _modpoll_bits(area, first, count)
     return _lines(rows)
+
+
+def _modpoll_bits(area: Area, first: int, count: int) -> list[list[Any]]:
+    """Return references to eight bits each; modpoll knows no smaller ones."""
+    access = "rw" if area.is_writable else "r"
+    return [
+        [
+            "ref",
+            f"{area.value}{start}_to_{min(start + 8, first + count) - 1}",
+            start,
+            "bool8",
+            access,
+        ]
+        for start in range(first, first + count, 8)
+    ]
 
 
 def _modpoll_ref(entry: Entry) -> list[Any]:
     point = entry.point
     kind = f"string{2 * point.registers}" if point.kind == "s" else entry.type
-    if point.kind == "?" and entry.area.has_registers:
+    if point.kind == "?":
         kind = "uint16"
     access = "rw" if point.is_writable else "r"
     return ["ref", entry.unique_name, point.offset, kind, access, entry.row.unit, point.scale]

@@ -98,6 +98,7 @@ def test_modpoll_polls_each_area_and_order() -> None:
     assert ["poll", "holding_register", "0", "2", "BE_LE"] in rows
     assert ["poll", "holding_register", "2", "202", "BE_BE"] in rows
     assert ["ref", "p_text", "10", "string8", "rw", "", "1.0"] in rows
+    assert ["ref", "co0_to_0", "0", "bool8", "rw"] in rows
 
 
 def test_kepware_and_ignition_know_strings_and_bits() -> None:
