@@ -7,8 +7,10 @@
     ├── PageFault                    an address that no variable lies at
     ├── PhaseError                   an act in a phase of the scan that does not allow it
     ├── TagError                     no such tag, or a value it cannot take
-    ├── CycleTimeViolation           raised in a program that does not return, by the watchdog
     └── ProgramError                 what a program raised, with program, unit, file and line
+
+    CycleTimeViolation               raised in a program that does not return, by the watchdog; no
+                                     PlcError, so that ``except Exception`` does not catch it
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ class TagError(PlcError):
     """A tag does not exist or cannot take a value."""
 
 
-class CycleTimeViolation(PlcError):  # noqa: N818  # the field's term
+class CycleTimeViolation(BaseException):  # the field's term
     """Raised by the watchdog in a program that does not return."""
 
 

@@ -396,6 +396,21 @@ def test_the_policy_for_the_host_is_one_of_its_own(
     assert run_for(20, task_class(1, 10, settings, p=program)).state is state
 
 
+def test_a_program_that_catches_exceptions_is_ended_all_the_same(
+    make_controller, task_class, program_of
+):
+    def stuck(_):
+        try:
+            controller.abort_program("the program did not return")
+        except Exception:
+            raise AssertionError("it was caught") from None
+
+    controller = make_controller(task_class(1, 10, p=program_of(stuck)))
+    controller.boot()
+    assert controller.run(cycles=1) is State.SERVICE
+    assert the_violation(controller).cause is Cause.PROGRAM
+
+
 @pytest.mark.parametrize("place", ["main.py:7", ""])
 def test_a_program_that_was_ended_is_the_one_to_blame(
     make_controller, task_class, trace, program_of, clock, place
