@@ -55,13 +55,14 @@ class ProgramError(PlcError):
 
     Attributes:
         program: name of the program in plc.toml.
-        unit: INIT, CYCLIC or EXIT.
+        unit: INIT, CYCLIC or EXIT, "" where none of them ran.
         place: "file:line" of the program's own source, "" where there is none.
         reason: what happened, in one line.
     """
 
     def __init__(self, program: str, unit: str, place: str, reason: str) -> None:
-        super().__init__(f"{program} {unit}: {reason}" + (f" ({place})" if place else ""))
+        where = f" ({place})" if place else ""
+        super().__init__(f"{program} {unit}".rstrip() + f": {reason}{where}")
         self.program = program
         self.unit = unit
         self.place = place

@@ -34,9 +34,16 @@ class Rights(NamedTuple):
         return any(right.startswith("SCHED_FIFO") for right in self.granted)
 
 
-def die_with_parent(signal_number: int) -> None:
-    """Ask the kernel to send this process a signal when its parent ends."""
+def die_with_parent(signal_number: int, parent: int | None = None) -> None:
+    """Ask the kernel to send this process a signal when its parent ends.
+
+    Args:
+        signal_number: the signal.
+        parent: the parent's process id; where it has gone already, the signal is sent at once.
+    """
     _libc.prctl(_PR_SET_PDEATHSIG, signal_number)
+    if parent not in (None, os.getppid()):
+        os.kill(os.getpid(), signal_number)
 
 
 def sharpen_timers() -> None:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import faulthandler
+import io
 import json
 import os
 import signal
@@ -51,6 +52,7 @@ class RunOrder:
     """What the supervisor wants run.
 
     Attributes:
+        parent: process id of the supervisor.
         project: folder of the project.
         virtual: on the virtual clock and network.
         for_ns: how long, None for ever.
@@ -62,6 +64,7 @@ class RunOrder:
         wake_fds: an eventfd for each service of the project, none on the virtual clock.
     """
 
+    parent: int
     project: str
     virtual: bool
     for_ns: int | None
@@ -91,7 +94,9 @@ class _PageHeartbeat(StatusPage):
 def main() -> int:
     """Run the order given as the only argument; the result goes to its file."""
     order = RunOrder(**json.loads(sys.argv[1]))
-    realtime.die_with_parent(signal.SIGKILL)
+    realtime.die_with_parent(signal.SIGKILL, order.parent)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)  # what was printed before a crash is seen
     faulthandler.enable(file=order.dump_fd, all_threads=False)
     faulthandler.register(DUMP, file=order.dump_fd, all_threads=False)
     try:
@@ -153,12 +158,19 @@ def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:
 
 
 def _handle_signals(controller: Controller) -> None:
-    """Stop at SIGINT and SIGTERM; at a second one, or when stalled, end the running program."""
+    """Stop at SIGINT and SIGTERM; at a second SIGINT, or when stalled, end the running program.
+
+    SIGINT comes from the supervisor only. SIGTERM may come besides, from whoever ends all processes
+    of a service at once, and that is no second request.
+    """
+    interrupts = 0
 
     def stop(number: int, _frame: FrameType | None) -> None:
-        if controller.stop_requested:
-            controller.abort_program(f"stopped by {signal.Signals(number).name}")
+        nonlocal interrupts
+        interrupts += number == signal.SIGINT
         controller.stop()
+        if interrupts > 1:
+            controller.abort_program("stopped by SIGINT")
 
     def stalled(_number: int, _frame: FrameType | None) -> None:
         controller.abort_program("the program did not return")

@@ -13,6 +13,9 @@ SUB_BITS: Final = 5
 LARGEST_NS: Final = (1 << 40) - 1
 """About 18 minutes; longer durations are counted in the last bucket."""
 
+NEVER_NS: Final = 1 << 63
+"""Longer than any duration."""
+
 BUCKETS: Final = (40 - SUB_BITS + 1) << SUB_BITS
 
 PERCENTILES: Final = (50.0, 90.0, 99.0, 99.9)
@@ -37,7 +40,7 @@ class Histogram:
     Attributes:
         counts: how many durations fell into each bucket.
         total_ns: their sum.
-        minimum_ns: the shortest, exactly; `LARGEST_NS` while empty.
+        minimum_ns: the shortest, exactly; `NEVER_NS` while empty.
         maximum_ns: the longest, exactly.
         last_ns: the latest.
     """
@@ -52,7 +55,7 @@ class Histogram:
         """Forget all durations."""
         self.counts[:] = [0] * BUCKETS
         self.total_ns = 0
-        self.minimum_ns = LARGEST_NS
+        self.minimum_ns = NEVER_NS
         self.maximum_ns = 0
         self.last_ns = 0
 

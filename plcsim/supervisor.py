@@ -9,6 +9,7 @@ call, it takes the Python stack and kills the scan process.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -20,12 +21,14 @@ from typing import TYPE_CHECKING, Any, Self
 
 from plcsim import realtime
 from plcsim.duration import format_duration
-from plcsim.report import SCHEMA
+from plcsim.errors import PlcError, ProgramError
+from plcsim.report import SCHEMA, fault_report
 from plcsim.run_file import Run, announce, withdraw
 from plcsim.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
 from plcsim.service_processes import ServiceProcesses
 from plcsim.status_page import StatusPage
 from plcsim.system import State
+from plcsim.task import Unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -78,14 +81,25 @@ class Supervisor:
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)
         self._process = _start(
-            RunOrder(str(project.folder), virtual, for_ns, cycles, *fds, self.services.wake_fds),
+            RunOrder(
+                os.getpid(),
+                str(project.folder),
+                virtual,
+                for_ns,
+                cycles,
+                *fds,
+                self.services.wake_fds,
+            ),
             (*fds, *self.services.wake_fds),
         )
-        announce(project.folder, self._run)
+        with contextlib.suppress(OSError, PlcError):  # only `plcsim watch` needs it
+            announce(project.folder, self._run)
         self._virtual = virtual
         self._stops = 0
         self._seen = (-1, 0)
         self._signalled_ns = 0
+        self._result_seen_ns = 0
+        self._kill_reason = ""
         self._cpus = os.sched_getaffinity(0)
         if not virtual and project.realtime != "off":
             realtime.keep_off(realtime.scan_cpu(project.cpu))
@@ -116,9 +130,17 @@ class Supervisor:
         being loaded, kills the scan process.
         """
         self._stops += 1
-        if self._process.poll() is None:
-            kill = self._stops > 2 or not self.page.heartbeat
-            self._process.send_signal(signal.SIGKILL if kill else signal.SIGINT)
+        if self._process.poll() is not None:
+            return
+        if self._stops > 2 or self._is_loading:
+            self._kill("killed because it did not stop")
+        else:
+            self._process.send_signal(signal.SIGINT)
+
+    @property
+    def _is_loading(self) -> bool:
+        """The programs are being loaded: nothing of them has run."""
+        return not self.page.heartbeat
 
     def wait(self, look: Callable[[], None] = lambda: None) -> dict[str, Any]:
         """Wait for the end of the run, watching over it.
@@ -140,17 +162,32 @@ class Supervisor:
             look()
 
     def _watch(self, now_ns: int) -> None:
-        """Signal, and later kill, a program that has been running for too long."""
+        """Signal, and later kill, what has been running for too long."""
+        if self._result_seen_ns or os.fstat(self._result_fd).st_size:
+            self._watch_end(now_ns)
+            return
+        active = self.page.active  # before the heartbeat, which grows first
         heartbeat = self.page.heartbeat
-        if heartbeat != self._seen[0] or self.page.active is None:
+        if heartbeat != self._seen[0] or (active is None and not self._is_loading):
             self._seen = (heartbeat, now_ns)
             self._signalled_ns = 0
+        elif self._is_loading:
+            if now_ns - self._seen[1] > self._project.init_timeout_ns:
+                limit = format_duration(self._project.init_timeout_ns)
+                self._kill(f"the programs were not loaded within {limit}")
         elif self._signalled_ns:
             if now_ns - self._signalled_ns > PATIENCE_NS:
-                self._kill()
+                limit = format_duration(self._limit_ns())
+                self._kill(f"did not return within {limit} and could not be interrupted")
         elif now_ns - self._seen[1] > self._limit_ns():
             self._process.send_signal(STALLED)
             self._signalled_ns = now_ns
+
+    def _watch_end(self, now_ns: int) -> None:
+        """Kill a scan process that has left its result and is held up by a program's thread."""
+        self._result_seen_ns = self._result_seen_ns or now_ns
+        if now_ns - self._result_seen_ns > PATIENCE_NS:
+            self._process.kill()
 
     def _limit_ns(self) -> int:
         """Return how long the active unit may take."""
@@ -159,52 +196,60 @@ class Supervisor:
             return self._project.init_timeout_ns
         return max(self._project.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
 
-    def _kill(self) -> None:
-        """End a scan process whose program is stuck inside a call; keep where it is stuck."""
+    def _kill(self, reason: str) -> None:
+        """End a scan process that does not hear; keep where it is stuck."""
+        self._kill_reason = reason
         self._process.send_signal(DUMP)
         time.sleep(POLL_S)
         self._process.kill()
 
     def _outcome(self) -> dict[str, Any]:
-        text = _read_all(self._result_fd)
-        if text:
-            result: dict[str, Any] = json.loads(text)
-            return result
-        return self._outcome_of_death()
+        try:
+            result: dict[str, Any] = json.loads(_read_all(self._result_fd))
+        except ValueError:  # the scan process has left nothing, or not all
+            return self._outcome_of_death()
+        return result
 
     def _outcome_of_death(self) -> dict[str, Any]:
         """Return what is known of a scan process that could leave no report itself."""
-        active = self.page.active
-        name = "" if active is None else self._project.programs[active].name
-        code = self._process.returncode
-        reason = f"the scan process ended with {_code_name(code)}"
-        if self._stops:
-            reason = "killed because it did not stop"
-        elif self._signalled_ns:
-            limit = format_duration(self._limit_ns())
-            reason = f"did not return within {limit} and could not be interrupted"
+        reason = self._kill_reason or (
+            f"the scan process ended with {_code_name(self._process.returncode)}"
+        )
         place = self._place_of_death()
-        text = f"{name or 'scan'}: {reason}" + (f" ({place})" if place else "")
-        fault = {"kind": "program_error", "program": name, "unit": "", "place": place}
+        if not self._is_loading:
+            return self._report_of_death(self._fault(reason, place))
+        if self._stops:
+            return self._report_of_death(None)
+        return {"error": f"{place or self._project.folder}: {reason}"}
+
+    def _fault(self, reason: str, place: str) -> ProgramError:
+        """Return the program and the unit that were active, as the fault."""
+        active = self.page.active
+        if active is None:
+            return ProgramError("scan", "", place, reason)
+        unit = {State.BOOT: Unit.INIT, State.RUN: Unit.CYCLIC}.get(self.page.state, Unit.EXIT)
+        return ProgramError(self._project.programs[active].name, unit.value, place, reason)
+
+    def _report_of_death(self, fault: ProgramError | None) -> dict[str, Any]:
+        state = State.SERVICE if fault else State.STOPPED
+        entry = {
+            "time_ns": self.page.elapsed_ns,
+            "severity": "error" if fault else "information",
+            "source": fault.program if fault else "system",
+            "text": str(fault) if fault else "stopped while the programs were being loaded",
+        }
         return {
             "schema": SCHEMA,
+            "project": self._project.name,
             "clock": "virtual" if self._virtual else "monotonic",
             "realtime_rights": [],
-            "memory_bytes": 0,
-            "project": self._project.name,
-            "state": State.SERVICE.name,
-            "fault": {**fault, "text": reason},
+            "state": state.name,
+            "fault": fault_report(fault),
             "elapsed_ns": self.page.elapsed_ns,
+            "memory_bytes": 0,
             "task_classes": [],
             "violations": [],
-            "logbook": [
-                {
-                    "time_ns": self.page.elapsed_ns,
-                    "severity": "error",
-                    "source": name or "system",
-                    "text": text,
-                }
-            ],
+            "logbook": [entry],
             "logbook_dropped": 0,
         }
 
@@ -220,7 +265,7 @@ def _start(order: RunOrder, fds: tuple[int, ...]) -> subprocess.Popen[bytes]:
     before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
     try:
         return subprocess.Popen(  # noqa: S603  # our own module
-            [sys.executable, "-m", "plcsim.scan_process", order.to_json()],
+            [sys.executable, "-P", "-m", "plcsim.scan_process", order.to_json()],
             pass_fds=fds,
             process_group=0,
             stdin=subprocess.DEVNULL,
@@ -234,4 +279,6 @@ def _read_all(fd: int) -> bytes:
 
 
 def _code_name(code: int) -> str:
-    return signal.Signals(-code).name if code < 0 else f"exit code {code}"
+    if code >= 0:
+        return f"exit code {code}"
+    return next((s.name for s in signal.Signals if s == -code), f"signal {-code}")

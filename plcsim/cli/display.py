@@ -151,4 +151,4 @@ def _fault_text(fault: dict[str, Any]) -> str:
     if fault["kind"] == "cycle_time_violation":
         return f"task class {fault['task_class']}: {fault['text']}"
     place = f" ({fault['place']})" if fault["place"] else ""
-    return f"{fault['program']} {fault['unit']}: {fault['text']}{place}"
+    return f"{fault['program']} {fault['unit']}".rstrip() + f": {fault['text']}{place}"

@@ -1,0 +1,409 @@
+"""Real scan processes: what becomes of programs that hang, crash, fail and print.
+
+Most tests supervise a scan process from here; what concerns the command line starts `plcsim run`
+itself. Programs say where they are by printing or by what they have run; no test sleeps.
+"""
+
+import json
+import os
+import select
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from plcsim import supervisor
+from plcsim.project import read_project
+from plcsim.supervisor import Supervisor
+from plcsim.system import State
+
+MS = 1_000_000
+HEAD = "import ctypes, os, signal, sys, threading, time\nfrom plcsim import Program\n"
+QUICK = 'watchdog = "100ms"\ninit_timeout = "300ms"\n'
+IN = "print('in', flush=True)"
+
+
+@pytest.fixture
+def program(project_of):
+    """``program(cyclic="...", exit="...")``: a project whose units have these bodies."""
+
+    def program(plc=QUICK, settings="", before="", **units):
+        source = f"{HEAD}{before}\nclass Main(Program):\n    pass\n"
+        for unit, body in units.items():
+            lines = "".join(f"        {line}\n" for line in body.splitlines())
+            source += f"    def {unit}(self):\n{lines}"
+        return project_of(source, plc=plc, settings=settings)
+
+    return program
+
+
+@pytest.fixture
+def supervise(monkeypatch):
+    """``supervise(folder, cycles=1)``: the result of a run, killed after little patience."""
+    monkeypatch.setattr(supervisor, "PATIENCE_NS", 200 * MS)
+
+    def supervise(folder, look=lambda _: None, **options):
+        with Supervisor(read_project(folder), **options) as supervised:
+            return supervised.wait(lambda: look(supervised))
+
+    return supervise
+
+
+@pytest.fixture
+def start():
+    """``start("run", folder)``: a running plcsim, killed at the end of the test."""
+    started = []
+
+    def start(*arguments):
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "plcsim.cli.main", *map(str, arguments)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"},
+        )
+        started.append(process)
+        return process
+
+    yield start
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def finish(start):
+    """``finish("run", folder)``: exit code, stdout and stderr of a plcsim that ends by itself."""
+
+    def finish(*arguments):
+        process = start(*arguments)
+        out, err = process.communicate(timeout=30)
+        return process.returncode, out, err
+
+    return finish
+
+
+def line_of(folder, text):
+    """The place of the line of the program that contains ``text``."""
+    file = folder / "main" / "main.py"
+    lines = file.read_text().splitlines()
+    (number,) = [number for number, line in enumerate(lines, 1) if text in line]
+    return f"{file}:{number}"
+
+
+# programs that do not return
+
+
+def test_an_endless_loop_ends_in_service_within_a_second(program, start):
+    folder = program(plc="", cyclic=f"{IN}\nwhile True: pass")
+    process = start("run", folder, "--report", folder / "report.json")
+    process.stdout.readline()
+    began = time.monotonic()
+    _, err = process.communicate(timeout=20)
+    assert time.monotonic() - began < 1.0
+    assert process.returncode == 3
+    assert "program main did not return" in " ".join(err.split())
+    report = json.loads((folder / "report.json").read_text())
+    (entry,) = [e for e in report["logbook"] if e["severity"] == "error"]
+    assert entry["source"] == "task class 1"
+    assert "cause program: program main did not return" in entry["text"]
+    assert line_of(folder, "while True") in entry["text"]
+    assert report["fault"]["place"] == line_of(folder, "while True")
+    assert report["task_classes"][0]["violations"]["program"] == 1
+
+
+LOOP = "while True:\n    try:\n        while 1: time.monotonic()\n    except {}: pass"
+
+
+def test_a_loop_that_swallows_exceptions_is_ended_all_the_same(program, supervise):
+    folder = program(cyclic=LOOP.format("Exception"))
+    fault = supervise(folder)["fault"]
+    assert fault["kind"] == "cycle_time_violation"
+    assert fault["place"] == line_of(folder, "while 1")
+
+
+@pytest.mark.parametrize(
+    ("unit", "body"),
+    [
+        ("init", "sum(range(10**15))"),
+        ("cyclic", "sum(range(10**15))"),
+        ("exit", "sum(range(10**15))"),
+        ("cyclic", LOOP.format("BaseException")),
+    ],
+)
+def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit, body):
+    folder = program(**{unit: body})
+    result = supervise(folder, cycles=1)
+    fault = result["fault"]
+    assert (result["state"], fault["kind"]) == ("SERVICE", "program_error")
+    assert (fault["program"], fault["unit"]) == ("main", unit.upper())
+    assert fault["place"] == line_of(folder, "sum(" if "sum" in body else "while 1")
+    assert "ms and could not be interrupted" in fault["text"]
+    assert fault["place"] in result["logbook"][0]["text"]
+
+
+def test_a_killed_program_is_exit_code_3(program, start):
+    folder = program(cyclic="sum(range(10**15))")
+    process = start("run", folder, "--report", folder / "report.json")
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 3
+    assert "main CYCLIC: did not return within 100 ms and could not be interrupted" in " ".join(
+        err.split()
+    )
+    assert json.loads((folder / "report.json").read_text())["state"] == "SERVICE"
+
+
+def test_a_program_that_does_not_return_may_be_logged_only(program, supervise):
+    folder = program(settings='on_violation = "log"', cyclic="while True: pass")
+    result = supervise(folder, cycles=2)
+    assert (result["state"], result["fault"]) == ("STOPPED", None)
+    assert result["task_classes"][0]["violations"] == {"program": 2, "host": 0, "preempted": 0}
+
+
+@pytest.mark.parametrize("unit", ["init", "exit"])
+def test_an_init_or_exit_that_does_not_return_is_ended(program, supervise, unit):
+    folder = program(**{unit: "while True: pass"})
+    fault = supervise(folder, cycles=1)["fault"]
+    assert (fault["program"], fault["unit"]) == ("main", unit.upper())
+    assert fault["place"] == line_of(folder, "while True")
+    assert fault["text"] == "the program did not return"
+
+
+def test_a_blocking_call_is_ended_and_blamed_on_the_program(program, supervise):
+    folder = program(cyclic="time.sleep(3600)")
+    fault = supervise(folder)["fault"]
+    assert (fault["kind"], fault["cause"]) == ("cycle_time_violation", "program")
+    assert fault["place"] == line_of(folder, "time.sleep")
+
+
+def test_a_project_that_is_never_loaded_is_ended(program, finish):
+    folder = program(before="while True: pass")
+    code, out, err = finish("run", folder)
+    assert (code, out) == (1, "")
+    place = line_of(folder, "while True")
+    assert err == f"plcsim: {place}: the programs were not loaded within 300 ms\n"
+
+
+# programs that end the process
+
+
+@pytest.mark.parametrize(
+    ("body", "text"),
+    [
+        ("os._exit(0)", "exit code 0"),
+        ("os._exit(5)", "exit code 5"),
+        ("os.abort()", "SIGABRT"),
+        ("ctypes.string_at(1)", "SIGSEGV"),
+        ("os.kill(os.getpid(), 40)", "signal 40"),
+        ("os.kill(os.getpid(), signal.SIGKILL)", "SIGKILL"),
+    ],
+)
+def test_a_program_that_ends_the_process_is_reported(program, supervise, body, text):
+    folder = program(cyclic=body)
+    result = supervise(folder)
+    fault = result["fault"]
+    assert result["state"] == "SERVICE"
+    assert (fault["program"], fault["unit"]) == ("main", "CYCLIC")
+    assert fault["text"] == f"the scan process ended with {text}"
+    assert fault["place"] == (line_of(folder, body) if text in ("SIGSEGV", "SIGABRT") else "")
+
+
+def stop_in_run(supervised):
+    """Ask once for a stop, as soon as the program has run."""
+    if supervised.page.state is State.RUN and supervised.page.of_class(1).cycles:
+        supervised.stop()
+
+
+def test_a_crash_in_exit_is_not_taken_for_a_slow_stop(program, supervise):
+    fault = supervise(program(exit="os._exit(7)"), stop_in_run)["fault"]
+    assert (fault["unit"], fault["text"]) == ("EXIT", "the scan process ended with exit code 7")
+
+
+def test_a_crash_while_loading_is_a_wrong_project(program, supervise):
+    folder = program(before="ctypes.string_at(1)")
+    place = line_of(folder, "string_at")
+    assert supervise(folder) == {"error": f"{place}: the scan process ended with SIGSEGV"}
+
+
+@pytest.mark.parametrize(("cyclic", "state"), [("pass", "STOPPED"), ("1 // 0", "SERVICE")])
+def test_a_thread_that_a_program_left_behind_does_not_hold_up_the_end(
+    program, supervise, cyclic, state
+):
+    thread = "threading.Thread(target=time.sleep, args=(3600,)).start()"
+    result = supervise(program(init=thread, cyclic=cyclic, plc=""), cycles=1)
+    assert (result["state"], result["task_classes"][0]["cycles"]) == (state, 1)
+
+
+# stopping
+
+
+def test_ctrl_c_runs_the_exits(program, start):
+    process = start("run", program(cyclic=IN, exit="print('bye')"))
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert out.endswith("bye\n")
+    assert "STOPPED" in err
+    assert "Traceback" not in err
+
+
+def test_a_termination_that_reaches_both_processes_is_one_stop(program, start):
+    """As systemd does it: SIGTERM to the parent, which forwards it, and to the scan process."""
+    body = "print('leaving')\ntime.sleep(0.1)\nprint('left')"
+    process = start("run", program(cyclic="print(os.getpid(), flush=True)", exit=body))
+    scan = int(process.stdout.readline())
+    os.kill(scan, signal.SIGTERM)
+    process.send_signal(signal.SIGTERM)
+    out, _ = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert out.endswith("leaving\nleft\n")
+
+
+def test_ctrl_c_in_a_long_init_stops_after_it(program, start):
+    folder = program(init=f"{IN}\ntime.sleep(0.2)\nprint('out')", exit="print('bye')")
+    process = start("run", folder)
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=20)
+    assert (process.returncode, out) == (0, "out\nbye\n")
+
+
+def test_a_second_ctrl_c_ends_a_program_that_hangs(program, start):
+    process = start("run", program(plc="", exit=f"{IN}\nwhile True: pass", cyclic="print(1)"))
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    assert "in\n" in iter(process.stdout.readline, "")
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 3
+    assert "main EXIT: stopped by SIGINT" in " ".join(err.split())
+
+
+def test_a_third_ctrl_c_kills(program, start):
+    stuck = LOOP.replace("pass", "print('no', flush=True)").format("BaseException")
+    process = start("run", program(plc="", init=f"{IN}\n{stuck}"))
+    process.stdout.readline()
+    heard = []
+    while not heard:  # the second request is heard, as soon as it is one of its own
+        process.send_signal(signal.SIGINT)
+        heard, _, _ = select.select([process.stdout], [], [], 0.1)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 3
+    assert "main INIT: killed because it did not stop" in " ".join(err.split())
+
+
+def test_ctrl_c_while_loading_stops(program, start):
+    process = start("run", program(plc="", before=f"{IN}\nwhile True: pass"))
+    process.stdout.readline()
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "STOPPED" in err
+
+
+def test_the_scan_process_dies_with_its_parent(program, start):
+    process = start("run", program(cyclic=IN))
+    process.stdout.readline()
+    process.kill()
+    out, _ = process.communicate(timeout=20)  # ends when nobody can write to it any more
+    assert set(out.split()) <= {"in"}
+
+
+def test_leaving_early_ends_the_scan_process(program):
+    with Supervisor(read_project(program(cyclic="pass"))) as supervised:
+        process = supervised._process
+    assert process.returncode == -signal.SIGKILL
+
+
+# limits and output
+
+
+@pytest.mark.parametrize("virtual", [True, False])
+@pytest.mark.parametrize("limit", [{"for_ns": 100 * MS}, {"cycles": 10}])
+def test_a_run_ends_at_its_limit(program, supervise, virtual, limit):
+    result = supervise(program(cyclic="pass"), virtual=virtual, **limit)
+    assert (result["state"], result["fault"]) == ("STOPPED", None)
+    assert result["clock"] == ("virtual" if virtual else "monotonic")
+    (first,) = result["task_classes"]
+    assert first["cycles"] + first["missed_grid_points"] >= 10
+    if virtual:
+        assert first["cycles"] == 10
+        assert result["elapsed_ns"] == limit.get("for_ns", 95 * MS)
+
+
+def test_a_program_that_prints_a_lot_loses_nothing(program, finish):
+    folder = program(cyclic="print('x' * 50_000)\nprint('end')")
+    code, out, _ = finish("run", folder, "--virtual", "--cycles", "20", "--quiet")
+    assert code == 0
+    assert out == ("x" * 50_000 + "\nend\n") * 20
+
+
+def test_what_a_program_printed_before_it_was_killed_is_seen(program, finish):
+    code, out, _ = finish("run", program(cyclic="print('last words')\nos._exit(0)"), "--quiet")
+    assert (code, out) == (3, "last words\n")
+
+
+def test_a_flood_of_violations_is_bounded(program, supervise):
+    settings = 'on_violation = "log"\ntolerance = "0ms"'
+    busy = "end = time.monotonic() + 0.0011\nwhile time.monotonic() < end: pass"
+    folder = program(settings=settings, cyclic=busy)
+    text = (folder / "plc.toml").read_text().replace('"10ms"', '"1ms"')
+    (folder / "plc.toml").write_text(text)
+    result = supervise(folder, cycles=600)
+    assert result["state"] == "STOPPED"
+    assert len(result["logbook"]) == 512
+    assert result["logbook_dropped"] > 0
+    assert len(result["violations"]) == 100
+    assert sum(result["task_classes"][0]["violations"].values()) == 600
+
+
+def test_a_program_that_fails_is_shown_with_its_line(program, finish):
+    folder = program(cyclic="1 // 0")
+    code, out, err = finish("run", folder)
+    assert (code, out) == (3, "")
+    place = line_of(folder, "1 // 0")
+    assert f"mainCYCLIC:divisionbyzero({place})" in "".join(err.split())
+    assert "Traceback" not in err
+
+
+@pytest.mark.parametrize(
+    ("folder", "text"),
+    [("nowhere", "nowhere/plc.toml: there is no such file"), ("cell", "main/main.py:1: Syntax")],
+)
+def test_a_wrong_project_is_one_line_and_exit_code_1(project_of, finish, tmp_path, folder, text):
+    project_of("x = (\n")
+    code, out, err = finish("run", tmp_path / folder)
+    assert (code, out) == (1, "")
+    assert err.startswith("plcsim: ")
+    assert err.count("\n") == 1
+    assert text in err
+
+
+# surroundings
+
+
+def test_modules_in_the_working_folder_do_not_get_into_the_scan(
+    program, tmp_path, supervise, monkeypatch
+):
+    (tmp_path / "json.py").write_text("raise RuntimeError('shadowed')\n")
+    monkeypatch.chdir(tmp_path)
+    assert supervise(program(cyclic="pass"), cycles=1)["state"] == "STOPPED"
+
+
+def test_a_folder_for_run_files_that_is_not_there_does_not_matter(
+    program, supervise, monkeypatch, tmp_path
+):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path / "nowhere"))
+    assert supervise(program(cyclic="pass"), cycles=1)["state"] == "STOPPED"
+
+
+def test_descriptors_and_processors_are_given_back(program, supervise):
+    folder = program(cyclic="pass")
+    supervise(folder, cycles=1)
+    before = len(os.listdir("/proc/self/fd")), os.sched_getaffinity(0)
+    supervise(folder, cycles=1)
+    assert (len(os.listdir("/proc/self/fd")), os.sched_getaffinity(0)) == before
