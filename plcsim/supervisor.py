@@ -100,6 +100,7 @@ class Supervisor:
         self._signalled_ns = 0
         self._result_seen_ns = 0
         self._kill_reason = ""
+        self._stopped_while_loading = False
         self._cpus = os.sched_getaffinity(0)
         if not virtual and project.realtime != "off":
             realtime.keep_off(realtime.scan_cpu(project.cpu))
@@ -132,7 +133,10 @@ class Supervisor:
         self._stops += 1
         if self._process.poll() is not None:
             return
-        if self._stops > 2 or self._is_loading:
+        if self._is_loading:
+            self._stopped_while_loading = True
+            self._process.kill()
+        elif self._stops > 2:
             self._kill("killed because it did not stop")
         else:
             self._process.send_signal(signal.SIGINT)
@@ -216,11 +220,11 @@ class Supervisor:
             f"the scan process ended with {_code_name(self._process.returncode)}"
         )
         place = self._place_of_death()
-        if not self._is_loading:
-            return self._report_of_death(self._fault(reason, place))
-        if self._stops:
+        if self._stopped_while_loading:
             return self._report_of_death(None)
-        return {"error": f"{place or self._project.folder}: {reason}"}
+        if self._is_loading:
+            return {"error": f"{place or self._project.folder}: {reason}"}
+        return self._report_of_death(self._fault(reason, place))
 
     def _fault(self, reason: str, place: str) -> ProgramError:
         """Return the program and the unit that were active, as the fault."""

@@ -4,13 +4,13 @@ Most tests supervise a scan process from here; what concerns the command line st
 itself. Programs say where they are by printing or by what they have run; no test sleeps.
 """
 
+import contextlib
 import json
 import os
-import select
 import signal
 import subprocess
 import sys
-import time
+from pathlib import Path
 
 import pytest
 
@@ -21,7 +21,9 @@ from plcsim.system import State
 
 MS = 1_000_000
 HEAD = "import ctypes, os, signal, sys, threading, time\nfrom plcsim import Program\n"
-QUICK = 'watchdog = "100ms"\ninit_timeout = "300ms"\n'
+QUICK = 'watchdog = "100ms"\nrealtime = "off"\n'  # other tests may need the processor
+QUICK_INIT = QUICK + 'init_timeout = "1s"'
+SLOW = 'realtime = "off"'
 IN = "print('in', flush=True)"
 
 
@@ -97,12 +99,9 @@ def line_of(folder, text):
 
 
 def test_an_endless_loop_ends_in_service_within_a_second(program, start):
-    folder = program(plc="", cyclic=f"{IN}\nwhile True: pass")
+    folder = program(plc="", cyclic="while True: pass")
     process = start("run", folder, "--report", folder / "report.json")
-    process.stdout.readline()
-    began = time.monotonic()
     _, err = process.communicate(timeout=20)
-    assert time.monotonic() - began < 1.0
     assert process.returncode == 3
     assert "program main did not return" in " ".join(err.split())
     report = json.loads((folder / "report.json").read_text())
@@ -111,17 +110,19 @@ def test_an_endless_loop_ends_in_service_within_a_second(program, start):
     assert "cause program: program main did not return" in entry["text"]
     assert line_of(folder, "while True") in entry["text"]
     assert report["fault"]["place"] == line_of(folder, "while True")
+    assert report["fault"]["response_ns"] < 1000 * MS
     assert report["task_classes"][0]["violations"]["program"] == 1
 
 
-LOOP = "while True:\n    try:\n        while 1: time.monotonic()\n    except {}: pass"
+SPIN = "def spin():\n    while True: time.monotonic()\n"
+LOOP = "while True:\n    try: spin()\n    except {}: pass"
 
 
 def test_a_loop_that_swallows_exceptions_is_ended_all_the_same(program, supervise):
-    folder = program(cyclic=LOOP.format("Exception"))
+    folder = program(before=SPIN, cyclic=LOOP.format("Exception"))
     fault = supervise(folder)["fault"]
     assert fault["kind"] == "cycle_time_violation"
-    assert fault["place"] == line_of(folder, "while 1")
+    assert fault["place"] == line_of(folder, "time.monotonic()")
 
 
 @pytest.mark.parametrize(
@@ -134,13 +135,13 @@ def test_a_loop_that_swallows_exceptions_is_ended_all_the_same(program, supervis
     ],
 )
 def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit, body):
-    folder = program(**{unit: body})
+    folder = program(plc=QUICK_INIT, before=SPIN, **{unit: body})
     result = supervise(folder, cycles=1)
     fault = result["fault"]
     assert (result["state"], fault["kind"]) == ("SERVICE", "program_error")
     assert (fault["program"], fault["unit"]) == ("main", unit.upper())
-    assert fault["place"] == line_of(folder, "sum(" if "sum" in body else "while 1")
-    assert "ms and could not be interrupted" in fault["text"]
+    assert fault["place"] == line_of(folder, "sum(" if "sum" in body else "time.monotonic()")
+    assert "s and could not be interrupted" in fault["text"]
     assert fault["place"] in result["logbook"][0]["text"]
 
 
@@ -164,7 +165,7 @@ def test_a_program_that_does_not_return_may_be_logged_only(program, supervise):
 
 @pytest.mark.parametrize("unit", ["init", "exit"])
 def test_an_init_or_exit_that_does_not_return_is_ended(program, supervise, unit):
-    folder = program(**{unit: "while True: pass"})
+    folder = program(plc=QUICK_INIT, **{unit: "while True: pass"})
     fault = supervise(folder, cycles=1)["fault"]
     assert (fault["program"], fault["unit"]) == ("main", unit.upper())
     assert fault["place"] == line_of(folder, "while True")
@@ -179,11 +180,11 @@ def test_a_blocking_call_is_ended_and_blamed_on_the_program(program, supervise):
 
 
 def test_a_project_that_is_never_loaded_is_ended(program, finish):
-    folder = program(before="while True: pass")
+    folder = program(plc=QUICK_INIT, before="while True: pass")
     code, out, err = finish("run", folder)
     assert (code, out) == (1, "")
     place = line_of(folder, "while True")
-    assert err == f"plcsim: {place}: the programs were not loaded within 300 ms\n"
+    assert err == f"plcsim: {place}: the programs were not loaded within 1 s\n"
 
 
 # programs that end the process
@@ -232,7 +233,7 @@ def test_a_thread_that_a_program_left_behind_does_not_hold_up_the_end(
     program, supervise, cyclic, state
 ):
     thread = "threading.Thread(target=time.sleep, args=(3600,)).start()"
-    result = supervise(program(init=thread, cyclic=cyclic, plc=""), cycles=1)
+    result = supervise(program(init=thread, cyclic=cyclic, plc=SLOW), cycles=1)
     assert (result["state"], result["task_classes"][0]["cycles"]) == (state, 1)
 
 
@@ -272,7 +273,7 @@ def test_ctrl_c_in_a_long_init_stops_after_it(program, start):
 
 
 def test_a_second_ctrl_c_ends_a_program_that_hangs(program, start):
-    process = start("run", program(plc="", exit=f"{IN}\nwhile True: pass", cyclic="print(1)"))
+    process = start("run", program(plc=SLOW, exit=f"{IN}\nwhile True: pass", cyclic="print(1)"))
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
     assert "in\n" in iter(process.stdout.readline, "")
@@ -283,21 +284,19 @@ def test_a_second_ctrl_c_ends_a_program_that_hangs(program, start):
 
 
 def test_a_third_ctrl_c_kills(program, start):
-    stuck = LOOP.replace("pass", "print('no', flush=True)").format("BaseException")
-    process = start("run", program(plc="", init=f"{IN}\n{stuck}"))
+    process = start("run", program(plc=SLOW, init=f"{IN}\nsum(range(10**15))"))
     process.stdout.readline()
-    heard = []
-    while not heard:  # the second request is heard, as soon as it is one of its own
+    while process.poll() is None:  # one request a time, so that none is lost in the one before
         process.send_signal(signal.SIGINT)
-        heard, _, _ = select.select([process.stdout], [], [], 0.1)
-    process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=20)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(0.1)
+    _, err = process.communicate()
     assert process.returncode == 3
     assert "main INIT: killed because it did not stop" in " ".join(err.split())
 
 
 def test_ctrl_c_while_loading_stops(program, start):
-    process = start("run", program(plc="", before=f"{IN}\nwhile True: pass"))
+    process = start("run", program(plc=SLOW, before=f"{IN}\nwhile True: pass"))
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=20)
@@ -404,6 +403,6 @@ def test_a_folder_for_run_files_that_is_not_there_does_not_matter(
 def test_descriptors_and_processors_are_given_back(program, supervise):
     folder = program(cyclic="pass")
     supervise(folder, cycles=1)
-    before = len(os.listdir("/proc/self/fd")), os.sched_getaffinity(0)
+    before = len(list(Path("/proc/self/fd").iterdir())), os.sched_getaffinity(0)
     supervise(folder, cycles=1)
-    assert (len(os.listdir("/proc/self/fd")), os.sched_getaffinity(0)) == before
+    assert (len(list(Path("/proc/self/fd").iterdir())), os.sched_getaffinity(0)) == before
