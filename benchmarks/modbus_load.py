@@ -2,11 +2,11 @@
 
     python benchmarks/modbus_load.py [--seconds 3] [--scan-seconds 20] [--rounds 3] [--json FILE]
 
-Three tables, all of one run: (a) requests/s and CPU time of the server for each request, beside
-pymodbus' own server and a libmodbus server in C; (b) lateness and missed grid points of a 1 ms scan
-with 0, 4 and 50 clients at full rate; (c) the time of write, program, read back. Every server has
-the first processor, the client (in C) the last one. Needs gcc; without libmodbus-dev its column is
-left out.
+All of one run: (a) requests/s and CPU time of the server for each request, beside pymodbus' own
+server and a libmodbus server in C; (b) lateness and missed grid points of a 1 ms scan with 0, 4 and
+50 clients at full rate; (c) the time of write, program, read back; (d) the service killed under
+load. For (a) the server has the first processor and the client (in C) the last one; for (b) both
+have the first one, the scan the last one. Needs gcc; without libmodbus-dev its column is left out.
 """
 
 from __future__ import annotations
@@ -245,6 +245,37 @@ def write_and_read_back(folder: Path, client: Path, seconds: float) -> dict[str,
         return run_client(client, "echo", port, seconds)
 
 
+KILLS = 5
+
+
+def killed(folder: Path, client: Path) -> dict[str, Any]:
+    """Return table (d): the service is killed under load, again and again."""
+    port = free_port()
+    project = make_project(folder, port, BLOCK)
+    report = folder / "killed.json"
+    command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet",
+               "--report", str(report), str(project)]  # fmt: skip
+    back_s = []
+    with running(command, port, None) as process:
+        for _ in range(KILLS):
+            load = subprocess.Popen(
+                [str(client), "load", str(port), "4", "125", "60"], stderr=subprocess.DEVNULL
+            )
+            time.sleep(1)
+            os.kill(child_with(process.pid, "plcsim.services.modbus"), signal.SIGKILL)
+            killed_at = time.monotonic()
+            load.wait()  # its connections are reset
+            wait_for(port, process)
+            back_s.append(round(time.monotonic() - killed_at, 3))
+    (scanned,) = json.loads(report.read_text())["task_classes"]
+    return {
+        "back_s": back_s,
+        "cycles": scanned["cycles"],
+        "missed": scanned["missed_grid_points"],
+        "lateness_ns": scanned["lateness_ns"],
+    }
+
+
 def show_comparison(results: dict[str, Any]) -> None:
     names = list(results)
     print("(a) requests/s | server CPU us for each request")
@@ -295,6 +326,7 @@ def main() -> int:
         comparison = compare(folder, client, options.seconds)
         scans = beside_a_scan(folder, client, options.scan_seconds, options.rounds)
         echo = write_and_read_back(folder, client, options.scan_seconds)
+        kills = killed(folder, client)
     machine = f"{platform.machine()}, {os.cpu_count()} processors, Linux {platform.release()}"
     print(f"{machine}, Python {platform.python_version()}")
     show_comparison(comparison)
@@ -303,8 +335,14 @@ def main() -> int:
         f"(c) write, program, read back at 1 ms: {echo['loops']} times, "
         f"p50 {echo['p50_us']} us, p99 {echo['p99_us']} us"
     )
+    print(
+        f"(d) service killed {KILLS} times under load: back after {kills['back_s']} s, "
+        f"{kills['missed']} of {kills['cycles']} grid points missed, "
+        f"late p99 {kills['lateness_ns']['p99'] / 1000:.1f} us"
+    )
     if options.json:
-        values = {"machine": machine, "comparison": comparison, "scan": scans, "echo": echo}
+        values = {"machine": machine, "comparison": comparison, "scan": scans, "echo": echo,
+                  "killed": kills}  # fmt: skip
         options.json.write_text(json.dumps(values, indent=2) + "\n")
     return 0
 
