@@ -30,6 +30,8 @@ HIGH_WATER: Final = 64 * 1024
 """Bytes of answers a peer may leave unread before its requests wait too."""
 
 BACKLOG: Final = 128
+HANDSHAKE_S: Final = 10.0
+"""A peer has this long to finish the handshake of TLS."""
 
 
 class Server:
@@ -84,8 +86,14 @@ class Server:
         host, port = self.settings.host, self.settings.port
         try:
             self._server = await loop.create_server(
-                lambda: _Peer(self), host, port, ssl=tls, backlog=BACKLOG
+                lambda: _Peer(self),
+                host,
+                port,
+                ssl=tls,
+                ssl_handshake_timeout=HANDSHAKE_S if tls else None,
+                backlog=BACKLOG,
             )
+            loop.set_exception_handler(self._report)
         except OSError as err:
             raise ConfigurationError(f"modbus: cannot listen on {host}:{port}: {err}") from None
         self.port = self._server.sockets[0].getsockname()[1]
@@ -142,6 +150,11 @@ class Server:
     def audited(self, peer: str, role: str, record: WriteRecord) -> None:
         """Note a write."""
         self._audit.write(peer, role, record)
+
+    def _report(self, _loop: object, context: dict[str, Any]) -> None:
+        """Take what asyncio would log, such as a failed handshake, without filling a disk."""
+        error = context.get("exception")
+        self.faulty("asyncio", f"{context['message']}{f': {error!r}' if error else ''}")
 
     def faulty(self, peer: str, fault: str) -> None:
         """Count a connection that is closed for what its peer sent; the first few are printed."""

@@ -271,3 +271,15 @@ def test_an_aborted_connection_leaves_its_writes_to_the_scan(world: World) -> No
 
     serve(world, client)
     assert struct.pack(">H", world.tag("p.words[4]")) == b"\x0c\x0c"
+
+
+def test_what_asyncio_would_log_is_counted_and_printed_a_few_times(
+    world: World, capsys: pytest.CaptureFixture[str]
+) -> None:
+    async def client(_server: Server) -> None:
+        loop = asyncio.get_running_loop()
+        for _ in range(50):
+            loop.call_exception_handler({"message": "odd", "exception": ValueError("x")})
+
+    assert serve(world, client).faults == 50
+    assert capsys.readouterr().err.count("modbus: asyncio: odd: ValueError('x'); closed") == 10
