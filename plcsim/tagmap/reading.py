@@ -44,17 +44,32 @@ class _Patch(NamedTuple):
     at: int
 
 
+class _Bit(NamedTuple):
+    """A BOOL in a register: where it lies in the copy, which bit of which byte it is."""
+
+    start: int
+    at: int
+    mask: int
+
+
 class _Plan:
     """How one range is read; keeps the last answer, for as long as its snapshot is the latest."""
 
     __slots__ = ("answer", "bits", "end", "gather", "number", "patches", "start")
 
-    def __init__(self, start: int, end: int, indices: Sequence[int]) -> None:
+    def __init__(
+        self,
+        start: int,
+        end: int,
+        indices: Sequence[int],
+        patches: Sequence[_Patch],
+        bits: Sequence[_Bit],
+    ) -> None:
         self.start = start
         self.end = end
         self.gather: Callable[[bytes], tuple[int, ...]] = itemgetter(*indices, 0)
-        self.patches: list[_Patch] = []
-        self.bits: list[tuple[int, int, int]] = []
+        self.patches = patches
+        self.bits = bits
         self.number = 0
         self.answer = b""
 
@@ -150,14 +165,15 @@ class Reads:
         end = max((places[id(p)] + p.size for p in points), default=0)
         width = 2 if area.has_registers else 1
         indices = [0] * (width * count)
-        plan = _Plan(start, end, indices)
+        patches: list[_Patch] = []
+        bits: list[_Bit] = []
         for point in points:
             at = 1 + places[id(point)] - start
             first = width * (point.offset - address)
             if not area.has_registers:
                 indices[first] = at
             elif point.bit >= 0:
-                plan.bits.append((at, first + (point.bit < 8), 1 << point.bit % 8))
+                bits.append(_Bit(at, first + (point.bit < 8), 1 << point.bit % 8))
             elif point.is_plain:
                 for i, place in enumerate(wire_order(point.size, point.order)):
                     if 0 <= first + i < len(indices):
@@ -165,9 +181,8 @@ class Reads:
             else:
                 skip = max(0, -first)
                 stop = min(2 * point.registers, len(indices) - first)
-                plan.patches.append(_Patch(point, at, skip, stop, first + skip))
-        plan.gather = itemgetter(*indices, 0)
-        return plan
+                patches.append(_Patch(point, at, skip, stop, first + skip))
+        return _Plan(start, end, indices, patches, bits)
 
 
 def _in_block(area: Area, address: int, count: int) -> bool:
