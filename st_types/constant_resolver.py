@@ -11,6 +11,8 @@ from st_types.initial_values import MAX_ELEMENTS, initial_value
 from st_types.literals import Constant
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from st_types.elementary import DataType
     from st_types.expressions import Expression, Node
     from st_types.name_index import Entry, SourceFile
@@ -28,12 +30,14 @@ class ConstantResolver:
         table: all declarations.
         owner: the file.
         local: constants that only the declarations at hand see, by name in capitals.
+        values: values so far of the enumeration at hand.
     """
 
     def __init__(self, table: TypeTable, owner: SourceFile) -> None:
         self.table = table
         self.owner = owner
         self.local: dict[str, Constant | None] = {}
+        self.values: Mapping[str, int] = {}
         self._expected: EnumerationType[object] | None = None
         self._elements_left = MAX_ELEMENTS
 
@@ -54,6 +58,8 @@ class ConstantResolver:
         key = name.upper()
         if key in self.local:
             return _known(self.local[key])
+        if name in self.values:
+            return Constant("DINT", self.values[name])
         if self._expected is not None and name in self._expected.values:
             return Constant(self._expected.name, self._expected.values[name])
         entry = self.table.find("constants", name, self.owner)

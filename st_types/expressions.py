@@ -148,10 +148,10 @@ class ExpressionParser(TokenReader):
         index = self.index
         if self.texts[index + 1] in _ENDS:
             text = self.texts[index]
-            if text.isdecimal():
+            if text.isdecimal() and text.isascii():
                 self.index = index + 1
                 return Literal(index, text, parse_literal(text))
-            if text.isidentifier() and text.upper() not in _TRUTH_VALUES:
+            if text.isidentifier() and text.isascii() and text.upper() not in _TRUTH_VALUES:
                 self.index = index + 1
                 return Name(index, text)
         self._operators = 0
@@ -229,7 +229,7 @@ class ExpressionParser(TokenReader):
     def _member(self, base: Expression) -> Expression:
         self._step()
         text = self.text
-        if not text.isdecimal() and kind_of(text) is not TokenKind.IDENTIFIER:
+        if not (text.isdecimal() and text.isascii()) and kind_of(text) is not TokenKind.IDENTIFIER:
             self.fail("expected the name of a member or the number of a bit after '.'")
         self.index += 1
         return MemberAccess(self.index - 1, base, text)

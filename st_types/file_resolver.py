@@ -22,13 +22,11 @@ from st_types.derived import (
 )
 from st_types.elementary import DINT, ELEMENTARY, DataType, ElementaryType
 from st_types.errors import DeclarationError
-from st_types.literals import Constant
 from st_types.printer import print_specification
 from st_types.syntax import (
     ArraySpecification,
     Declaration,
     EnumerationSpecification,
-    EnumerationValue,
     FunctionBlockDeclaration,
     NamedType,
     ReferenceSpecification,
@@ -43,6 +41,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from st_types.expressions import Expression, Node
+    from st_types.literals import Constant
     from st_types.name_index import Entry, SourceFile
     from st_types.resolve import TypeTable
     from st_types.syntax import FunctionDeclaration, TypeSpecification
@@ -195,15 +194,15 @@ class FileResolver(ConstantResolver):
 
     def _enumeration(self, node: EnumerationSpecification, name: str) -> DataType[object] | None:
         values: dict[str, int] = {}
-        outer, following = self.local, 0
-        self.local = dict(outer)
+        outer, self.values = self.values, values
+        number = -1
         for item in node.values:
             if item.name in values:
                 self.error(item, f"{name} declares {item.name} twice")
-            values[item.name] = number = DINT.wrap(self._enumeration_number(item, following))
-            self.local[item.name.upper()] = Constant(name, number)
-            following = number + 1
-        self.local = outer
+            following = DINT.wrap(number + 1)
+            number = following if item.value is None else self._value(item.value, following)
+            values[item.name] = number
+        self.values = outer
         if not values:
             self.warning(node, "the enumeration has no values")
             return AliasType(name, DINT)
@@ -215,15 +214,13 @@ class FileResolver(ConstantResolver):
             return None
         return self._made(node, lambda: StructType(name, members))
 
-    def _enumeration_number(self, item: EnumerationValue, following: int) -> int:
-        if item.value is None:
-            return following
-        number = self.integer(item.value)
+    def _value(self, node: Expression, following: int) -> int:
+        number = self.integer(node)
         if number is None:
             return following
         if not DINT.minimum <= number < 2**32:
-            self.error(item.value, f"{number} is outside {DINT.minimum}..{DINT.maximum} of DINT")
-        return number
+            self.error(node, f"{number} is outside {DINT.minimum}..{DINT.maximum} of DINT")
+        return DINT.wrap(number)
 
     def _made(self, node: Node, make: Callable[[], T]) -> T | None:
         try:
@@ -333,7 +330,7 @@ class FileResolver(ConstantResolver):
             data_type, initial = entry.data_type, entry.value
         else:
             data_type = self.data_type(node.specification, node.name)
-            initial = self.initial(node, data_type)
+            initial = None if node.initial is None else self.initial(node, data_type)
         return Variable(node.name, data_type, initial, block, node, self.owner.file)
 
 

@@ -43,6 +43,8 @@ class InitialParser(ExpressionParser):
         return self.expression()
 
     def _is_count(self, text: str, *, by_name: bool) -> bool:
+        if not text.isascii():
+            return False
         return text.isdecimal() or (by_name and text.isidentifier() and text.upper() != "NOT")
 
     def _starts_members(self) -> bool:

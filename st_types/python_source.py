@@ -39,6 +39,9 @@ _RESERVED = frozenset([*dir(IntEnum), *keyword.kwlist, "name", "value", "mro"])
 """Names that an IntEnum cannot give to its members."""
 
 
+_QUOTED = "'[^']*'"
+
+
 def python_source(table: TypeTable, title: str) -> str:
     """Return the text of a module with views of all declarations of ``table``.
 
@@ -176,13 +179,13 @@ class _Module:
 
     def _class(self, name: str, base: str, doc: str, members: Sequence[Member]) -> str:
         types = [f"{self._use(_MAKERS[m.section])}({self._type(m.data_type)}" for m in members]
-        used = set(re.findall(r"\w+", " ".join(types)))
+        used = set(re.findall(r"\w+", re.sub(_QUOTED, "", " ".join(types))))
         lines = []
         for hidden in sorted(used & {member.name for member in members}):
             # In a class body a member hides a type of its name from the members below it.
             alias = self._free(f"_{hidden}")
             lines.append(f"{alias} = {hidden}")
-            types = [re.sub(rf"\b{hidden}\b", alias, text) for text in types]
+            types = [_renamed(text, hidden, alias) for text in types]
         lines += ["", ""] if lines else []
         lines += [f"class {name}({self._use(base)}):", f'    """{doc}"""']
         lines += [""] if members else []
@@ -221,6 +224,12 @@ class _Module:
         made = self._use("SubrangeType", "st_types.derived")
         bounds = f"{data_type.minimum}, {data_type.maximum}"
         return f"{made}({data_type.name!r}, {self._use(data_type.base.name)}, {bounds})"
+
+
+def _renamed(text: str, name: str, new_name: str) -> str:
+    """Return Python code with another name for ``name``, strings left alone."""
+    pattern = rf"({_QUOTED})|\b{name}\b"
+    return re.sub(pattern, lambda match: match[1] or new_name, text)
 
 
 def _literal(value: object) -> str:

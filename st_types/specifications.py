@@ -58,6 +58,7 @@ class SpecificationParser(InitialParser):
         super().__init__(tokens, diagnostics)
         self.trivia = tokens.trivia
         self._has_pragmas = "{" in tokens.source.text
+        self._is_ascii = tokens.source.text.isascii()
 
     def declarations(self, end: str) -> list[Declaration]:
         """Parse declarations up to the keyword ``end`` and step over it.
@@ -101,6 +102,8 @@ class SpecificationParser(InitialParser):
         before = trivia[index]
         if type_name in _RULES or not (name.isidentifier() and type_name.isidentifier()):
             return False
+        if not self._is_ascii and not (name.isascii() and type_name.isascii()):
+            return False
         if self._has_pragmas and ("{" in before or "{" in trivia[index + 2]):
             return False
         self.index = index + 4
@@ -130,7 +133,7 @@ class SpecificationParser(InitialParser):
         at = self.index
         texts, trivia = self.texts, self.trivia
         name = texts[at]
-        if not name.isidentifier():
+        if kind_of(name) is not TokenKind.IDENTIFIER:
             self.fail("expected the name of a declaration")
         self.index = at + 1
         others, address = ([], "") if texts[at + 1] == ":" else self._others_and_address()
@@ -193,7 +196,7 @@ class SpecificationParser(InitialParser):
             found = rule(self)
             self.leave()
             return found
-        if not text.isidentifier() or keyword in END_KEYWORDS:
+        if kind_of(text) is not TokenKind.IDENTIFIER or keyword in END_KEYWORDS:
             self.fail("expected a type")
         self.index += 1
         if self.texts[self.index] == "(":
@@ -254,7 +257,7 @@ class SpecificationParser(InitialParser):
                     break
             values.append(self._enumeration_value())
         base = ""
-        if self.text.isidentifier() and self.keyword not in _NO_BASE:
+        if kind_of(self.text) is TokenKind.IDENTIFIER and self.keyword not in _NO_BASE:
             base = self.expect_name("of a type")
         return EnumerationSpecification(at, values, base)
 

@@ -22,10 +22,10 @@ FILES = sorted(p for p in (ROOT / "crosnode").iterdir() if p.suffix in (".typ", 
 LIBRARY = sorted((ROOT / "plcsim" / "library" / "astcp").glob("*.[ftv]*"))
 
 APPENDIX_D = """name host xmlrpc_port tcpros_port rpcros_port select_timeout pid roscore_pid
-roscore_host roscore_port message_root_path log_level log_queue log_last_id next_call_id master_api_queue
-slave_api_queue xmlrpc_client_proc xmlrpc_listner_proc xmlrpc_server_proc tcpros_client_proc
-tcpros_listner_proc tcpros_server_proc rpcros_listner_proc rpcros_server_proc pubs subs services
-paramsubs n_pubs n_subs n_services n_paramsubs"""
+roscore_host roscore_port message_root_path log_level log_queue log_last_id next_call_id
+master_api_queue slave_api_queue xmlrpc_client_proc xmlrpc_listner_proc xmlrpc_server_proc
+tcpros_client_proc tcpros_listner_proc tcpros_server_proc rpcros_listner_proc rpcros_server_proc
+pubs subs services paramsubs n_pubs n_subs n_services n_paramsubs"""
 
 COUNTS = {
     "xmlrpc_client_proc": 6,

@@ -113,6 +113,12 @@ def test_places() -> None:
         ("TYPE END_TYPE (* open", ["1:15: error: the comment that starts here is never closed"]),
         ("TYPE (*)", ["1:5: error: expected END_TYPE", "1:6: error: the comment that starts"]),
         ("#ifdef X\nTYPE END_TYPE", ["1:1: warning: the preprocessor line is ignored"]),
+        ("TYPE \u00fc : INT; END_TYPE", ["1:6: error: expected the name of a declaration"]),
+        (
+            "TYPE A : \u00fc; B : (x) \u00fc; END_TYPE",
+            ["1:10: error: expected a type", "1:21: error:"],
+        ),
+        ("TYPE A : INT := \u00fc; B : INT := \u0663; END_TYPE", ["1:17: error", "1:31: error"]),
         ("TYPE A : (x, (* y *); END_TYPE", ["1:21: error: expected a name of an enumeration"]),
     ],
 )

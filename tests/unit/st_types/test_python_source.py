@@ -79,6 +79,16 @@ def test_views_lie_as_declared_and_start_with_the_declared_values() -> None:
     assert not hasattr(module, "LIST")
 
 
+def test_a_member_does_not_hide_what_members_below_it_need() -> None:
+    module = check(
+        table_of(
+            "TYPE INT_ : INT; S : STRUCT INT : INT_; OF : REFERENCE TO REAL; "
+            "a : ARRAY[0..1] OF INT; r : REFERENCE TO ARRAY[0..1] OF INT; var : BOOL; b : INT; END_STRUCT; END_TYPE"
+        )
+    )
+    assert module.S().a[1] == module.S().b == 0
+
+
 def test_names_that_python_cannot_have() -> None:
     module = check(table_of("TYPE Final : STRUCT x : INT; END_STRUCT; class : INT; END_TYPE"))
     assert module.Final().x == 0

@@ -290,6 +290,15 @@ def test_findings(text: str, expected: list[str]) -> None:
         assert message.startswith(f"0.typ:{start}")
 
 
+def test_values_of_an_enumeration_go_on_from_the_last_one_and_wrap() -> None:
+    table = table_of(
+        "TYPE E : (a := 16#7FFFFFFF, b, c := a - 1, d := E2.x, e); E2 : (x := -5); END_TYPE"
+    )
+    found = table.find_type("E")
+    assert isinstance(found, EnumerationType)
+    assert found.values == {"a": 2**31 - 1, "b": -(2**31), "c": 2**31 - 2, "d": -5, "e": -4}
+
+
 def test_an_enumeration_without_values_is_a_dint() -> None:
     file = parse_text("TYPE A : (); B : STRUCT a : A; END_STRUCT; END_TYPE")
     assert resolve_alias(resolve([file]).find_type("A")) is DINT
