@@ -66,7 +66,7 @@ def main() -> int:
         print(f"  {test}: {dict(counts)}")
     print(
         f"{len(seen)} tests, {options.runs} runs, {time.monotonic() - begin_s:.0f} s: "
-        f"{len(flaky)} flaky, {len(failing)} ever failing, {skipped} results skipped because the "
+        f"{len(flaky)} flaky, {len(failing)} ever failing, {skipped} skipped because the "
         "host could not hold the tick"
     )
     return 1 if failing else 0

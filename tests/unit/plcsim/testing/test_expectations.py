@@ -63,6 +63,12 @@ def test_within_a_block_until_waits_no_longer_than_the_block_may_take(cell_plc):
             cell_plc.until("Cell.start")
 
 
+def test_after_the_block_its_limit_is_gone(cell_plc):
+    with cell_plc.assert_within("100ms"):
+        pass
+    cell_plc.until({"Cell.count": 300})
+
+
 def test_a_block_that_takes_too_long_fails(cell_plc):
     with (
         pytest.raises(ExpectationFailed, match="100 ms at most; it took 110 ms"),
@@ -108,6 +114,11 @@ def test_sequence_of_values(cell_plc):
 def test_sequence_with_durations(cell_plc):
     steps = ["RED", ("GREEN", "40ms"), ("YELLOW", "40ms"), "RED"]
     cell_plc.assert_sequence("Cell.light", steps, tolerance="0ms")
+
+
+def test_the_first_step_may_have_begun_before(cell_plc):
+    cell_plc.run("20ms")
+    cell_plc.assert_sequence("Cell.light", [("RED", "40ms"), "GREEN"], tolerance="0ms")
 
 
 def test_sequence_of_several_tags(cell_plc):
