@@ -83,7 +83,8 @@ def test_a_member_does_not_hide_what_members_below_it_need() -> None:
     module = check(
         table_of(
             "TYPE INT_ : INT; S : STRUCT INT : INT_; OF : REFERENCE TO REAL; "
-            "a : ARRAY[0..1] OF INT; r : REFERENCE TO ARRAY[0..1] OF INT; var : BOOL; b : INT; END_STRUCT; END_TYPE"
+            "a : ARRAY[0..1] OF INT; r : REFERENCE TO ARRAY[0..1] OF INT; var : BOOL; b : INT; "
+            "END_STRUCT; END_TYPE"
         )
     )
     assert module.S().a[1] == module.S().b == 0
