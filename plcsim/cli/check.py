@@ -42,7 +42,7 @@ def check(options: argparse.Namespace) -> int:
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
     controller = Controller(load_setup(project), network=network, clock=clock)
-    console = Console(highlight=False)
+    console = Console(highlight=False, markup=False)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
         table.add_column(column, justify="left" if column == "program" else "right")

@@ -109,11 +109,13 @@ def print_summary(result: dict[str, Any]) -> None:
         if blame := _blame(result["task_classes"]):
             console.print(blame)
     if result["fault"]:
-        console.print(Text(f"SERVICE: {_fault_text(result['fault'])}", style="bold red"))
+        fault = Text(f"SERVICE: {_fault_text(result['fault'])}", style="bold red")
+        console.print(fault, soft_wrap=True)  # so that no file name is cut
     entries = [e for e in result["logbook"] if e["severity"] != "information"]
     for entry in entries[-10:]:
         seconds = f"{entry['time_ns'] / 1e9:.6f}"
-        console.print(Text(f"{seconds:>13} s  {entry['source']}: {entry['text']}"))
+        text = Text(f"{seconds:>13} s  {entry['source']}: {entry['text']}")
+        console.print(text, soft_wrap=True)
     if len(entries) > 10:
         console.print(f"... and {len(entries) - 10} earlier entries; --report FILE keeps them")
 

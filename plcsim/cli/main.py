@@ -1,6 +1,7 @@
 """``plcsim``: one command with a sub-command for each act.
 
-Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 the controller ended in SERVICE.
+Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 the controller ended in SERVICE, 130
+ended by Ctrl-C (`plcsim run` stops and gives 0).
 """
 
 from __future__ import annotations
@@ -12,6 +13,9 @@ from importlib.metadata import entry_points, version
 from plcsim.cli import check, doctor, new, report, run, tags, types, watch
 from plcsim.errors import PlcError
 from st_types.errors import TypeSystemError
+
+INTERRUPTED = 130
+"""What shells give a command that Ctrl-C ended."""
 
 COMMANDS = "plcsim.commands"
 """Entry point group: packages above plcsim bring commands of their own."""
@@ -44,6 +48,8 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stderr.close()
         return 0
+    except KeyboardInterrupt:
+        return INTERRUPTED
     return code
 
 

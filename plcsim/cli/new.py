@@ -57,7 +57,10 @@ def new(options: argparse.Namespace) -> int:
         raise ConfigurationError(f"{target}: exists already; nothing was changed")
     if not target.parent.is_dir():
         raise ConfigurationError(f"{target}: there is no folder {target.parent}")
-    shutil.copytree(example, target, ignore=shutil.ignore_patterns("__pycache__", ".*"))
+    try:
+        shutil.copytree(example, target, ignore=shutil.ignore_patterns("__pycache__", ".*"))
+    except OSError as err:
+        raise ConfigurationError(f"{target}: cannot be made: {err}") from None
     print(f"Made {target} from the example {options.like}. Try:")
     print(f"    plcsim run {target}")
     if (target / "tests").is_dir():

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
+import os
 import signal
 import sys
 from pathlib import Path
@@ -16,7 +18,10 @@ from plcsim.project import read_project
 from plcsim.supervisor import Supervisor
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import FrameType
+
+    from plcsim.project import Project
 
 ENDED_IN_SERVICE = 3
 
@@ -73,43 +78,64 @@ def run(options: argparse.Namespace) -> int:
     """Run the project and return the exit code."""
     project = read_project(options.project)
     _check_report_file(options.report)
-    with Supervisor(
+    supervisor = Supervisor(
         project,
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
         quiet=options.quiet,
-    ) as supervisor:
-        _forward_signals(supervisor)
-        if options.quiet:
-            result = supervisor.wait()
-        else:
-            with LiveTable(project, supervisor.page):
-                result = supervisor.wait()
+    )
+    with supervisor, _signals_forwarded(supervisor):
+        result = _wait(supervisor, project, options)
     return _finish(result, options)
+
+
+def _wait(supervisor: Supervisor, project: Project, options: argparse.Namespace) -> dict[str, Any]:
+    if options.quiet:
+        return supervisor.wait()
+    with LiveTable(project, supervisor.page):
+        return supervisor.wait()
 
 
 def _check_report_file(report: Path | None) -> None:
     """Find out before the run that its report cannot be written."""
-    if report is not None and not report.parent.is_dir():
+    if report is None:
+        return
+    if not report.parent.is_dir():
         raise ConfigurationError(f"--report {report}: there is no folder {report.parent}")
+    if report.is_dir() or not os.access(report if report.exists() else report.parent, os.W_OK):
+        raise ConfigurationError(f"--report {report}: cannot be written")
 
 
-def _forward_signals(supervisor: Supervisor) -> None:
+@contextlib.contextmanager
+def _signals_forwarded(supervisor: Supervisor) -> Iterator[None]:
+    """Let SIGINT and SIGTERM ask for a stop."""
+
     def stop(_number: int, _frame: FrameType | None) -> None:
         supervisor.stop()
 
-    signal.signal(signal.SIGINT, stop)
-    signal.signal(signal.SIGTERM, stop)
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
     if "error" in result:
         raise ConfigurationError(result["error"])
-    if options.report is not None:
-        options.report.write_text(json.dumps(result, indent=2) + "\n", "utf-8")
     in_service = result["state"] == "SERVICE"
     if not options.quiet or in_service:
         sys.stdout.flush()
         print_summary(result)
+    if options.report is not None:
+        _write_report(options.report, result)
     return ENDED_IN_SERVICE if in_service else 0
+
+
+def _write_report(file: Path, result: dict[str, Any]) -> None:
+    try:
+        file.write_text(json.dumps(result, indent=2) + "\n", "utf-8")
+    except OSError as err:
+        raise ConfigurationError(f"--report {file}: {err.strerror}") from None

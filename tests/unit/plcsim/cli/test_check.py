@@ -1,0 +1,77 @@
+"""``plcsim check``: a table of what would run; nothing runs."""
+
+import re
+
+import pytest
+
+from plcsim.cli.main import main
+
+PROGRAM = """
+    from plcsim import Program
+    from st_types import LREAL, UINT, var
+
+    class Main(Program):
+        count = var(UINT)
+        way = var(LREAL)
+
+        def init(self) -> None:
+            raise RuntimeError("nothing runs")
+
+        cyclic = exit = init
+"""
+
+PLC = """
+    [task_class.1]
+    cycle = "2ms"
+    tolerance = "16.5ms"
+    programs = ["main", {name = "second", source = "main"}]
+
+    [task_class.4]
+    programs = ["other"]
+"""
+
+
+@pytest.fixture
+def cell(project):
+    return project({"plc.toml": PLC, "main/main.py": PROGRAM, "other/main.py": PROGRAM})
+
+
+def test_classes_programs_and_memory_are_shown(cell, capsys):
+    assert main(["check", str(cell)]) == 0
+    shown = capsys.readouterr()
+    assert shown.err == ""
+    head, *rows, last = shown.out.splitlines()
+    assert head.split() == ["class", "cycle", "tolerance", "program", "address", "bytes", "tags"]
+    assert [row.split() for row in rows] == [
+        ["#1", "2", "ms", "16.5", "ms", "main", "16#00001000", "12", "2"],
+        ["#1", "2", "ms", "16.5", "ms", "second", "16#0000100C", "12", "2"],
+        ["#4", "100", "ms", "100", "ms", "other", "16#00001018", "12", "2"],
+    ]
+    assert re.fullmatch(r"cell: 3 programs, 4132 of 16777216 bytes .*, tick 1 ms", last)
+
+
+@pytest.mark.parametrize("name", ["[/b]", "[red]", "cell[1]"])
+def test_any_name_is_shown_as_it_is(cell, capsys, name):
+    plc = cell / "plc.toml"
+    plc.write_text(f'[plc]\nname = "{name}"\n' + plc.read_text())
+    assert main(["check", str(cell)]) == 0
+    assert f"{name}: 3 programs" in capsys.readouterr().out
+
+
+def test_a_wrong_project_is_exit_code_1(cell, capsys):
+    (cell / "other" / "main.py").write_text("import nonsense_\n")
+    assert main(["check", str(cell)]) == 1
+    shown = capsys.readouterr()
+    assert shown.out == ""
+    assert shown.err.startswith(f"plcsim: {cell / 'other' / 'main.py'}:1: ModuleNotFoundError")
+
+
+def test_too_little_memory_is_found(cell, capsys):
+    (cell / "main" / "main.py").write_text(
+        "from plcsim import Program\nfrom st_types import ARRAY, UINT, var\n"
+        "class Main(Program):\n    big = var(ARRAY(UINT, (1, 100_000)))\n"
+    )
+    plc = cell / "plc.toml"
+    plc.write_text('[plc]\nmemory = "64KiB"\n' + plc.read_text())
+    assert main(["check", str(cell)]) == 1
+    assert "the PLC memory of 65536 bytes is full" in capsys.readouterr().err

@@ -1,0 +1,104 @@
+"""What `plcsim run` shows: the live table and the summary."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from plcsim.cli.display import LiveTable, print_summary
+from plcsim.project import read_project
+from plcsim.report import report
+from plcsim.status_page import StatusPage
+from plcsim.task import Policy
+
+MS = 1_000_000
+
+
+@pytest.fixture
+def summary(make_controller, capsys, monkeypatch):
+    """``summary(class, ...)``: the summary of a run of 100 ms, on 80 columns."""
+    monkeypatch.setenv("COLUMNS", "80")
+
+    def summary(*classes, name="cell"):
+        controller = make_controller(*classes)
+        controller.boot()
+        controller.run_for(100 * MS)
+        controller.shutdown()
+        print_summary(report(controller, name, 100 * MS, []))
+        return capsys.readouterr().err
+
+    return summary
+
+
+def test_a_run_that_stopped(summary, task_class, program_of, clock):
+    program = program_of(lambda _: clock.spend_ns(2_500_000))
+    head, columns, row = summary(task_class(1, 10, a=program, b=program_of())).splitlines()
+    assert head == "cell  STOPPED  after 100 ms  (virtual clock)"
+    assert columns.split()[:5] == ["class", "cycle", "cycles", "missed", "viol."]
+    assert " ".join(row.split()) == "#1 10 ms 10 0 0 2.5 ms / 2.5 ms 0 ns / 0 ns a, b"
+
+
+def test_violations_are_shown_with_their_causes(summary, task_class, program_of, clock):
+    settings = {"policy": Policy.LOG}
+    shown = summary(task_class(1, 10, settings, p=program_of(lambda _: clock.spend_ns(25 * MS))))
+    assert "violations by cause: program 4, host 0, preempted 0" in shown
+    assert shown.count("cycle time violation in cycle") == 4
+
+
+def test_of_many_entries_the_latest_are_shown(summary, task_class, program_of, clock):
+    settings = {"policy": Policy.LOG}
+    shown = summary(task_class(1, 1, settings, p=program_of(lambda _: clock.spend_ns(2 * MS))))
+    assert shown.count("cycle time violation in cycle") == 10
+    assert "... and 40 earlier entries; --report FILE keeps them" in shown
+
+
+def test_a_fault_is_shown_in_one_line_however_long(summary, task_class, program_of):
+    def fail(_):
+        raise ValueError("a long text " * 20)
+
+    shown = summary(task_class(1, 10, p=program_of(fail)))
+    (line,) = [line for line in shown.splitlines() if line.startswith("SERVICE: p CYCLIC:")]
+    assert __file__ in line
+
+
+def test_a_violation_that_led_to_service_names_its_class(summary, task_class, program_of, clock):
+    shown = summary(task_class(3, 10, p=program_of(lambda _: clock.spend_ns(25 * MS))))
+    assert "SERVICE: task class 3: cycle time violation in cycle 1, cause program" in shown
+
+
+@pytest.mark.parametrize("name", ["[/b]", "[red]"])
+def test_any_name_is_shown_as_it_is(summary, task_class, program_of, name):
+    shown = summary(task_class(1, 10, p=program_of()), name=name)
+    assert shown.startswith(f"{name}  STOPPED")
+
+
+@pytest.fixture
+def live(project_of):
+    """The live table of a project of one program, and its status page."""
+    folder = project_of("")
+    page = StatusPage()
+    yield LiveTable(read_project(folder), page), page
+    page.close()
+
+
+def test_the_live_table_shows_the_status_page(live, make_controller, task_class, program_of, clock):
+    table, page = live
+    program = program_of(lambda _: clock.spend_ns(11 * MS))
+    controller = make_controller(
+        task_class(1, 10, {"policy": Policy.LOG}, main=program), heartbeat=page
+    )
+    controller.boot()
+    controller.run(cycles=4)
+    page.ticked(12_340 * MS)
+    out = io.StringIO()
+    Console(file=out, width=80).print(table._picture())
+    head, _, row = out.getvalue().splitlines()
+    assert head.split() == ["cell", "RUN", "12.3", "s"]
+    assert " ".join(row.split()) == "#1 10 ms 4 4 4 11 ms / 11 ms 0 ns / 0 ns main"
+
+
+def test_without_a_terminal_nothing_is_drawn(live, capsys):
+    table, _ = live
+    with table:
+        pass
+    assert capsys.readouterr() == ("", "")

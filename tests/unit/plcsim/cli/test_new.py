@@ -1,0 +1,70 @@
+"""``plcsim new``: copies of the examples, which check, and one that runs and tests itself."""
+
+import subprocess
+import sys
+
+import pytest
+
+from plcsim.cli.main import main
+from plcsim.cli.new import _examples
+
+EXAMPLES = sorted(_examples())
+
+
+@pytest.fixture(autouse=True)
+def empty_folder(tmp_path, monkeypatch):
+    """The commands run in a folder of their own."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_there_are_examples():
+    assert {"blinky", "tcp_server"} <= set(EXAMPLES)
+
+
+def test_a_new_project_runs_and_tests_itself(empty_folder, capsys):
+    assert main(["new", "my_plc"]) == 0
+    assert capsys.readouterr().out == (
+        "Made my_plc from the example blinky. Try:\n"
+        "    plcsim run my_plc\n"
+        "    python -m pytest my_plc/tests\n"
+    )
+    assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
+    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "my_plc/tests"]
+    done = subprocess.run(tests, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("example", EXAMPLES)
+def test_every_example_can_be_copied_and_is_right(example, empty_folder, capsys):
+    assert main(["new", "copy", "--like", example]) == 0
+    assert not list(empty_folder.glob("**/__pycache__"))
+    assert main(["check", "copy"]) == 0
+
+
+def test_an_existing_folder_is_left_alone(empty_folder, capsys):
+    target = empty_folder / "mine"
+    target.mkdir()
+    (target / "notes.txt").write_text("keep")
+    assert main(["new", "mine"]) == 1
+    assert capsys.readouterr().err == "plcsim: mine: exists already; nothing was changed\n"
+    assert [f.name for f in target.iterdir()] == ["notes.txt"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        (["x", "--like", "nothing"], "--like nothing: no such example; there are"),
+        (["my plc"], "'my plc' cannot be the name of a project"),
+        (["1st"], "'1st' cannot be the name of a project"),
+        ([".."], "'..' cannot be the name of a project"),
+        (["."], "'' cannot be the name of a project"),
+        (["no/where"], "no/where: there is no folder no"),
+        (["dangling"], "dangling: cannot be made"),
+    ],
+)
+def test_what_is_refused(arguments, error, empty_folder, capsys):
+    (empty_folder / "dangling").symlink_to("nowhere/at/all")
+    assert main(["new", *arguments]) == 1
+    assert capsys.readouterr().err.startswith(f"plcsim: {error}")
+    assert [f.name for f in empty_folder.iterdir()] == ["dangling"]
