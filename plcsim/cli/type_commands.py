@@ -83,7 +83,7 @@ def _sound(paths: Sequence[Path]) -> TypeTable:
 
 def layout(options: argparse.Namespace) -> int:
     """Print a table of offsets."""
-    data_type = _find(_sound(options.paths), options.type)
+    data_type = _find(options.paths, options.type)
     print(f"{options.type}: {_count(data_type.size, 'byte')}, alignment {data_type.alignment}")
     rows = [row for row in layout_rows(data_type) if options.deep or row.path.isidentifier()]
     width = max(len(text) for text in ("member", *(row.path for row in rows)))
@@ -94,9 +94,16 @@ def layout(options: argparse.Namespace) -> int:
     return 0
 
 
-def _find(table: TypeTable, name: str) -> DataType[object]:
+def _find(paths: Sequence[Path], name: str) -> DataType[object]:
+    """Return a type; errors elsewhere do not matter.
+
+    Raises:
+        PlcError: there is none of that name, or it has no layout; errors in the files are printed.
+    """
+    reading, table = _resolved(paths)
     data_type = table.find_type(name)
     if data_type is None:
+        _report(reading, lambda line: print(line, file=sys.stderr))
         raise PlcError(f"no type with a layout is called {name}.")
     return data_type
 
@@ -151,7 +158,7 @@ def _write(path: Path, text: str) -> None:
 
 def to_ros(options: argparse.Namespace) -> int:
     """Print the messages of a STRUCT, those that it contains first."""
-    data_type = resolve_alias(_find(_sound(options.paths), options.type))
+    data_type = resolve_alias(_find(options.paths, options.type))
     if not isinstance(data_type, StructType):
         raise PlcError(f"{options.type} is no STRUCT.")
     for name, text in messages_from_struct(data_type, options.package).items():

@@ -112,6 +112,13 @@ def test_layout_of_a_library_block_needs_no_path(
         run("layout", "Nothing")
 
 
+def test_errors_in_other_types_do_not_keep_a_layout_back(run: Run, project: Path) -> None:
+    (project / "Bad.typ").write_text("TYPE A : Lib; B : INT := 'x'; END_TYPE")
+    assert run("layout", "Axis", project)[0] == 0
+    with pytest.raises(PlcError, match="no type with a layout is called A"):
+        run("layout", "A", project)
+
+
 def test_header(run: Run, project: Path) -> None:
     out = run("header", "--name", "Cell", project)[1]
     assert "#ifndef _CELL_H_" in out
