@@ -33,7 +33,10 @@ def build_parser() -> argparse.ArgumentParser:
     for command in (run, check, doctor, new, report, tags, watch, types):
         command.register(subparsers)
     for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
-        entry.load()(subparsers)
+        try:
+            entry.load()(subparsers)
+        except ImportError as err:  # a package that is half installed costs its own command only
+            print(f"plcsim: the command {entry.name} is not there: {err}", file=sys.stderr)
     return parser
 
 

@@ -1,6 +1,7 @@
 """The command itself: help of every sub-command, exit codes, errors in one line."""
 
 import argparse
+from importlib.metadata import EntryPoint
 
 import pytest
 
@@ -69,3 +70,12 @@ def test_what_a_command_raises(monkeypatch, capsys, error, code, text):
     monkeypatch.setattr(cli, "build_parser", lambda: parser)
     assert main([]) == code
     assert capsys.readouterr() == ("", text)
+
+
+def test_a_command_that_cannot_be_imported_costs_only_itself(monkeypatch, capsys):
+    broken = EntryPoint("fly", "plcsim_no_such_module:register", cli.COMMANDS)
+    monkeypatch.setattr(cli, "entry_points", lambda group: [broken])
+    assert main(["check", "/nowhere"]) == 1
+    first, second = capsys.readouterr().err.splitlines()
+    assert first.startswith("plcsim: the command fly is not there: No module named")
+    assert second.startswith("plcsim: /nowhere/plc.toml: there is no such file")
