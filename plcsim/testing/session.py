@@ -239,6 +239,15 @@ def complete(item: pytest.Item, call: pytest.CallInfo[None], report: pytest.Test
     result = result_of(item, report, current, item.stash.get(CALIBRATION, None), shown)
     item.user_properties.extend(properties_of(result))
     report.plc = result  # type: ignore[attr-defined]  # travels with the report
+    _shorten_summary(call, report)
+
+
+def _shorten_summary(call: pytest.CallInfo[None], report: pytest.TestReport) -> None:
+    """Let pytest's summary say in one line what was expected, not its class and its table."""
+    crash = getattr(report.longrepr, "reprcrash", None)
+    error = call.excinfo.value if call.excinfo else None
+    if crash is not None and isinstance(error, ExpectationFailed | PlcError):
+        crash.message = str(error)
 
 
 def _tags_of(call: pytest.CallInfo[None], plc: Plc) -> tuple[str, ...]:

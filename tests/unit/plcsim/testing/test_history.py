@@ -2,6 +2,7 @@
 
 import pytest
 
+from plcsim.memory import PAGE
 from plcsim.testing.history import SHOWN, History
 
 
@@ -46,12 +47,14 @@ def test_without_cycles_or_tags_there_is_nothing_to_show(cell_plc):
     assert cell_plc.history.explain([tag]).startswith("the only cycle\n")
 
 
-def test_the_ring_is_bounded_by_bytes_but_keeps_what_is_shown(cell_plc, monkeypatch):
-    monkeypatch.setattr("plcsim.testing.history.MOST_BYTES", 1)
+@pytest.mark.parametrize(("images", "kept"), [(1, SHOWN), (SHOWN + 3, SHOWN + 3), (9_999, 1_000)])
+def test_the_ring_is_bounded_by_bytes_but_keeps_what_is_shown(cell_plc, monkeypatch, images, kept):
+    size = cell_plc.controller.memory.used - PAGE
+    monkeypatch.setattr("plcsim.testing.history.MOST_BYTES", images * size)
     history = History(cell_plc.controller)
-    for _ in range(SHOWN + 5):
+    for _ in range(1_010):
         history.add(cell_plc.controller.classes[0])
-    assert [len(ring) for ring in history._rings.values()] == [SHOWN]
+    assert [len(ring) for ring in history._rings.values()] == [kept]
 
 
 def test_a_restart_begins_anew(cell_plc):

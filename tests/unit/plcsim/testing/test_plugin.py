@@ -80,6 +80,15 @@ def test_a_failure_shows_the_expectation_the_table_and_the_diagram_and_nothing_i
     assert "--plc-seed" not in text
 
 
+def test_the_summary_is_one_line_that_says_what_was_expected(suite, monkeypatch):
+    monkeypatch.setenv("CI", "1")  # pytest then cuts no line of the summary
+    result = suite("def test_late(plc):\n    plc.assert_within('30ms', 'cell.start')\n")
+    assert result.outlines[-2] == (
+        "FAILED test_cell.py::test_late - expected cell.start within 30 ms; "
+        "it held after none of 3 cycles; cell.start is FALSE"
+    )
+
+
 def test_a_plain_assert_shows_the_tags_that_were_read(suite):
     result = suite(
         """
