@@ -5,10 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from st_types.constants import EvaluationError, NotConstantError, ScopeError, evaluate
+from st_types.conversions import convert
 from st_types.derived import EnumerationType, resolve_alias
+from st_types.elementary import ElementaryType
 from st_types.expressions import Literal
 from st_types.initial_values import MAX_ELEMENTS, initial_value
 from st_types.literals import Constant
+from st_types.syntax import Declaration
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,7 +20,6 @@ if TYPE_CHECKING:
     from st_types.expressions import Expression, Node
     from st_types.name_index import Entry, SourceFile
     from st_types.resolve import TypeTable
-    from st_types.syntax import Declaration
 
 MAX_NESTING = 50
 """Most types that lie one inside the other, and most constants that depend one on the other."""
@@ -75,7 +77,8 @@ class ConstantResolver:
             raise ScopeError(f"{entry.node.name} depends on itself", is_final=True)
         self.check_open(entry)
         self.table.resolved(entry)
-        return _known(constant_of(entry.data_type, entry.value))
+        assert isinstance(entry.node, Declaration)
+        return _known(constant_of(entry.node, entry.data_type, entry.value))
 
     def _enumeration_value(self, entry: Entry, name: str) -> Constant | None:
         if entry.state == 1:
@@ -149,8 +152,15 @@ class ConstantResolver:
         return initial_value(self, node.initial, data_type)
 
 
-def constant_of(data_type: DataType[object] | None, value: object) -> Constant | None:
-    """Return a declared constant as an operand; None for a list, a structure, an unknown value."""
+def constant_of(
+    node: Declaration, data_type: DataType[object] | None, value: object
+) -> Constant | None:
+    """Return a declared constant as an operand; None for a list, a structure, an unknown value.
+
+    A constant without a value is 0, as on the controller.
+    """
+    if node.initial is None and isinstance(data_type, ElementaryType):
+        return Constant(data_type.name, convert(0, data_type))
     if data_type is None or not isinstance(value, bool | int | float | str):
         return None
     return Constant(data_type.name, value)

@@ -190,7 +190,10 @@ class ExpressionParser(TokenReader):
             return self._parenthesised()
         kind = kind_of(text)
         if kind is TokenKind.LITERAL or text.upper() in _TRUTH_VALUES:
-            return self.literal()
+            return self.literal(text)
+        if text == "." and self.texts[at + 1][:1].isdecimal() and not self.tokens.trivia[at + 1]:
+            self.index += 1
+            return self.literal(f".{self.text}")
         if kind not in (TokenKind.IDENTIFIER, TokenKind.ADDRESS):
             self.fail("expected a value")
         self.index += 1
@@ -202,13 +205,14 @@ class ExpressionParser(TokenReader):
         self.expect(")", "to close the parenthesis")
         return inner
 
-    def literal(self) -> Expression:
-        """Step over a literal; ``Type#Name`` is a value of an enumeration.
+    def literal(self, text: str) -> Expression:
+        """Step over the last token of the literal ``text``.
+
+        ``Type#Name`` is a value of an enumeration.
 
         Raises:
             UnexpectedTokenError: it is malformed.
         """
-        text = self.text
         prefix, _, name = text.partition("#")
         if name.isidentifier() and prefix.upper() not in TYPED_PREFIXES and prefix.isidentifier():
             self.index += 1

@@ -298,7 +298,7 @@ class FileResolver(ConstantResolver):
                 for node in block.declarations:
                     data_type = self.data_type(node.specification, node.name)
                     value = self.initial(node, data_type)
-                    self.local[node.name.upper()] = constant_of(data_type, value)
+                    self.local[node.name.upper()] = constant_of(node, data_type, value)
         found, self.local = self.local, outer
         return found
 

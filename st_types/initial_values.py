@@ -162,8 +162,8 @@ def _scalar(
         return None
     value = constant.value
     match data_type:
-        case ArrayType() | StructType() if value == 0:
-            return None  # ":= (0)", as older versions of Automation Studio write it
+        case ArrayType() | StructType() | StringType() | WStringType() if value == 0:
+            return None  # ":= (0)" and "[9(0)]", as older versions of Automation Studio write it
         case StringType() | WStringType() if isinstance(value, str):
             return _string(context, node, value, data_type)
         case ElementaryType(kind=Kind.BOOL) if value in (0, 1):

@@ -6,6 +6,7 @@ controller stores them; finer parts of a time are cut off, as the controller cut
 
 from __future__ import annotations
 
+import math
 import re
 from calendar import timegm
 from datetime import date
@@ -76,7 +77,7 @@ def _typed(type_name: str, body: str) -> Constant:
 
 
 _NUMBER = re.compile(r"([+-]?)(?:(\d+)#)?(.*)", re.DOTALL)
-_REAL = re.compile(r"[\d_]+\.?[\d_]*(?:[eE][+-]?\d+)?")
+_REAL = re.compile(r"(?:[\d_]+\.?[\d_]*|\.\d[\d_]*)(?:[eE][+-]?\d+)?")
 
 
 def _number(text: str) -> Constant:
@@ -93,7 +94,10 @@ def _number(text: str) -> Constant:
         return Constant("ANY_INT", int(sign + digits))
     if _REAL.fullmatch(digits) is None:
         raise LiteralError(f"{text} is not a number")
-    return Constant("ANY_REAL", float(sign + digits))
+    real = float(sign + digits)
+    if math.isinf(real):
+        raise LiteralError(f"{text} is larger than any number")
+    return Constant("ANY_REAL", real)
 
 
 def _based(base: int, base_text: str, digits: str) -> int:

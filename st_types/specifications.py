@@ -100,7 +100,7 @@ class SpecificationParser(InitialParser):
         index, texts, trivia = self.index, self.texts, self.trivia
         name, type_name = texts[index], texts[index + 2]
         before = trivia[index]
-        if type_name in _RULES or not (name.isidentifier() and type_name.isidentifier()):
+        if type_name in _NOT_SHORT or not (name.isidentifier() and type_name.isidentifier()):
             return False
         if not self._is_ascii and not (name.isascii() and type_name.isascii()):
             return False
@@ -290,3 +290,6 @@ _RULES: dict[str, Callable[[SpecificationParser], TypeSpecification]] = {
     "STRUCT": SpecificationParser._struct_specification,
     "(": SpecificationParser._enumeration_specification,
 }
+_NOT_SHORT = frozenset(
+    [spelling(key) for key in _RULES for spelling in (str, str.lower, str.capitalize)]
+)

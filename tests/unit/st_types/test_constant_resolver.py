@@ -4,11 +4,12 @@ from st_types.constant_resolver import MAX_NESTING, ConstantResolver, constant_o
 from st_types.constants import ScopeError
 from st_types.declarations import parse_text
 from st_types.derived import EnumerationType
-from st_types.elementary import INT
+from st_types.elementary import INT, REAL
 from st_types.expressions import Name
 from st_types.literals import Constant
 from st_types.name_index import SourceFile
 from st_types.resolve import resolve
+from st_types.syntax import VariableBlock
 
 
 def resolver(text: str, other: str = "") -> ConstantResolver:
@@ -66,6 +67,12 @@ def test_whole_numbers_only() -> None:
 
 
 def test_what_is_a_constant() -> None:
-    assert constant_of(INT, 5) == Constant("INT", 5)
-    assert constant_of(INT, [5]) is None
-    assert constant_of(None, 5) is None
+    file = parse_text("VAR CONSTANT given : INT := 5; empty : REAL; END_VAR")
+    block = file.items[0]
+    assert isinstance(block, VariableBlock)
+    given, empty = block.declarations
+    assert constant_of(given, INT, 5) == Constant("INT", 5)
+    assert constant_of(given, INT, [5]) is None
+    assert constant_of(given, None, 5) is None
+    assert constant_of(empty, REAL, None) == Constant("REAL", 0.0)
+    assert constant_of(empty, None, None) is None

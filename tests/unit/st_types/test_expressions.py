@@ -68,6 +68,7 @@ def shape(node: Expression) -> str:
         ("a - -1", "(a - (- 1))"),
         ("T#1s + t", "(T#1s + t)"),
         ("TRUE AND x", "(TRUE AND x)"),
+        (".5 + -.25E3", "(.5 + (- .25E3))"),
     ],
 )
 def test_precedence(text: str, expected: str) -> None:
@@ -116,6 +117,7 @@ def test_operands(text: str, expected: Expression) -> None:
         ("f(1 2)", r"expected ',' or '\)' after an argument, found '2'", 4),
         ("a.", "expected the name of a member or the number of a bit", 2),
         ("a.'x'", "expected the name of a member", 2),
+        (". 5", "expected a value, found '.'", 0),
         ("'x", "expected a value, found a string that is not closed", 0),
         ("§", "expected a value, found '§'", 0),
         ("\x01", r"expected a value, found the character U\+0001", 0),

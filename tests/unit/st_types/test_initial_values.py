@@ -54,6 +54,8 @@ def resolved(specification: str, value: str) -> tuple[object, list[str]]:
         ("STRING[5]", "WHO", "me"),
         ("STRING[5]", "'grün'", "grün"),
         ("STRING[5]", "'€'", "â\x82¬"),
+        ("STRING[5]", "0", None),
+        ("ARRAY[0..1] OF STRING[5]", "[2(0)]", [None, None]),
         ("WSTRING[5]", '"€"', "€"),
         ("WSTRING[5]", "'x'", "x"),
         ("Colour", "green", 5),

@@ -123,6 +123,8 @@ def test_deep_nesting_is_an_error(opening: str) -> None:
         ("a : (* b : *) INT (* ; *) ; // c : INT;\r\nEND_VAR", ["a"]),
         ("a : {P} INT; {Q} b : INT; END_VAR", ["a", "b"]),
         ("at AT %M : INT; END_VAR", ["at"]),
+        ("a : STRUCT; x : INT; END_STRUCT; b : struct; x : INT; END_STRUCT; END_VAR", ["a", "b"]),
+        ("a : string; b : Array[0..1] of INT; END_VAR", ["a", "b"]),
         ("a : BOOL R_EDGE; b : BOOL f_edge := TRUE; END_VAR", ["a", "b"]),
     ],
 )
