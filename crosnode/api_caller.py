@@ -200,6 +200,10 @@ class _Channel:
             return
         self.advance(now_ns)
 
+    def expects_data(self, link: Link) -> bool:
+        """Whether a call waits for its answer."""
+        return bool(self.calls)
+
     def fill(self, link: Link) -> None:
         """Nothing waits beside the call that was sent."""
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from crosnode.budget import Budget
 from crosnode.errors import MessageValueError
+from crosnode.link import QUIET_TURNS
 from crosnode.messages import Duration, Time
 from crosnode.messages.codec import attribute_name
 from crosnode.node.period import Period
@@ -63,7 +64,8 @@ class Bridge:
     def close(self) -> None:
         """End with the controller, whose sockets are closed already: take back by a new one."""
         node = self.node
-        node.core.loop.step(self._controller.context.release_ns, Budget(node.options.step))
+        for _ in range(QUIET_TURNS):
+            node.core.loop.step(self._controller.context.release_ns, Budget(node.options.step))
         node.destroy()
 
     def _checked(self, name: str, act: Any) -> None:

@@ -55,6 +55,7 @@ class Listener:
         self._loop = loop
         self._acceptor = acceptor
         self._socket = loop.pool.get()
+        self._next = loop.pool.get()
         self._retry_ns = 0
 
     @property
@@ -78,6 +79,9 @@ class Listener:
         if self._socket.open(listening=True) is not TcpipSocketState.DONE:
             return False
         self.port = self._socket.own_port
+        # TcpServer listens with its first call; from here on peers may be told of the port.
+        if self._socket.accept(self._next, BACKLOG) is TcpipSocketState.DONE:
+            self._next.close()
         return True
 
     def step(self, now_ns: int, budget: Budget) -> None:
@@ -85,13 +89,13 @@ class Listener:
         if not self.open(now_ns):
             return
         while budget.accepts > 0:
-            client = self._loop.pool.get()
+            client = self._next
             state = self._socket.accept(client, BACKLOG)
             if state is not TcpipSocketState.DONE:
-                self._loop.pool.put(client)
                 if state is not TcpipSocketState.IN_PROGRESS:
                     self._socket.close()
                 return
+            self._next = self._loop.pool.get()
             budget.accepts -= 1
             client.set_options()
             connection, owner, is_xmlrpc = self._acceptor.accepted(now_ns)
@@ -100,6 +104,7 @@ class Listener:
     def close(self) -> None:
         """Close the port."""
         self._loop.pool.put(self._socket)
+        self._loop.pool.put(self._next)
 
 
 class EventLoop:
@@ -119,6 +124,7 @@ class EventLoop:
         self.limits = limits
         self.links: list[Link] = []
         self.listeners: list[Listener] = []
+        self._new: list[Link] = []
         self._turn = 0
         self._listener_turn = 0
 
@@ -147,6 +153,7 @@ class EventLoop:
     def add(self, link: Link) -> None:
         """Add a link."""
         self.links.append(link)
+        self._new.append(link)
 
     def step(self, now_ns: int, budget: Budget) -> None:
         """Look at one listener, then at each link in turn while the budget lasts."""
@@ -155,9 +162,17 @@ class EventLoop:
             self.listeners[self._listener_turn].step(now_ns, budget)
         count = min(len(self.links), budget.polls)
         for link in self._in_turn(count):
-            link.step(now_ns, budget)
+            if not link.is_over:  # another link's event may have ended it
+                link.step(now_ns, budget)
         if any(link.is_over for link in self.links):
             self._remove_ended()
+
+    def step_new(self, now_ns: int, budget: Budget) -> None:
+        """Give links that were added in this step their first turn, at the end of it."""
+        new, self._new = self._new, []
+        for link in new:
+            if budget.polls > 0 and not link.is_over:
+                link.step(now_ns, budget)
 
     def _in_turn(self, count: int) -> list[Link]:
         """Return the next links, those that were waiting longest first."""

@@ -30,6 +30,12 @@ CONNECT_NS: Final = 2_000_000_000
 XMLRPC_READ: Final = 4_096
 """Bytes read at once from an XML-RPC connection."""
 
+TIMER_TURNS: Final = 16
+"""Time limits are looked at in every sixteenth turn of a link."""
+
+QUIET_TURNS: Final = 8
+"""A peer that has nothing to say but that it leaves is read from in every eighth turn."""
+
 _DONE: Final = TcpipSocketState.DONE
 _IN_PROGRESS: Final = TcpipSocketState.IN_PROGRESS
 
@@ -65,6 +71,9 @@ class Owner(Protocol):
     def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
         """Take an event of the link's connection."""
 
+    def expects_data(self, link: Link) -> bool:
+        """Whether the peer may have something to say."""
+
     def fill(self, link: Link) -> None:
         """Hand waiting messages to the connection; called while little is left to write."""
 
@@ -87,7 +96,8 @@ class Link:
         peer: who is at the other end, for messages and getBusInfo.
     """
 
-    __slots__ = ("_closing_ns", "_inbox", "_outbox", "_reason", "_since_ns", "_xmlrpc",
+    __slots__ = ("_closing_ns", "_has_more", "_inbox", "_is_up", "_outbox", "_reason", "_since_ns",
+        "_turn", "_xmlrpc",
                  "bytes_in", "bytes_out", "connection", "is_over", "owner", "peer",
                  "socket")  # fmt: skip
 
@@ -112,6 +122,9 @@ class Link:
         self._closing_ns: int | None = None
         self._reason = ""
         self._xmlrpc = is_xmlrpc
+        self._is_up = socket.is_connected
+        self._turn = 0
+        self._has_more = False
 
     @property
     def waiting(self) -> int:
@@ -121,11 +134,17 @@ class Link:
     def step(self, now_ns: int, budget: Budget) -> None:
         """Do what can be done now within the budget."""
         budget.polls -= 1
-        if not self.socket.is_connected and not self._connect(now_ns):
+        if not self._is_up and not self._connect(now_ns):
             return
-        if failed := self.connection.handle_timer(now_ns):
+        self._turn += 1
+        if self._turn % TIMER_TURNS == 0 and (failed := self.connection.handle_timer(now_ns)):
             self._handle(failed, now_ns)
-        self._receive(now_ns, budget)
+        if not self.connection.wants_data:
+            self._take_events(now_ns, budget)
+        elif self._turn % QUIET_TURNS == 0 or self.owner.expects_data(self):
+            self._receive(now_ns, budget)
+            if self._has_more and self.connection.wants_data:
+                self._receive(now_ns, budget)
         self._send(now_ns, budget)
         if self.connection.state is State.CLOSED and not self.is_over:
             self._finish(now_ns)
@@ -145,7 +164,10 @@ class Link:
 
     def _connect(self, now_ns: int) -> bool:
         state = self.socket.connect()
+        if state is _IN_PROGRESS:
+            state = self.socket.connect()  # on the own host the connection is there at once
         if state is _DONE:
+            self._is_up = True
             self.socket.set_options()
             return True
         if state is not _IN_PROGRESS:
@@ -155,13 +177,11 @@ class Link:
         return False
 
     def _receive(self, now_ns: int, budget: Budget) -> None:
-        self._take_events(now_ns, budget)
-        if not self.connection.wants_data:
-            return
         size = min(XMLRPC_READ, budget.bytes_parsed) if self._xmlrpc else budget.bytes_in
         if size <= 0:
             return
         state, received = self.socket.read_buffer_ex(self._inbox, size)
+        self._has_more = received == AREA_SIZE
         if state is _DONE:
             self._count(received, budget)
             self.connection.receive_data(self._inbox.take())

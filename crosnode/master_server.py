@@ -84,6 +84,7 @@ class MasterServer:
         now_ns, budget = self._context.release_ns, Budget(self.options.step)
         self._loop.step(now_ns, budget)
         self._api.step(now_ns, budget)
+        self._loop.step_new(now_ns, budget)
 
     def close(self) -> None:
         """Close the port and all connections."""
@@ -110,6 +111,10 @@ class MasterServer:
                 self.master.handle_reply(call, answer.reply)
 
         self._api.start(ApiCall(call.uri, call.method, call.params, answered))
+
+    def expects_data(self, link: Link) -> bool:
+        """A caller may always call."""
+        return True
 
     def fill(self, link: Link) -> None:
         """Answers go to the connection at once."""

@@ -129,13 +129,26 @@ class TcpipSocket:
         status: the status of the last block called, for messages.
     """
 
-    __slots__ = ("_area", "_blocks", "_connected", "_ident", "_memory", "_recv", "_send", "ip",
-                 "port", "status")  # fmt: skip
+    __slots__ = (
+        "_address",
+        "_area",
+        "_blocks",
+        "_connected",
+        "_ident",
+        "_memory",
+        "_recv",
+        "_send",
+        "_server",
+        "ip",
+        "port",
+        "status",
+    )
 
     def __init__(self, pool: SocketPool) -> None:
         self._memory = pool.context.memory
         self._blocks = blocks = self._memory.new(SocketBlocks, pool.context)
-        self._recv, self._send = blocks.recv, blocks.send
+        self._recv, self._send, self._server = blocks.recv, blocks.send, blocks.server
+        self._address = adr(blocks, "address")
         blocks.recv.pData, blocks.recv.enable = pool.recv_area, True
         blocks.send.pData, blocks.send.enable = pool.send_area, True
         self._area = pool.send_area
@@ -171,7 +184,7 @@ class TcpipSocket:
             DONE, IN_PROGRESS (no ident is free now) or FAILED.
         """
         block = self._blocks.open
-        block.pIfAddr = adr(self._blocks, "address") if listening and self.ip else 0
+        block.pIfAddr = self._address if listening and self.ip else 0
         block.port = self.port if listening else 0
         block.options = tcpOPT_REUSEADDR if listening else 0
         block(enable=True)
@@ -195,7 +208,7 @@ class TcpipSocket:
         if not self.is_open and (state := self.open()) is not _DONE:
             return state
         block = self._blocks.client
-        block(enable=True, ident=self._ident, pServer=adr(self._blocks, "address"),
+        block(enable=True, ident=self._ident, pServer=self._address,
               portserv=self.port)  # fmt: skip
         self.status = block.status
         self._connected = block.status == ERR_OK
@@ -209,10 +222,10 @@ class TcpipSocket:
         Returns:
             DONE, IN_PROGRESS (nobody there, or no ident is free) or FAILED.
         """
-        block = self._blocks.server
-        block(
-            enable=True, ident=self._ident, backlog=backlog, pIpAddr=adr(client._blocks, "address")
-        )
+        block = self._server
+        block.enable, block.ident, block.backlog = True, self._ident, backlog
+        block.pIpAddr = client._address
+        block.execute()
         self.status = block.status
         if block.status == ERR_OK:
             client._use(block.identclnt)

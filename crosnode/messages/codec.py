@@ -16,7 +16,7 @@ from dataclasses import field as dataclass_field
 from dataclasses import fields as dataclass_fields
 from dataclasses import make_dataclass
 from keyword import iskeyword
-from typing import TYPE_CHECKING, Any, Final, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, TypeGuard, cast
 
 import numpy as np
 from rosbags.interfaces import Nodetype
@@ -146,13 +146,14 @@ class Codec:
     def decode(self, name: str, data: bytes | bytearray | memoryview) -> Message:
         """Return the message that ``data`` holds.
 
-        Numeric arrays of the message are read-only views of ``data`` where that is ``bytes``, of a
-        copy otherwise. What the bytes claim to hold is never allocated before it is there.
+        Numeric arrays of the message are read-only views of ``data`` where that is ``bytes`` or a
+        read-only view, which must not change any more, of a copy otherwise. What the bytes claim
+        to hold is never allocated before it is there.
 
         Raises:
             DecodeError: too few or too many bytes, or a string that is not UTF-8.
         """
-        raw = data if isinstance(data, bytes) else bytes(data)
+        raw = data if isinstance(data, bytes) or _is_read_only(data) else bytes(data)
         try:
             return cast("Message", self._store.deserialize_ros1(raw, name))
         except (SerdeError, struct.error, ValueError) as error:
@@ -270,6 +271,10 @@ class Codec:
         except (TypeError, ValueError) as error:
             return f": {error}"
         return None
+
+
+def _is_read_only(data: bytearray | memoryview) -> TypeGuard[memoryview]:
+    return isinstance(data, memoryview) and data.readonly
 
 
 def _prepared(message: Any, steps: Mapping[str, Prepare]) -> Any:

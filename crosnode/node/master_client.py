@@ -46,6 +46,7 @@ class Registration:
         unregister: the same for taking it back.
         on_value: called with the value of the master's answer.
         state: where it stands.
+        is_late: registered after the others, where many are.
     """
 
     name: str
@@ -53,6 +54,7 @@ class Registration:
     unregister: tuple[str, list[Value]]
     on_value: Callable[[Value], None] | None = None
     state: Wish = field(default=Wish.PENDING)
+    is_late: bool = False
 
 
 class MasterClient:
@@ -137,7 +139,7 @@ class MasterClient:
             return
         if self._is_dirty:
             self._is_dirty = False
-            for registration in self._registrations:
+            for registration in sorted(self._registrations, key=lambda each: each.is_late):
                 if registration.state is Wish.PENDING:
                     self._register(registration)
         elif now_ns >= self._ping_ns and not self._pinging and self._registrations:

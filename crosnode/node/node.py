@@ -211,7 +211,7 @@ class CrosNode:
             queue_size=queue_size,
             tcp_nodelay=tcp_nodelay,
         )
-        registration.on_value = subscriber.update
+        registration.on_value = subscriber.registered
         self.core.master.add(registration)
         return subscriber
 
@@ -280,7 +280,7 @@ class CrosNode:
             ("unsubscribeParam", [self.uri, name]),
         )
         param = ParameterSubscription(name, registration, queue_size=queue_size)
-        registration.on_value = param.set_all
+        registration.on_value = param.registered
         self.params.append(param)
         self.core.master.add(registration)
         return param
@@ -375,6 +375,7 @@ class CrosNode:
         self._time.step()
         core.master.step(now_ns)
         core.api.step(now_ns, budget)
+        core.loop.step_new(now_ns, budget)
         if self.is_shut_down:
             self._go_on_closing(now_ns)
 

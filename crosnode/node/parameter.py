@@ -5,11 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.names import SEPARATOR, canonical
+from crosnode.node.master_client import Wish
 from crosnode.queues import DropOldestQueue
 
 if TYPE_CHECKING:
     from crosnode.node.master_client import Registration
     from crosnode.xmlrpc import Value
+
+MAX_EARLY: Final = 100
+"""Changes kept that came before the answer to the registration."""
 
 UNSET: Final[dict[str, object]] = {}
 """What a master tells of a parameter that is not there (any more)."""
@@ -37,6 +41,7 @@ class ParameterSubscription:
         self.value: Value = dict(UNSET)
         self.updates: DropOldestQueue[ParameterUpdate] = DropOldestQueue(queue_size)
         self.registration = registration
+        self._early: DropOldestQueue[ParameterUpdate] = DropOldestQueue(MAX_EARLY)
 
     def pop(self) -> ParameterUpdate | None:
         """Return the oldest change, None where there is none."""
@@ -46,6 +51,24 @@ class ParameterSubscription:
         """Take the value of the parameter itself."""
         self.value = value
         self.updates.push(ParameterUpdate(self.name, value))
+
+    def registered(self, value: Value) -> None:
+        """Take the value from the answer to the registration.
+
+        Changes that came before the answer are newer than it: they are made again.
+        """
+        early = []
+        while (update := self._early.pop()) is not None:
+            early.append(update)
+        self.set_all(value)
+        for name, changed in early:
+            self.update(name, changed)
+
+    def param_update(self, name: str, value: Value) -> None:
+        """Take a change from the master's call."""
+        if self.registration.state is Wish.CALLING:
+            self._early.push(ParameterUpdate(name, value))
+        self.update(name, value)
 
     def covers(self, name: str) -> bool:
         """Whether ``name`` is this parameter or lies below it."""

@@ -162,9 +162,16 @@ class SubscriberLink:
             StatusKind.PEER_REFUSED, topic[:100], f"{self.subscriber[:100]} at {link.peer}"
         )
 
+    def expects_data(self, link: Link) -> bool:
+        """A subscriber has nothing to say behind its header."""
+        return self.publisher is None
+
     def fill(self, link: Link) -> None:
         """Hand messages over until about one transfer area of them waits."""
-        size, queue = link.waiting, self.queue
+        queue = self.queue
+        if not queue:
+            return
+        size = link.waiting
         while queue and size < AREA_SIZE:
             body = queue.pop()
             assert body is not None

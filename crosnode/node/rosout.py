@@ -45,6 +45,8 @@ class Rosout:
         )
         self._get = node.register_service_provider("~get_loggers", "roscpp/GetLoggers")
         self._set = node.register_service_provider("~set_logger_level", "roscpp/SetLoggerLevel")
+        for role in (self._publisher, self._get, self._set):
+            role.registration.is_late = True
         self._logger = node.types.message("roscpp/Logger")
 
     def log(self, level: LogLevel, text: str, file: str, line: int, function: str) -> None:

@@ -175,7 +175,7 @@ class ServiceCaller:
 
     def _reply(self, link: Link, event: ReplyReceived) -> None:
         if not event.ok:
-            self._fail(event.body.decode(errors="replace") or "the provider failed")
+            self._fail(bytes(event.body).decode(errors="replace") or "the provider failed")
             return
         try:
             response = self.service_type.response.decode(event.body)
@@ -190,6 +190,10 @@ class ServiceCaller:
         if self._running is not None:
             self._running = None
             self.replies.push(ServiceReply(None, error))
+
+    def expects_data(self, link: Link) -> bool:
+        """Whether a call waits for its header or its reply."""
+        return self._running is not None
 
     def fill(self, link: Link) -> None:
         """Requests go to the connection one by one."""

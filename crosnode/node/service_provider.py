@@ -156,7 +156,7 @@ class CallerLink:
             return
         self._core.tell(StatusKind.PEER_REFUSED, service[:100], link.peer)
 
-    def _request(self, provider: ServiceProvider, link: Link, body: bytes) -> None:
+    def _request(self, provider: ServiceProvider, link: Link, body: bytes | memoryview) -> None:
         provider.bytes_in += len(body)
         try:
             request = provider.service_type.request.decode(body)
@@ -166,6 +166,10 @@ class CallerLink:
             link.close(str(error))
             return
         provider.push(ServiceRequest(request, self.connection.header.get("callerid", ""), self))
+
+    def expects_data(self, link: Link) -> bool:
+        """A caller may always ask."""
+        return True
 
     def fill(self, link: Link) -> None:
         """Answers go to the connection at once."""

@@ -82,6 +82,10 @@ class SlaveApi:
         else:
             connection.respond(reply.value)
 
+    def expects_data(self, link: Link) -> bool:
+        """A caller may always call."""
+        return True
+
     def fill(self, link: Link) -> None:
         """Answers go to the connection at once."""
 
@@ -167,7 +171,7 @@ class SlaveApi:
         name = canonical(name)
         covering = [p for p in self._node.params if p.covers(name)]
         for param in covering:
-            param.update(name, value)
+            param.param_update(name, value)
             self._node.core.tell(StatusKind.PARAM_UPDATE, name)
         return [SUCCESS if covering else ERROR, name[:100], 0]
 
@@ -175,7 +179,7 @@ class SlaveApi:
         """Take the publishers of a topic."""
         subscriber = self._node.subscribers.get(topic)
         if subscriber:
-            subscriber.update(publishers)
+            subscriber.publisher_update(publishers)
         return [SUCCESS, "", 0]
 
     def request_topic(self, topic: str, protocols: list[Value]) -> Value:

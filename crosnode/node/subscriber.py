@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.api_caller import ApiCall, CallState
 from crosnode.errors import DecodeError
+from crosnode.node.master_client import Wish
 from crosnode.node.status import StatusKind
 from crosnode.queues import DropOldestQueue
 from crosnode.tcpros import (
@@ -36,7 +37,7 @@ MAX_PUBLISHERS: Final = 1_000
 class Packet(NamedTuple):
     """A message as it came, and where from."""
 
-    body: bytes
+    body: bytes | memoryview
     peer: PublisherLink
 
 
@@ -70,6 +71,7 @@ class Subscriber:
         self.peers: dict[str, PublisherLink] = {}
         self.tcp_nodelay = tcp_nodelay
         self.core = core
+        self._is_overtaken = False
 
     @property
     def publishers(self) -> int:
@@ -90,10 +92,24 @@ class Subscriber:
                 packet.peer.drop(str(error))
         return None
 
-    def pop_raw(self) -> bytes | None:
+    def pop_raw(self) -> bytes | memoryview | None:
         """Return the oldest message as bytes, None where there is none."""
         packet = self.queue.pop()
         return packet.body if packet else None
+
+    def registered(self, uris: Value) -> None:
+        """Take the publishers from the answer to the registration.
+
+        A ``publisherUpdate`` that came before the answer is newer than it: then nothing is taken.
+        """
+        if not self._is_overtaken:
+            self.update(uris)
+        self._is_overtaken = False
+
+    def publisher_update(self, uris: Value) -> None:
+        """Take the publishers from the master's call."""
+        self._is_overtaken = self.registration.state is Wish.CALLING
+        self.update(uris)
 
     def update(self, uris: Value) -> None:
         """Connect to the publishers at ``uris`` and part from all others."""
@@ -198,6 +214,10 @@ class PublisherLink:
             self._tell(StatusKind.PEER_REFUSED, event.error)
         elif isinstance(event, Failed):
             self._tell(StatusKind.BAD_MESSAGE, event.reason)
+
+    def expects_data(self, link: Link) -> bool:
+        """A publisher may always send."""
+        return True
 
     def fill(self, link: Link) -> None:
         """A subscriber sends nothing after its header."""

@@ -50,14 +50,14 @@ class HeaderReceived:
 class MessageReceived:
     """A message of a topic; ``body`` may be empty."""
 
-    body: bytes
+    body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
 class RequestReceived:
     """A request to a service; ``body`` may be empty."""
 
-    body: bytes
+    body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +65,7 @@ class ReplyReceived:
     """The reply of a service: a response where ``ok``, else the text of an error."""
 
     ok: bool
-    body: bytes
+    body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +136,8 @@ class TcprosConnection(Connection, ABC):
         self.header = decode_header(body)
         return self.header
 
-    def _read_message(self) -> Generator[None, None, bytes]:
-        return (yield from self._reader.block(self.limits.max_message, "message"))
+    def _read_message(self) -> Generator[None, None, bytes | memoryview]:
+        return (yield from self._reader.large_block(self.limits.max_message, "message"))
 
     def _send_header(self, fields: Mapping[str, str]) -> None:
         self._outbox.append(encode_header(fields))

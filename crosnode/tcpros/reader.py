@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 _LENGTH: Final = struct.Struct("<I")
 
+AHEAD: Final = 1 << 20
+"""Bytes of a large block that are laid out at once."""
+
 
 class ByteReader:
     """Bytes received and not parsed yet, and whether the peer has closed."""
@@ -64,16 +67,50 @@ class ByteReader:
         del buffer[:size]
         return data
 
+    def large(self, size: int) -> Generator[None, None, bytes | memoryview]:
+        """Take ``size`` bytes as they come, so that the last of them is not the most work.
+
+        Where they do not fit into one read they go to their place piece by piece, and what is
+        returned is a read-only view of it. No more than ``AHEAD`` bytes are laid out before they
+        have come. Raises as ``exactly`` does.
+        """
+        if size <= AHEAD // 16:
+            return (yield from self.exactly(size))
+        buffer, target, have = self._buffer, bytearray(min(size, AHEAD)), 0
+        while have < size:
+            if not buffer:
+                if self._eof:
+                    raise TcprosError(f"connection closed after {have} of {size} bytes")
+                yield
+                continue
+            if have == len(target):
+                target += bytes(min(AHEAD, size - have))
+            piece = min(len(buffer), len(target) - have)
+            with memoryview(buffer) as data:
+                target[have : have + piece] = data[:piece]
+            del buffer[:piece]
+            have += piece
+        return memoryview(target).toreadonly()
+
+    def large_block(self, limit: int, what: str) -> Generator[None, None, bytes | memoryview]:
+        """Take a block as ``block`` does, its bytes as ``large`` does."""
+        size = yield from self._length(limit, what)
+        return (yield from self.large(size))
+
     def block(self, limit: int, what: str) -> Generator[None, None, bytes]:
         """Take a block: four bytes of length, little-endian, then as many bytes.
 
         Raises:
             TcprosError: the length is above ``limit``, or the peer closes before the end.
         """
+        size = yield from self._length(limit, what)
+        return (yield from self.exactly(size))
+
+    def _length(self, limit: int, what: str) -> Generator[None, None, int]:
         (size,) = _LENGTH.unpack((yield from self.exactly(_LENGTH.size)))
         if size > limit:
             raise TcprosError(f"{what} of {size} bytes, at most {limit} are read")
-        return (yield from self.exactly(size))
+        return int(size)
 
 
 def length_of(body: bytes | memoryview) -> bytes:

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.node import ParameterUpdate, StatusKind
-from crosnode.node.master_client import Registration
+from crosnode.node.master_client import Registration, Wish
 from crosnode.node.parameter import ParameterSubscription
 
 from .world import OTHER_IP, World, drain, news
@@ -45,6 +45,15 @@ def test_a_leaf_changes_only_its_place_in_the_namespace() -> None:
     world.run(20)
     assert param.value == {"a": {"b": 5}, "c": 2, "d": {"e": 6}}
     assert prefix.value == {}
+
+
+def test_changes_that_overtake_the_answer_to_the_registration_are_made_again() -> None:
+    param = subscription()
+    param.registration.state = Wish.CALLING
+    param.param_update("/p/a", 2)
+    param.param_update("/p/b", 3)
+    param.registered({"a": 1, "c": 4})
+    assert param.value == {"a": 2, "b": 3, "c": 4}
 
 
 def test_two_subscriptions_of_one_name_both_hear() -> None:

@@ -1,7 +1,13 @@
 """Generator parsers over bytes that come in any pieces."""
 
-import pytest
+import itertools
+import struct
 
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import crosnode.tcpros.reader as reader_module
 from crosnode.errors import TcprosError
 from crosnode.tcpros.reader import ByteReader, length_of
 
@@ -48,3 +54,34 @@ def test_more() -> None:
     with pytest.raises(StopIteration) as done:
         next(parser)
     assert done.value.value is False
+
+
+@given(st.binary(max_size=2000), st.lists(st.integers(1, 600), min_size=1), st.integers(1, 400))
+def test_a_large_block_is_the_same_for_any_split(body: bytes, sizes: list[int], ahead: int) -> None:
+    data = length_of(body) + body + b"next"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reader_module, "AHEAD", ahead)
+        reader, place, found = ByteReader(), 0, None
+        parser = reader.large_block(5000, "message")
+        for size in itertools.cycle(sizes):
+            reader.feed(data[place : place + size])
+            place += size
+            try:
+                next(parser)
+            except StopIteration as stop:
+                found = stop.value
+                break
+        reader.feed(data[place:])
+    assert bytes(found) == body
+    assert bytes(reader._buffer) == b"next"
+    assert not isinstance(found, memoryview) or found.readonly
+
+
+def test_a_large_block_that_ends_early_is_an_error() -> None:
+    reader = ByteReader()
+    reader.feed(struct.pack("<I", 1 << 20) + bytes(100_000))
+    parser = reader.large_block(1 << 21, "message")
+    next(parser)
+    reader.feed_eof()
+    with pytest.raises(TcprosError, match="after 100000 of 1048576"):
+        next(parser)

@@ -1,0 +1,114 @@
+"""The other side of the ROS benchmarks: a master and a node of ours in a process of its own.
+
+    python _ros_peer.py PORT talk TOPIC TYPE RATE SIZE | idle COUNT | echo TOPIC | flood TOPIC SIZE
+
+It runs unpaced, so that the measured side is the one that limits.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Any
+
+from crosnode.budget import UNPACED
+from crosnode.master_server import MasterOptions, MasterServer
+from crosnode.names import node_settings
+from crosnode.node import CrosNode, NodeOptions
+from plcsim.context import Context
+from plcsim.memory import Memory
+from plcsim.network import OsNetwork
+
+HOST = "127.0.0.1"
+
+
+def environment(port: int) -> dict[str, str]:
+    return {"ROS_MASTER_URI": f"http://{HOST}:{port}/"}
+
+
+def make_node(name: str, port: int, **options: Any) -> tuple[Context, CrosNode]:
+    context = Context(Memory(), OsNetwork())
+    context.release_ns = time.monotonic_ns()
+    settings = node_settings(name, (), environment(port), host=HOST)
+    return context, CrosNode(context, settings, options=NodeOptions(bind_ip=HOST, **options))
+
+
+def message_for(publisher: Any, size: int) -> Any:
+    if publisher.message_type.name == "std_msgs/String":
+        return publisher.new(data="x" * size)
+    return publisher.new(data=bytes(size))
+
+
+class Talk:
+    """Publishes messages of a size: so many a second, or as many as a subscriber takes."""
+
+    def __init__(self, node: CrosNode, topic: str, type_name: str, rate: str, size: str) -> None:
+        self.publisher = node.register_publisher(topic, type_name, queue_size=20_000)
+        self.body = self.publisher.message_type.encode(message_for(self.publisher, int(size)))
+        self.period_ns = int(1e9 / float(rate)) if float(rate) else 0
+        self.due_ns = 0
+
+    def step(self, now_ns: int) -> None:
+        publisher = self.publisher
+        if not publisher.subscribers:
+            self.due_ns = now_ns
+            return
+        if not self.period_ns:
+            room = min(20_000, 8 * (1 << 20) // max(1, len(self.body)))
+            for owner in publisher.links.values():
+                for _ in range(room - len(owner.queue)):
+                    publisher.send_raw(self.body)
+            return
+        while now_ns >= self.due_ns:
+            publisher.send_raw(self.body)
+            self.due_ns += self.period_ns
+
+
+class Echo:
+    """Subscribes to a topic and throws the messages away."""
+
+    def __init__(self, node: CrosNode, topic: str, type_name: str) -> None:
+        self.subscriber = node.register_subscriber(topic, type_name, queue_size=1)
+
+    def step(self, now_ns: int) -> None:
+        self.subscriber.queue.release()
+
+
+class Idle:
+    """Holds so many connections, half of them in each direction, and says nothing."""
+
+    def __init__(self, node: CrosNode, count: str) -> None:
+        for number in range(int(count)):
+            if number % 2:
+                node.register_publisher(f"/idle{number}", "std_msgs/String")
+            else:
+                node.register_subscriber(f"/idle{number}", "std_msgs/String")
+
+    def step(self, now_ns: int) -> None:
+        pass
+
+
+ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle}
+
+
+def main() -> None:
+    port = int(sys.argv[1])
+    context, node = make_node("peer", port, step=UNPACED)
+    master = MasterServer(context, MasterOptions(host=HOST, port=port, bind_ip=HOST))
+    acts = []
+    for order in " ".join(sys.argv[2:]).split(","):
+        name, *arguments = order.split()
+        acts.append(ACTS[name](node, *arguments))
+    unpaced = any(isinstance(act, Talk) and not act.period_ns for act in acts)
+    while True:
+        now_ns = context.release_ns = time.monotonic_ns()
+        master.step()
+        for act in acts:
+            act.step(now_ns)
+        node.do_events_loop()
+        if not unpaced:
+            time.sleep(0.0005)
+
+
+if __name__ == "__main__":
+    main()
