@@ -133,7 +133,7 @@ class SpecificationParser(InitialParser):
         at = self.index
         texts, trivia = self.texts, self.trivia
         name = texts[at]
-        if kind_of(name) is not TokenKind.IDENTIFIER:
+        if not (name.isidentifier() and name.isascii()):
             self.fail("expected the name of a declaration")
         self.index = at + 1
         others, address = ([], "") if texts[at + 1] == ":" else self._others_and_address()
@@ -196,7 +196,7 @@ class SpecificationParser(InitialParser):
             found = rule(self)
             self.leave()
             return found
-        if kind_of(text) is not TokenKind.IDENTIFIER or keyword in END_KEYWORDS:
+        if not (text.isidentifier() and text.isascii()) or keyword in END_KEYWORDS:
             self.fail("expected a type")
         self.index += 1
         if self.texts[self.index] == "(":
