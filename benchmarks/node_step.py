@@ -32,7 +32,7 @@ HERE = Path(__file__).parent
 TICK_NS = 1_000_000
 STEP_BUDGET_NS = 300_000
 STRING = "std_msgs/String"
-BYTES = "std_msgs/ByteMultiArray"
+BYTES = "std_msgs/UInt8MultiArray"
 
 
 class Case:

@@ -190,3 +190,12 @@ def test_what_a_subscriber_sends_after_its_header_is_thrown_away() -> None:
     world.run(50)
     publisher.send(publisher.new(data="still here"))
     assert b"still here" in world.receive(socket)
+
+
+def test_the_definition_in_the_header_holds_all_types_it_needs() -> None:
+    world = World()
+    node = world.node("talker")
+    node.register_publisher("/chatter", "geometry_msgs/Twist")
+    definition = header_of(world.receive(world.subscribe_raw(node)))["message_definition"]
+    assert "MSG: geometry_msgs/Vector3" in definition
+    assert definition.count("=" * 80) == 1
