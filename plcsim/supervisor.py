@@ -41,6 +41,9 @@ POLL_S = 0.02
 PATIENCE_NS = 1_000_000_000
 """After the signal, a program has this long to end before the process is killed."""
 
+DUMP_POLLS = 10
+"""How often the watchdog looks for the stack of a program before it kills."""
+
 _FRAME = re.compile(r'File "(.+)", line (\d+)')
 
 
@@ -204,8 +207,17 @@ class Supervisor:
         """End a scan process that does not hear; keep where it is stuck."""
         self._kill_reason = reason
         self._process.send_signal(DUMP)
-        time.sleep(POLL_S)
+        self._await_dump()
         self._process.kill()
+
+    def _await_dump(self) -> None:
+        """Wait until the stack is there and grows no more; on a busy host that takes a moment."""
+        size = 0
+        for _ in range(DUMP_POLLS):
+            time.sleep(POLL_S)
+            before, size = size, os.fstat(self._dump_fd).st_size
+            if size and size == before:
+                return
 
     def _outcome(self) -> dict[str, Any]:
         try:

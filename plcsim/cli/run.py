@@ -87,7 +87,7 @@ def run(options: argparse.Namespace) -> int:
     )
     with supervisor, _signals_forwarded(supervisor):
         result = _wait(supervisor, project, options)
-    return _finish(result, options)
+        return _finish(result, options)  # a late Ctrl-C shall not cost the report
 
 
 def _wait(supervisor: Supervisor, project: Project, options: argparse.Namespace) -> dict[str, Any]:

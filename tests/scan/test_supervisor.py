@@ -4,7 +4,6 @@ Most tests supervise a scan process from here; what concerns the command line st
 itself. Programs say where they are by printing or by what they have run; no test sleeps.
 """
 
-import contextlib
 import json
 import os
 import signal
@@ -283,16 +282,18 @@ def test_a_second_ctrl_c_ends_a_program_that_hangs(program, start):
     assert "main EXIT: stopped by SIGINT" in " ".join(err.split())
 
 
-def test_a_third_ctrl_c_kills(program, start):
-    process = start("run", program(plc=SLOW, init=f"{IN}\nsum(range(10**15))"))
-    process.stdout.readline()
-    while process.poll() is None:  # one request a time, so that none is lost in the one before
-        process.send_signal(signal.SIGINT)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(0.1)
-    _, err = process.communicate()
-    assert process.returncode == 3
-    assert "main INIT: killed because it did not stop" in " ".join(err.split())
+def test_a_third_request_kills(program, supervise):
+    def ask(supervised):
+        if supervised.page.active is not None:
+            asked.append(supervised)
+            supervised.stop()
+
+    asked = []
+    folder = program(plc=SLOW, init="sum(range(10**15))")
+    fault = supervise(folder, ask)["fault"]
+    assert len(asked) >= 3
+    assert (fault["unit"], fault["text"]) == ("INIT", "killed because it did not stop")
+    assert fault["place"] == line_of(folder, "sum(")
 
 
 def test_ctrl_c_while_loading_stops(program, start):
