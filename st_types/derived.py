@@ -6,9 +6,9 @@ from enum import Enum, IntEnum
 from math import prod
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from st_types.elementary import DINT, UDINT, DataType, ElementaryType
+from st_types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
 from st_types.errors import DeclarationError
-from st_types.layout import data_block_order, lay_out
+from st_types.layout import lay_out
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -143,6 +143,28 @@ class DataBlockType(StructType[V_co]):
 
     def _order(self) -> Sequence[int]:
         return data_block_order(self.members)
+
+
+def data_block_order(members: Sequence[Member]) -> tuple[int, ...]:
+    """Return the indices of ``members`` in the order of the generated C struct.
+
+    Analog inputs, analog outputs, analog internals, then digital (BOOL, ARRAY OF BOOL) inputs,
+    outputs, internals; the order of declaration within each group (read off generated headers such
+    as SG4/AsTCP.h, where ``enable`` comes last).
+    """
+    return tuple(
+        sorted(
+            range(len(members)),
+            key=lambda i: (_is_digital(members[i].data_type), members[i].section.value),
+        )
+    )
+
+
+def _is_digital(data_type: DataType[object]) -> bool:
+    """Whether a type is BOOL, under another name or in an ARRAY too."""
+    while isinstance(data_type, AliasType | ArrayType):
+        data_type = data_type.target if isinstance(data_type, AliasType) else data_type.element
+    return data_type is BOOL
 
 
 class EnumerationType(DataType[V_co]):

@@ -1,15 +1,13 @@
-"""Where members lie: natural alignment, and the order of a function block's data block."""
+"""Where members lie: natural alignment, as the C compiler of the controller lays them out."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from st_types.elementary import BOOL, DataType
-
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
-    from st_types.derived import Member
+    from st_types.elementary import DataType
 
 
 class Layout(NamedTuple):
@@ -39,17 +37,3 @@ def lay_out(types: Iterable[DataType[object]]) -> Layout:
         end = start + data_type.size
         alignment = max(alignment, data_type.alignment)
     return Layout(tuple(offsets), max(1, align_up(end, alignment)), alignment)
-
-
-def data_block_order(members: Sequence[Member]) -> tuple[int, ...]:
-    """Return the indices of ``members`` in the order of the generated C struct.
-
-    Analog inputs, analog outputs, analog internals, then BOOL inputs, outputs, internals; the order
-    of declaration within each group (read off SG4/AsTCP.h, where ``enable`` comes last).
-    """
-    return tuple(
-        sorted(
-            range(len(members)),
-            key=lambda i: (members[i].data_type is BOOL, members[i].section.value),
-        )
-    )

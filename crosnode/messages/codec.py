@@ -71,6 +71,11 @@ class Message:
     __slots__ = ()
     __hash__ = None  # type: ignore[assignment]  # messages are mutable
 
+    if TYPE_CHECKING:  # the fields of a type are known only at run time
+
+        def __getattr__(self, name: str) -> Any: ...
+        def __setattr__(self, name: str, value: Any) -> None: ...
+
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented

@@ -1,7 +1,8 @@
 """The node of ROS 1, for programs: publishers, subscribers, services, parameters, log."""
 
 from crosnode.node.master_client import MasterClient
-from crosnode.node.node import CrosNode, NodeOptions
+from crosnode.node.node import CrosNode
+from crosnode.node.options import NodeOptions
 from crosnode.node.parameter import ParameterSubscription, ParameterUpdate
 from crosnode.node.publisher import Publisher
 from crosnode.node.rosout import LogLevel

@@ -7,10 +7,10 @@ runs ``do_events_loop`` once a cycle, and drains queues. Nothing calls back and 
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
 from crosnode.api_caller import ApiCall, ApiCaller
-from crosnode.budget import Budget, StepLimits
+from crosnode.budget import Budget
 from crosnode.errors import InvalidNameError, NodeError
 from crosnode.event_loop import EventLoop
 from crosnode.hosts import HostTable
@@ -18,6 +18,7 @@ from crosnode.messages import MessageTypes
 from crosnode.node.acceptors import ServiceAcceptor, SlaveAcceptor, TopicAcceptor
 from crosnode.node.core import NodeCore
 from crosnode.node.master_client import MasterClient, Registration
+from crosnode.node.options import NodeOptions
 from crosnode.node.parameter import ParameterSubscription
 from crosnode.node.publisher import Publisher
 from crosnode.node.ros_time import RosTime
@@ -28,13 +29,11 @@ from crosnode.node.slave_api import SlaveApi
 from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
 from crosnode.queues import DropOldestQueue
-from crosnode.tcpros import Limits as TcprosLimits
 from crosnode.uri import make_uri
-from crosnode.xmlrpc import Limits as XmlRpcLimits
 from plcsim.statistics import Histogram
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from crosnode.names import NodeSettings
     from crosnode.xmlrpc import Value
@@ -43,30 +42,6 @@ if TYPE_CHECKING:
 STATUSES: Final = 200
 CLOSING_NS: Final = 3_000_000_000
 """Nanoseconds that ``close`` gives the master to take the registrations back, as in cROS."""
-
-
-class NodeOptions(NamedTuple):
-    """What a node may take and where it listens.
-
-    Attributes:
-        step: bounds of one step.
-        tcpros: bounds of a topic or service connection.
-        xmlrpc: bounds of an XML-RPC connection.
-        bind_ip: own interface to listen on, "" for all.
-        hosts: addresses of host names.
-        epoch_ns: added to a release gives nanoseconds since 1970.
-        clock_ns: measures the step for ``statistics``; None measures nothing.
-        beside: called between the steps of ``destroy``: an embedded master that must answer.
-    """
-
-    step: StepLimits = StepLimits()
-    tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
-    xmlrpc: XmlRpcLimits = XmlRpcLimits()
-    bind_ip: str = ""
-    hosts: Mapping[str, str] | None = None
-    epoch_ns: int = 0
-    clock_ns: Callable[[], int] | None = None
-    beside: Callable[[], None] | None = None
 
 
 class CrosNode:

@@ -86,7 +86,7 @@ class Publisher:
             MessageValueError: a field cannot hold its value; nothing is sent.
         """
         if self._has_header:
-            message.header.seq = self.sent & SEQ_MASK  # type: ignore[attr-defined]  # made at run time
+            message.header.seq = self.sent & SEQ_MASK
         self.send_raw(self.message_type.encode(message))
 
     def send_raw(self, body: bytes | memoryview) -> None:

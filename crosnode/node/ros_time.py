@@ -42,7 +42,7 @@ class RosTime:
             self._ask()
         elif self._clock is not None:
             while (message := self._clock.pop()) is not None:
-                self._simulated_ns = message.clock.to_ns()  # type: ignore[attr-defined]  # made at run time
+                self._simulated_ns = message.clock.to_ns()
 
     def _ask(self) -> None:
         question = self._question

@@ -62,7 +62,7 @@ class Rosout:
             function=function,
             topics=list(self._node.publishers),
         )
-        entry.header.stamp = Time.from_ns(self._node.now_ns)  # type: ignore[attr-defined]  # made at run time
+        entry.header.stamp = Time.from_ns(self._node.now_ns)
         self._publisher.send(entry)
 
     def step(self) -> None:
@@ -71,7 +71,7 @@ class Rosout:
             logger = self._logger.new(name=LOGGER, level=self.level.name.lower())
             request.respond(loggers=[logger])
         if request := self._set.pop():
-            level = str(request.request.level).upper()  # type: ignore[attr-defined]  # made at run time
+            level = str(request.request.level).upper()
             if level in LogLevel.__members__:
                 self.level = LogLevel[level]
                 request.respond()

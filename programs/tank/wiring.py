@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from plcsim import Program
+    from .control.main import Control
 
 
 class Wiring:
     """One for each controller: the programs enter themselves in INIT."""
 
+    control: Control
+
     def __init__(self, _context: object) -> None:
-        self.control: Program | None = None
+        """Nothing is wired yet."""

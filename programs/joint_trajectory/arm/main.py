@@ -85,9 +85,9 @@ class Arm(Program):
             return
         for target, point in zip(self.trajectory.points, command.points, strict=False):
             target.time_s = point.time_from_start.to_ns() / 1e9
-            target.position = [float(value) for value in point.positions]
+            target.position.assign([float(value) for value in point.positions])
         self.trajectory.count = len(command.points)
-        self.start = list(self.position)
+        self.start.assign(self.position)
         self.time_s = 0.0
         self.busy = True
         self.accepted += 1
@@ -102,14 +102,15 @@ class Arm(Program):
                 self.go(before, list(point.position), before_s, point.time_s)
                 return
             before_s, before = point.time_s, list(point.position)
-        self.position = before
+        self.position.assign(before)
         self.speed = 0.0
         self.busy = False
 
     def go(self, before: list[float], after: list[float], before_s: float, after_s: float) -> None:
         """Set the joints on the line at the present time."""
         share = (self.time_s - before_s) / (after_s - before_s)
-        self.position = [a + (b - a) * share for a, b in zip(before, after, strict=True)]
+        line = zip(before, after, strict=True)
+        self.position.assign([a + (b - a) * share for a, b in line])
         way = max(abs(b - a) for a, b in zip(before, after, strict=True))
         self.speed = way / (after_s - before_s) * self.override
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -36,7 +37,7 @@ class Tank:
         header = bytes.fromhex("0001 0000") + (len(data) + 1).to_bytes(2, "big") + b"\1"
         return self.modbus.exchange(self._master, header + data)[7:].hex()
 
-    def __getitem__(self, path: str) -> object:
+    def __getitem__(self, path: str) -> Any:
         return self.plc.tags.read(self.plc.tags.find(path))
 
     def __setitem__(self, path: str, value: object) -> None:

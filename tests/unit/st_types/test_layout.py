@@ -17,9 +17,10 @@ from st_types.derived import (
     StructType,
     SubrangeType,
     WStringType,
+    data_block_order,
 )
 from st_types.elementary import ELEMENTARY
-from st_types.layout import align_up, data_block_order, lay_out
+from st_types.layout import align_up, lay_out
 
 from .random_types import structs_with
 
@@ -157,10 +158,15 @@ def test_align_up(offset, alignment, expected):
     assert align_up(offset, alignment) == expected
 
 
-def test_only_plain_bools_go_to_the_end_of_a_data_block():
-    flags = ARRAY(BOOL, (0, 1))
-    members = [Member("on", BOOL, None, IN), Member("flags", flags), Member("n", INT, None, OUT)]
-    assert data_block_order(members) == (2, 1, 0)
+def test_bools_arrays_of_them_and_their_aliases_go_to_the_end_of_a_data_block():
+    flags = AliasType("Flags", ARRAY(AliasType("Flag", BOOL), (0, 1)))
+    members = [
+        Member("on", BOOL, None, IN),
+        Member("flags", flags, None, IN),
+        Member("where", ReferenceType(BOOL), None, IN),
+        Member("n", INT, None, OUT),
+    ]
+    assert data_block_order(members) == (2, 3, 0, 1)
 
 
 @given(st.lists(st.tuples(st.sampled_from([BOOL, INT, UDINT]), st.sampled_from(Section))))
