@@ -1,0 +1,36 @@
+"""What a node may take, and where it listens."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from crosnode.budget import StepLimits
+from crosnode.tcpros import Limits as TcprosLimits
+from crosnode.xmlrpc import Limits as XmlRpcLimits
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+
+class NodeOptions(NamedTuple):
+    """What a node may take and where it listens.
+
+    Attributes:
+        step: bounds of one step.
+        tcpros: bounds of a topic or service connection.
+        xmlrpc: bounds of an XML-RPC connection.
+        bind_ip: own interface to listen on, "" for all.
+        hosts: addresses of host names.
+        epoch_ns: added to a release gives nanoseconds since 1970.
+        clock_ns: measures the step for ``statistics``; None measures nothing.
+        beside: called between the steps of ``destroy``: an embedded master that must answer.
+    """
+
+    step: StepLimits = StepLimits()
+    tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
+    xmlrpc: XmlRpcLimits = XmlRpcLimits()
+    bind_ip: str = ""
+    hosts: Mapping[str, str] | None = None
+    epoch_ns: int = 0
+    clock_ns: Callable[[], int] | None = None
+    beside: Callable[[], None] | None = None
