@@ -215,10 +215,18 @@ def c_type(data_type):
     return C_TYPES[data_type.code]
 
 
+def is_digital(data_type):
+    if isinstance(data_type, AliasType):
+        return is_digital(data_type.target)
+    if isinstance(data_type, ArrayType):
+        return is_digital(data_type.element)
+    return data_type is BOOL
+
+
 def c_struct(data_type):
     members = data_type.members
     if isinstance(data_type, DataBlockType):
-        members = sorted(members, key=lambda m: (m.data_type is BOOL, m.section.value))
+        members = sorted(members, key=lambda m: (is_digital(m.data_type), m.section.value))
     fields = [(m.name, c_type(m.data_type)) for m in members]
     body = {"_pack_": 4, "_layout_": "ms", "_fields_": fields}
     return type("C", (ctypes.Structure,), body)
