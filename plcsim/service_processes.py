@@ -52,7 +52,7 @@ class _Service:
         order = self.order
         module = extensions()[order.table].service
         self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
-            [sys.executable, "-m", module, order.to_json()],
+            [sys.executable, "-P", "-m", module, order.to_json()],
             pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
             process_group=0,
             stdin=subprocess.DEVNULL,

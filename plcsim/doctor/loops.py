@@ -223,7 +223,7 @@ def _cpu() -> int:
 
 
 def _module(name: str) -> list[str]:
-    return [sys.executable, "-m", name]
+    return [sys.executable, "-P", "-m", name]
 
 
 def _bare_loop(name: str, command: list[str], order: Order) -> dict[str, Any]:
