@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from plcsim.context import Context
 
 BACKLOG: Final = 64
+LARGE_BLOCK: Final = 8 << 20
+"""Bytes; messages up to this size cost no page faults each time."""
+
 REOPEN_NS: Final = 1_000_000_000
 """Nanoseconds between two attempts to open a port that is in use."""
 
@@ -107,6 +110,16 @@ class Listener:
         self._loop.pool.put(self._next)
 
 
+def keep_large_blocks() -> None:
+    """Let the memory of a large message be used again for the next one.
+
+    glibc gives a block above a threshold back to the system when it is freed; the next one costs
+    a page fault for each page; once a larger block was freed, the threshold is its size
+    (mallopt(3), M_MMAP_THRESHOLD). Elsewhere this does nothing.
+    """
+    bytearray(LARGE_BLOCK)
+
+
 class EventLoop:
     """All connections of a node or a master.
 
@@ -121,6 +134,7 @@ class EventLoop:
 
     def __init__(self, context: Context, limits: StepLimits) -> None:
         self.pool = context.library(SocketPool)
+        keep_large_blocks()
         self.limits = limits
         self.links: list[Link] = []
         self.listeners: list[Listener] = []
