@@ -122,4 +122,4 @@ def test_modules_run_with_this_interpreter(monkeypatch):
     monkeypatch.setattr(loops.subprocess, "run", run)
     with pytest.raises(MeasurementError, match="stop here"):
         PythonLoop().run(ORDER)
-    assert seen[0][:3] == [sys.executable, "-m", "plcsim.doctor.python_loop"]
+    assert seen[0][:4] == [sys.executable, "-P", "-m", "plcsim.doctor.python_loop"]
