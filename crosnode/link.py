@@ -210,7 +210,7 @@ class Link:
         self.owner.handle_event(self, event, now_ns)
 
     def _send(self, now_ns: int, budget: Budget) -> None:
-        if self._outbox.size < AREA_SIZE:
+        if self._outbox.size < AREA_SIZE and self.connection.state is not State.CLOSED:
             self.owner.fill(self)
         for piece in self.connection.data_to_send():
             self._outbox.push_back(piece)

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 SEQ_MASK: Final = 0xFFFF_FFFF
 
+MAX_TEXT: Final = 1_000
+"""Characters kept of what a peer calls itself."""
+
 
 class Publisher:
     """A topic that a node publishes; made by ``CrosNode.register_publisher``.
@@ -116,6 +119,11 @@ class Publisher:
         return TypeInfo(found.name, found.md5sum, found.full_text)
 
 
+def printable(text: str) -> str:
+    """Return a peer's text as XML-RPC, logs and screens can carry it."""
+    return "".join(each if each.isprintable() else "?" for each in text[:MAX_TEXT])
+
+
 class SubscriberLink:
     """Owner of the link to one subscriber.
 
@@ -145,7 +153,7 @@ class SubscriberLink:
         if not isinstance(event, HeaderReceived):
             return
         topic = event.fields.get("topic", "")
-        self.subscriber = event.fields.get("callerid", "")
+        self.subscriber = printable(event.fields.get("callerid", ""))
         publisher = self._publishers.get(topic)
         if publisher is None and "topic" in event.fields:
             self._connection.refuse(f"{self._core.name} does not publish {topic[:100]}")

@@ -199,3 +199,34 @@ def test_the_definition_in_the_header_holds_all_types_it_needs() -> None:
     definition = header_of(world.receive(world.subscribe_raw(node)))["message_definition"]
     assert "MSG: geometry_msgs/Vector3" in definition
     assert definition.count("=" * 80) == 1
+
+
+@pytest.mark.parametrize("linger", [None, 0])
+def test_a_subscriber_may_leave_while_messages_wait_for_it(linger: int | None) -> None:
+    world = World()
+    node = world.node("talker")
+    publisher = node.register_publisher("/chatter", STRING)
+    for wait in range(20):
+        socket = world.subscribe_raw(node)
+        world.until(lambda: publisher.subscribers)
+        for _ in range(wait):
+            publisher.send(publisher.new(data="word"))
+            world.run(1)
+        socket.set_linger(linger)
+        socket.close()
+        while publisher.subscribers:
+            publisher.send(publisher.new(data="word"))
+            world.run(1)
+    assert not node.is_shut_down
+
+
+def test_unregistering_with_messages_in_the_queue_harms_nobody() -> None:
+    world = World()
+    node = world.node("talker")
+    publisher = node.register_publisher("/chatter", STRING)
+    world.subscribe_raw(node)
+    world.until(lambda: publisher.subscribers)
+    publisher.send(publisher.new(data="word"))
+    node.unregister(publisher)
+    world.run(20)
+    assert publisher.subscribers == 0

@@ -79,6 +79,15 @@ def test_bus_info_names_both_ends_and_the_topic() -> None:
     assert service[0] == 0
 
 
+def test_a_peer_may_call_itself_what_xml_cannot_carry() -> None:
+    caller = Caller()
+    caller.world.subscribe_raw(caller.node, callerid="/e\x00vil\ud7ff\uffff<&" + "x" * 5000)
+    caller.world.until(lambda: caller.publisher.subscribers)
+    (entry,) = caller.call("getBusInfo", "/c")[2]
+    assert entry[1].startswith("/e?vil")
+    assert len(entry[1]) == 1000
+
+
 def test_counters_stop_at_the_largest_integer_of_xml_rpc() -> None:
     caller = Caller()
     caller.publisher.bytes_sent = 1 << 40
