@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-import shell
 
 from crosnode.connection import State
 from crosnode.messages import MessageTypes
@@ -27,6 +26,8 @@ from crosnode.tcpros import (
     TypeInfo,
 )
 from crosnode.xmlrpc import Call, Fault, Response
+
+from . import shell
 
 PYTHON = "/usr/bin/python3"
 LIMITS = Limits()
