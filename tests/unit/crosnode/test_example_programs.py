@@ -173,6 +173,10 @@ def test_the_arm_follows_a_trajectory() -> None:
     assert 0.4 < robot.tag("arm.position")[0] < 0.7
     robot.run(300)
     assert robot.tag("arm.position") == [2.0] * 6
+    assert robot.tag("monitor.state.position")[:6] == pytest.approx([2.0] * 6)
+    assert robot.tag("monitor.state.name")[:2] == ["joint_1", "joint_2"]
+    assert robot.tag("monitor.state.position_length") == 6
+    assert robot.tag("monitor.heard") > 5
     assert robot.tag("arm.busy") is False
     state = robot.states.pop()
     assert state is not None
