@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.conversions import convert, saturate
-from st_types.elementary import ELEMENTARY, ElementaryType, Kind
+from st_types.elementary import ELEMENTARY, LINT, ElementaryType, Kind
 
 TYPES = sorted(set(ELEMENTARY.values()), key=str)
 INTEGERS = [t for t in TYPES if t.is_integer]
@@ -104,5 +104,15 @@ def test_what_comes_out_is_a_value_of_the_type(target: ElementaryType, value: fl
 @given(st.sampled_from(INTEGERS), st.floats(allow_nan=False, allow_infinity=False))
 def test_within_the_range_both_round_alike(target: ElementaryType[int], value: float) -> None:
     if target.minimum <= value <= target.maximum - 1:
-        assert convert(value, target) == saturate(value, target)
-        assert abs(convert(value, target) - value) <= 0.5
+        found = convert(value, target)
+        assert found == saturate(value, target)
+        # the controller adds 0.5 and truncates: the sum itself is rounded to the next LREAL
+        assert abs(found - value) <= 0.5 + math.ulp(value) / 2
+        assert found == int(value + math.copysign(0.5, value))
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"), [(0.49999999999999994, 1), (4503599627370497.0, 4503599627370498)]
+)
+def test_the_sum_with_a_half_is_rounded_as_on_the_controller(value: float, expected: int) -> None:
+    assert convert(value, LINT) == expected
