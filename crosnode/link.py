@@ -50,7 +50,7 @@ class SansIo(Protocol):
         """Whether bytes should be read."""
 
     def receive_data(self, data: Data) -> None:
-        """Take bytes."""
+        """Take bytes; what is kept of them is copied."""
 
     def receive_eof(self) -> None:
         """Take the end of the stream."""
@@ -96,7 +96,7 @@ class Link:
         peer: who is at the other end, for messages and getBusInfo.
     """
 
-    __slots__ = ("_closing_ns", "_has_more", "_inbox", "_is_up", "_outbox", "_reason", "_since_ns",
+    __slots__ = ("_closing_ns", "_has_more", "_is_up", "_outbox", "_reason", "_since_ns",
         "_turn", "_xmlrpc",
                  "bytes_in", "bytes_out", "connection", "is_over", "owner", "peer",
                  "socket")  # fmt: skip
@@ -116,7 +116,6 @@ class Link:
         self.peer = f"{socket.ip}:{socket.port}"
         self.bytes_in = self.bytes_out = 0
         self.is_over = False
-        self._inbox = DynBuffer(AREA_SIZE)
         self._outbox = DynBuffer(OUTBOX_MAX)
         self._since_ns = now_ns
         self._closing_ns: int | None = None
@@ -180,11 +179,11 @@ class Link:
         size = min(XMLRPC_READ, budget.bytes_parsed) if self._xmlrpc else budget.bytes_in
         if size <= 0:
             return
-        state, received = self.socket.read_buffer_ex(self._inbox, size)
-        self._has_more = received == AREA_SIZE
+        state, data = self.socket.read_area(size)
+        self._has_more = len(data) == AREA_SIZE
         if state is _DONE:
-            self._count(received, budget)
-            self.connection.receive_data(self._inbox.take())
+            self._count(len(data), budget)
+            self.connection.receive_data(data)
             self._take_events(now_ns, budget)
         elif state is not _IN_PROGRESS:
             self.connection.receive_eof()

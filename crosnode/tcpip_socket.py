@@ -9,7 +9,7 @@ Nothing here waits: each method does what can be done now and says how far it ca
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING, Final, NamedTuple, cast
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
@@ -63,6 +63,8 @@ _IN_PROGRESS: Final = TcpipSocketState.IN_PROGRESS
 _DISCONNECTED: Final = TcpipSocketState.DISCONNECTED
 _DONE: Final = TcpipSocketState.DONE
 _UNKNOWN: Final = TcpipSocketState.UNKNOWN
+
+_NOTHING: Final = memoryview(b"")
 
 _STATUS_RANGE: Final = range(32_600, 32_700)
 """AsTCP's own statuses; others are not expected from its blocks."""
@@ -246,20 +248,28 @@ class TcpipSocket:
             DONE with the bytes read, IN_PROGRESS (nothing there, or the buffer is full),
             DISCONNECTED (the peer closed or was lost) or FAILED.
         """
-        size = min(max_size, AREA_SIZE, buffer.maximum - buffer.size)
-        if size <= 0:
-            return Transfer(_IN_PROGRESS, 0)
+        state, data = self.read_area(min(max_size, buffer.maximum - buffer.size))
+        buffer.push_back(bytes(data))
+        return Transfer(state, len(data))
+
+    def read_area(self, max_size: int) -> tuple[TcpipSocketState, memoryview]:
+        """Read up to ``max_size`` bytes and leave them in the area of TcpRecv, without a copy.
+
+        Returns:
+            The state as of ``read_buffer_ex``, and a view of the bytes, which is good until any
+            socket of the controller reads again.
+        """
+        if max_size <= 0:
+            return _IN_PROGRESS, _NOTHING
         block = self._recv
-        block.datamax = size
+        block.datamax = min(max_size, AREA_SIZE)
         block.execute()
         self.status = status = block.status
         if status == tcpERR_NO_DATA:
-            return Transfer(_IN_PROGRESS, 0)
-        received = block.recvlen
-        if status == ERR_OK and received:
-            buffer.push_back(self._memory.read(block.pData, received))
-            return Transfer(_DONE, received)
-        return Transfer(self._ended(status), 0)
+            return _IN_PROGRESS, _NOTHING
+        if status == ERR_OK and (received := block.recvlen):
+            return _DONE, self._memory.view(block.pData, received)
+        return self._ended(status), _NOTHING
 
     def write_buffer(self, buffer: DynBuffer) -> TcpipSocketState:
         """Write from the front of a buffer as much as is taken; as ``write_buffer_ex``."""
@@ -283,7 +293,7 @@ class TcpipSocket:
 
     def _write(self, buffer: DynBuffer, size: int) -> Transfer:
         data = buffer.peek(size)
-        self._memory.write(self._area, cast("bytes", data))  # takes any buffer
+        self._memory.write(self._area, data)
         block = self._send
         block.datalen = len(data)
         block.execute()

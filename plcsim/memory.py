@@ -92,7 +92,16 @@ class Memory:
         self.check(address, size)
         return self._map[address : address + size]
 
-    def write(self, address: int, data: bytes) -> None:
+    def view(self, address: int, size: int) -> memoryview:
+        """Return a view of ``size`` bytes, which changes with them.
+
+        Raises:
+            PageFault: some of them are not valid.
+        """
+        self.check(address, size)
+        return memoryview(self._map)[address : address + size]
+
+    def write(self, address: int, data: bytes | bytearray | memoryview) -> None:
         """Store ``data``.
 
         Raises:

@@ -20,20 +20,57 @@ AHEAD: Final = 1 << 20
 """Bytes of a large block that are laid out at once."""
 
 
+class LargeBlock:
+    """A block of ``size`` bytes that is filled as they come.
+
+    No more than ``AHEAD`` bytes are laid out before they have come.
+
+    Attributes:
+        data: the bytes that came, and room for more.
+        have: how many came.
+    """
+
+    __slots__ = ("_size", "data", "have")
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self.data = bytearray(min(size, AHEAD))
+        self.have = 0
+
+    @property
+    def is_full(self) -> bool:
+        """Whether all bytes came."""
+        return self.have == self._size
+
+    def fill(self, data: memoryview) -> memoryview:
+        """Take bytes; return those that belong to what follows the block."""
+        while data and self.have < self._size:
+            if self.have == len(self.data):
+                self.data += bytes(min(AHEAD, self._size - self.have))
+            piece = min(len(data), len(self.data) - self.have)
+            self.data[self.have : self.have + piece] = data[:piece]
+            self.have += piece
+            data = data[piece:]
+        return data
+
+
 class ByteReader:
     """Bytes received and not parsed yet, and whether the peer has closed."""
 
-    __slots__ = ("_buffer", "_eof")
+    __slots__ = ("_buffer", "_eof", "_large")
 
     def __init__(self) -> None:
         self._buffer = bytearray()
         self._eof = False
+        self._large: LargeBlock | None = None
 
     def __len__(self) -> int:
         return len(self._buffer)
 
     def feed(self, data: bytes | bytearray | memoryview) -> None:
-        """Add received bytes."""
+        """Add received bytes; they are copied, so ``data`` may change afterwards."""
+        if self._large is not None:
+            data = self._large.fill(memoryview(data))
         self._buffer += data
 
     def feed_eof(self) -> None:
@@ -43,6 +80,7 @@ class ByteReader:
     def clear(self) -> None:
         """Drop what is not parsed."""
         self._buffer.clear()
+        self._large = None
 
     def more(self) -> Generator[None, None, bool]:
         """Wait for the next byte; return False where the peer has closed instead."""
@@ -70,27 +108,22 @@ class ByteReader:
     def large(self, size: int) -> Generator[None, None, bytes | memoryview]:
         """Take ``size`` bytes as they come, so that the last of them is not the most work.
 
-        Where they do not fit into one read they go to their place piece by piece, and what is
-        returned is a read-only view of it. No more than ``AHEAD`` bytes are laid out before they
-        have come. Raises as ``exactly`` does.
+        Where they do not fit into one read they go to their place as they are fed, and what is
+        returned is a read-only view of it. Raises as ``exactly`` does.
         """
         if size <= AHEAD // 16:
             return (yield from self.exactly(size))
-        buffer, target, have = self._buffer, bytearray(min(size, AHEAD)), 0
-        while have < size:
-            if not buffer:
-                if self._eof:
-                    raise TcprosError(f"connection closed after {have} of {size} bytes")
-                yield
-                continue
-            if have == len(target):
-                target += bytes(min(AHEAD, size - have))
-            piece = min(len(buffer), len(target) - have)
-            with memoryview(buffer) as data:
-                target[have : have + piece] = data[:piece]
-            del buffer[:piece]
-            have += piece
-        return memoryview(target).toreadonly()
+        block = LargeBlock(size)
+        with memoryview(self._buffer) as data:
+            used = len(data) - len(block.fill(data))
+        del self._buffer[:used]
+        self._large = block
+        while not block.is_full:
+            if self._eof:
+                raise TcprosError(f"connection closed after {block.have} of {size} bytes")
+            yield
+        self._large = None
+        return memoryview(block.data).toreadonly()
 
     def large_block(self, limit: int, what: str) -> Generator[None, None, bytes | memoryview]:
         """Take a block as ``block`` does, its bytes as ``large`` does."""

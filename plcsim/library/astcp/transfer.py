@@ -75,8 +75,8 @@ class TcpSend(AsTcpBlock):
         if not self.pData or self.flags & ~(tcpMSG_OOB | tcpMSG_DONTROUTE):
             return tcpERR_PARAMETER
         self.context.memory.check(self.pData, self.datalen)
-        # No send buffer is larger than MAX_BUFFER: what is beyond need not be copied.
-        data = self.context.memory.read(self.pData, min(self.datalen, MAX_BUFFER))
+        # No send buffer is larger than MAX_BUFFER: what is beyond need not be offered.
+        data = self.context.memory.view(self.pData, min(self.datalen, MAX_BUFFER))
         urgent = bool(self.flags & tcpMSG_OOB) and len(data) == self.datalen
         direct = bool(self.flags & tcpMSG_DONTROUTE)
         outcome, self.sentlen = endpoint.socket.send(data, urgent=urgent, direct=direct)
