@@ -1,40 +1,54 @@
-"""Messages a second, flat out, ours beside rospy's in the same run.
+"""Messages a second, flat out, ours beside rospy's and roscpp's in the same run.
 
-    python benchmarks/ros_throughput.py [--seconds 3] [--json FILE]
+    python benchmarks/ros_throughput.py [--seconds 3] [--rounds 3] [--json FILE]
 
 Each pair of publisher and subscriber is two processes on the loopback with a master of ours; the
 subscriber counts what it hears in a span of time. "ours" runs unpaced, without a scan. rospy is
-measured with its synchronous publisher (queue_size=None), its fastest. What is not installed is
-left out, and its targets with it.
+measured with its synchronous publisher (queue_size=None), its fastest; roscpp (ros_roscpp.cpp,
+compiled here) with as many messages on their way as it takes without dropping any. The pairs
+alternate, a round of each after the other: rates are medians of the rounds, ratios medians of each
+round's ratio. What is not installed is left out, and its targets with it.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
+import shutil
+import statistics
 import subprocess
 import sys
+import tempfile
 import time
-from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from _outcome import Target, console, number_above_0, print_machine
+from _outcome import (
+    Target,
+    console,
+    figures_table,
+    number_above_0,
+    print_machine,
+    print_targets,
+    write_json,
+)
 from _ros_peer import HOST, make_node
 from node_step import BYTES, STRING, free_port
-from rich.table import Table
 
 from crosnode.budget import UNPACED
 
 HERE = Path(__file__).parent
 PYTHON = "/usr/bin/python3"
 SIZES = {"String 16 B": (STRING, 16), "1 MB": (BYTES, 1_000_000)}
+SHARES = {"String 16 B": 0.5, "1 MB": 1.0}
+"""What ours -> ours shall reach of rospy -> rospy."""
+
+RIVALS = ("rospy", "roscpp")
 
 ROSPY = r"""
 import sys, time, rospy
 from std_msgs.msg import String, UInt8MultiArray
 act, kind, size, seconds = sys.argv[1], sys.argv[2], int(sys.argv[3]), float(sys.argv[4])
-cls = String if kind.endswith("String") else UInt8MultiArray
+cls = String if kind == "String" else UInt8MultiArray
 rospy.init_node("rospy_" + act)
 if act == "talk":
     publisher = rospy.Publisher("/in", cls, queue_size=None, tcp_nodelay=True)
@@ -57,18 +71,69 @@ else:
 """
 
 
-def has_rospy() -> bool:
+class Pair(NamedTuple):
+    """Who publishes and who subscribes: "ours", "rospy" or "roscpp"."""
+
+    publisher: str
+    subscriber: str
+
+
+Rates = dict[tuple[str, Pair], list[float]]
+"""Messages a second of each round, by message and pair."""
+
+
+def rospy_command() -> list[str] | None:
+    """Return what runs a rospy peer, None where rospy is not installed."""
     probe = [PYTHON, "-c", "import rospy, std_msgs.msg"]
-    return subprocess.run(probe, capture_output=True, check=False).returncode == 0
+    if not Path(PYTHON).exists():
+        return None
+    if subprocess.run(probe, capture_output=True, check=False).returncode:
+        return None
+    return [PYTHON, "-W", "ignore", "-c", ROSPY]
 
 
-def environment(port: int) -> dict[str, str]:
-    return {"ROS_MASTER_URI": f"http://{HOST}:{port}/", "ROS_IP": HOST, "PATH": "/usr/bin:/bin"}
+def roscpp_command(folder: Path) -> list[str] | None:
+    """Compile the roscpp peer and return what runs it, None where roscpp is not installed."""
+    if not (shutil.which("g++") and shutil.which("pkg-config")):
+        return None
+    probe = ["pkg-config", "--cflags", "--libs", "roscpp", "std_msgs"]
+    flags = subprocess.run(probe, capture_output=True, text=True, check=False)
+    if flags.returncode:
+        return None
+    target = folder / "ros_roscpp"
+    compiler = ["g++", "-O2", "-std=c++17", "-w", str(HERE / "ros_roscpp.cpp"), "-o", str(target)]
+    subprocess.run([*compiler, *flags.stdout.split(), "-pthread"], check=True)
+    return [str(target)]
 
 
-def rospy(port: int, act: str, kind: str, size: int, seconds: float) -> subprocess.Popen[str]:
-    command = [PYTHON, "-W", "ignore", "-c", ROSPY, act, kind, str(size), str(seconds)]
-    return subprocess.Popen(command, env=environment(port), stdout=subprocess.PIPE, text=True)
+class Rival:
+    """A peer that is not ours.
+
+    Args:
+        command: what runs it.
+    """
+
+    def __init__(self, command: list[str]) -> None:
+        self._command = command
+
+    def start(
+        self, port: int, act: str, kind: str, size: int, seconds: float = 0
+    ) -> subprocess.Popen[str]:
+        """Start it with the master at ``port``; ``act`` is "talk" or "listen"."""
+        command = [*self._command, act, kind.partition("/")[2], str(size), str(seconds)]
+        environment = {
+            "ROS_MASTER_URI": f"http://{HOST}:{port}/", "ROS_IP": HOST, "PATH": "/usr/bin:/bin"
+        }  # fmt: skip
+        return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
+
+    def rate(self, port: int, kind: str, size: int, seconds: float) -> float:
+        """Return messages a second that it hears."""
+        with self.start(port, "listen", kind, size, seconds) as peer:
+            try:
+                output, _ = peer.communicate(timeout=60)
+            finally:
+                peer.kill()
+        return float(output.split("RATE")[1])
 
 
 def our_rate(port: int, kind: str, seconds: float) -> float:
@@ -92,66 +157,100 @@ def our_rate(port: int, kind: str, seconds: float) -> float:
     return (count - before) / ((now_ns - start_ns) / 1e9)
 
 
-def rospy_rate(port: int, kind: str, size: int, seconds: float) -> float:
-    peer = rospy(port, "listen", kind, size, seconds)
-    output, _ = peer.communicate(timeout=60)
-    return float(output.split("RATE")[1])
+class Measurement:
+    """Measures pairs; one for a run.
+
+    Args:
+        rivals: those that are installed.
+        seconds: of each measurement.
+    """
+
+    def __init__(self, rivals: dict[str, Rival], seconds: float) -> None:
+        self.pairs = [Pair("ours", "ours")]
+        for name in rivals:
+            self.pairs += [Pair(name, name), Pair(name, "ours"), Pair("ours", name)]
+        self._rivals = rivals
+        self._seconds = seconds
+
+    def round(self, rates: Rates) -> None:
+        """Measure each pair once with each message."""
+        for name, (kind, size) in SIZES.items():
+            for pair in self.pairs:
+                rates.setdefault((name, pair), []).append(self._rate(pair, kind, size))
+
+    def _rate(self, pair: Pair, kind: str, size: int) -> float:
+        port = free_port()
+        peer = [sys.executable, str(HERE / "_ros_peer.py"), str(port)]
+        talk = ["talk", "/in", kind, "0", str(size)] if pair.publisher == "ours" else ["idle", "0"]
+        processes: list[subprocess.Popen[Any]] = [subprocess.Popen([*peer, *talk])]
+        time.sleep(1.5)
+        if pair.publisher != "ours":
+            processes.append(self._rivals[pair.publisher].start(port, "talk", kind, size))
+        try:
+            if pair.subscriber == "ours":
+                return our_rate(port, kind, self._seconds)
+            return self._rivals[pair.subscriber].rate(port, kind, size, self._seconds)
+        finally:
+            for process in processes:
+                process.kill()
+                process.wait()
 
 
-def measure(publisher: str, subscriber: str, kind: str, size: int, seconds: float) -> float:
-    """Return messages a second from one to the other."""
-    port = free_port()
-    peer = [sys.executable, str(HERE / "_ros_peer.py"), str(port)]
-    talk = ["talk", "/in", kind, "0", str(size)] if publisher == "ours" else ["idle", "0"]
-    processes: list[subprocess.Popen[Any]] = [subprocess.Popen([*peer, *talk])]
-    time.sleep(1.5)
-    if publisher == "rospy":
-        processes.append(rospy(port, "talk", kind, size, 0))
-    try:
-        if subscriber == "ours":
-            return our_rate(port, kind, seconds)
-        return rospy_rate(port, kind, size, seconds)
-    finally:
-        for process in processes:
-            process.kill()
-            process.wait()
+def ratio(rates: Rates, name: str, pair: Pair, rival: str) -> float | None:
+    """Return a pair's share of a rival's own rate: the median of the rounds' ratios."""
+    yardstick = rates.get((name, Pair(rival, rival)))
+    if yardstick is None:
+        return None
+    shares = (rate / other for rate, other in zip(rates[name, pair], yardstick, strict=True))
+    return statistics.median(shares)
+
+
+def print_rates(rates: Rates) -> None:
+    """Print each pair with its rate and its share of each rival's."""
+    table = figures_table("message", "publisher > subscriber", "messages/s", "MB/s",
+                          *(f"/ {rival}" for rival in RIVALS))  # fmt: skip
+    for (name, pair), rounds in rates.items():
+        rate = statistics.median(rounds)
+        shares = (ratio(rates, name, pair, rival) for rival in RIVALS)
+        table.add_row(
+            name, f"{pair.publisher} > {pair.subscriber}", f"{rate:,.0f}",
+            f"{rate * SIZES[name][1] / 1e6:,.1f}",
+            *("not installed" if share is None else f"{share:.2f} x" for share in shares),
+        )  # fmt: skip
+    console.print(table)
+
+
+def found_targets(rates: Rates) -> list[Target]:
+    """Return the targets against rospy; roscpp is a yardstick without a target."""
+    ours = Pair("ours", "ours")
+    shares = {name: ratio(rates, name, ours, "rospy") for name in SIZES}
+    return [
+        Target(f"{name}: ours / rospy", share, SHARES[name], "x", at_least=True)
+        for name, share in shares.items()
+        if share is not None
+    ]
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=number_above_0, default=3)
+    parser.add_argument("--rounds", type=number_above_0, default=3)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    host = print_machine("before")
-    pairs = [("ours", "ours")]
-    if has_rospy():
-        pairs += [("rospy", "rospy"), ("rospy", "ours"), ("ours", "rospy")]
-    else:
-        console.print("rospy is not installed: nothing to compare with")
-    rates = {
-        (name, *pair): measure(*pair, kind, size, options.seconds)
-        for name, (kind, size) in SIZES.items()
-        for pair in pairs
-    }
-    table = Table("message", "publisher", "subscriber", "messages/s", "MB/s")
-    for (name, publisher, subscriber), rate in rates.items():
-        table.add_row(name, publisher, subscriber, f"{rate:,.0f}",
-                      f"{rate * SIZES[name][1] / 1e6:,.1f}")  # fmt: skip
-    console.print(table)
-    targets = []
-    for name, share in (("String 16 B", 0.5), ("1 MB", 1.0)):
-        if (yardstick := rates.get((name, "rospy", "rospy"))) is not None:
-            ours = rates[name, "ours", "ours"]
-            targets.append(
-                Target(f"{name}: ours / rospy", ours / yardstick, share, "x", at_least=True)
-            )
-    for target in targets:
-        word = "met" if target.met else "MISSED"
-        console.print(f"{word:7}{target.name}: {target.value:.2f} {target.unit}, "
-                      f"asked >= {target.limit:g}")  # fmt: skip
-    if options.json:
-        figures = [[*key, rate] for key, rate in rates.items()]
-        options.json.write_text(json.dumps({"host": asdict(host), "rates": figures}, default=str))
+    hosts = [print_machine("before")]
+    rates: Rates = {}
+    with tempfile.TemporaryDirectory() as folder:
+        commands = {"rospy": rospy_command(), "roscpp": roscpp_command(Path(folder))}
+        rivals = {name: Rival(command) for name, command in commands.items() if command}
+        measurement = Measurement(rivals, options.seconds)
+        for _ in range(options.rounds):
+            measurement.round(rates)
+    hosts.append(print_machine("after"))
+    print_rates(rates)
+    targets = found_targets(rates)
+    print_targets(targets)
+    figures = [[name, *pair, rounds] for (name, pair), rounds in rates.items()]
+    write_json(options.json, hosts, targets, rates=figures)
     return 0 if all(target.met for target in targets) else 1
 
 
