@@ -4,6 +4,9 @@ A tag of an elementary or string type goes with a message of one field, such as 
 STRUCT goes with a message member by field, by name and at every level; fields without a member keep
 their defaults, members without a field stay as they are. Messages come in in LATCH and go out in
 PUBLISH, so a program sees its inputs stand still.
+
+A STRING is Latin-1 and a ROS string is UTF-8; each is converted to the other. A ROS string that is
+not UTF-8 is put into a STRING byte for byte.
 """
 
 from __future__ import annotations
@@ -15,6 +18,7 @@ from crosnode.errors import MessageValueError
 from crosnode.link import QUIET_TURNS
 from crosnode.messages import Duration, Time
 from crosnode.messages.codec import attribute_name
+from crosnode.messages.text import bytes_of, is_utf8
 from crosnode.node.period import Period
 from crosnode.project import create_node, surroundings
 from plcsim.errors import ConfigurationError, TagError
@@ -198,4 +202,6 @@ def _plain(value: Any, before: object) -> object:
         return [*plain, *before[len(plain) :]]
     if isinstance(value, (Time, Duration)):
         return value.to_ns()
+    if isinstance(value, str):
+        return value if is_utf8(value) else bytes_of(value).decode("latin-1")
     return value.item() if hasattr(value, "item") else value

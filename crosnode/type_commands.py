@@ -67,7 +67,9 @@ def decode(arguments: argparse.Namespace) -> None:
     except ValueError as error:
         raise MessageValueError(f"{message_type.name}: not hexadecimal: {error}.") from error
     message = message_type.decode(data)
-    _print(json.dumps(to_json(types, message_type, message), ensure_ascii=False))
+    text = json.dumps(to_json(types, message_type, message), ensure_ascii=False)
+    # Bytes that are not UTF-8 are lone surrogates, which can be written as JSON escapes only.
+    _print(text.encode(errors="backslashreplace").decode())
 
 
 def _types(arguments: argparse.Namespace) -> MessageTypes:

@@ -25,6 +25,7 @@ from rosbags.typesys.store import Typestore
 
 from crosnode.errors import DecodeError, DefinitionError, MessageValueError
 from crosnode.messages.definition import BUILTINS, Definition, Field
+from crosnode.messages.text import EscapedBytes, escaped
 from crosnode.messages.values import DTYPES, Duration, Time, check_scalar, coerce_array
 
 if TYPE_CHECKING:
@@ -143,7 +144,10 @@ class Codec:
         self._store.get_msgdef(name)  # compiles; its errors are no fault of the message
         try:
             prepared = message if prepare is None else prepare(message)
-            return self._store.serialize_ros1(prepared, name)
+            try:
+                return self._store.serialize_ros1(prepared, name)
+            except UnicodeEncodeError:
+                return self._store.serialize_ros1(escaped(prepared), name)
         except _ENCODE_FAULTS as error:
             fault = self._fault(name, message) or f": {error}"
             raise MessageValueError(f"{name}{fault}.") from error
@@ -153,14 +157,20 @@ class Codec:
 
         Numeric arrays of the message are read-only views of ``data`` where that is ``bytes`` or a
         read-only view, which must not change any more, of a copy otherwise. What the bytes claim
-        to hold is never allocated before it is there.
+        to hold is never allocated before it is there. A string that is not UTF-8 is kept byte for
+        byte (`crosnode.messages.text`).
 
         Raises:
-            DecodeError: too few or too many bytes, or a string that is not UTF-8.
+            DecodeError: too few or too many bytes.
         """
         raw = data if isinstance(data, bytes) or _is_read_only(data) else bytes(data)
         try:
-            return cast("Message", self._store.deserialize_ros1(raw, name))
+            try:
+                return cast("Message", self._store.deserialize_ros1(raw, name))
+            except SerdeError as error:
+                if not isinstance(error.__cause__, UnicodeDecodeError):
+                    raise
+                return cast("Message", self._store.deserialize_ros1(EscapedBytes(raw), name))
         except (SerdeError, struct.error, ValueError) as error:
             raise DecodeError(f"{name}: {error}") from error
 

@@ -2,7 +2,8 @@
 
 A message is an object of its fields, an array a list (of integers for uint8[]), a time or a
 duration ``{"secs": …, "nsecs": …}``. JSON has no NaN and no infinities: they are the strings "NaN",
-"Infinity" and "-Infinity".
+"Infinity" and "-Infinity". A byte of a string that is not UTF-8 is a lone surrogate from U+DC80 to
+U+DCFF, which JSON can hold as an escape.
 """
 
 from __future__ import annotations

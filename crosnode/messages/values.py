@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from crosnode.messages.definition import INTEGERS, integer_range
+from crosnode.messages.text import bytes_of
 
 NS_PER_S: Final = 1_000_000_000
 
@@ -62,12 +63,12 @@ def check_scalar(primitive: str, value: object) -> None:
 
     Raises:
         TypeError: it is of a wrong type.
-        ValueError: it is out of range, or a text that UTF-8 cannot hold.
+        ValueError: it is out of range, or a text that stands for no bytes.
     """
     if primitive == "string":
         if not isinstance(value, str):
             raise TypeError(f"expected a string, got {_kind(value)}")
-        value.encode()
+        bytes_of(value)
     elif primitive == "bool":
         if not isinstance(value, (bool, np.bool_)) and value not in (0, 1):
             raise TypeError(f"expected a bool, got {_kind(value)}")

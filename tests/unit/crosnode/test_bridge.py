@@ -148,6 +148,26 @@ def test_what_a_tag_cannot_take_is_counted_and_logged_and_the_scan_goes_on() -> 
     assert rig.plc.state.name == "RUN"
 
 
+@pytest.mark.parametrize(
+    ("body", "text"), [(b"\xc3\xa9", "é"), (b"a\xe9", "aé"), (b"\xc3\xa9\xff", "Ã©ÿ")]
+)
+def test_a_string_that_is_not_utf8_is_taken_byte_for_byte(body: bytes, text: str) -> None:
+    rig = Rig(subscribe={"/t": entry("plant.text", "std_msgs/String")})
+    texts = rig.peer.register_publisher("/t", "std_msgs/String", latching=True)
+    texts.send_raw(len(body).to_bytes(4, "little") + body)
+    rig.run(300)
+    assert rig.tag("plant.text") == text
+    assert not [line for line in rig.plc.logbook if "/t: " in str(line)]
+
+
+def test_a_string_goes_out_as_utf8() -> None:
+    rig = Rig(publish={"/t": entry("plant.text", "std_msgs/String", on_change=True)})
+    subscriber = rig.peer.register_subscriber("/t", "std_msgs/String")
+    rig.set("plant.text", b"a\xe9\x80")
+    rig.run(300)
+    assert subscriber.pop_raw() == b"\x05\0\0\0a\xc3\xa9\xc2\x80"
+
+
 def test_arrays_are_cut_or_filled_up() -> None:
     joint_state = MessageTypes().message("sensor_msgs/JointState")
     long, short = joint_state.new(position=[1.0, 2.0, 3.0, 4.0]), joint_state.new(position=[5.0])

@@ -87,6 +87,16 @@ def test_encode_and_decode(capsys: pytest.CaptureFixture[str]) -> None:
     assert json.loads(capsys.readouterr().out) == json.loads(value)
 
 
+def test_a_string_that_is_not_utf8(capsys: pytest.CaptureFixture[str]) -> None:
+    """Any reader of JSON can parse it, and it comes back byte for byte."""
+    assert run("decode", "std_msgs/String", "04000000c3a9e922") == 0
+    out = capsys.readouterr().out
+    assert out == '{"data": "é\\udce9\\""}\n'
+    assert out.encode()
+    assert run("encode", "std_msgs/String", out) == 0
+    assert capsys.readouterr().out == "04000000c3a9e922\n"
+
+
 def test_half_of_a_service(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("encode", "std_srvs/SetBoolRequest", '{"data": true}') == 0
     assert capsys.readouterr().out == "01\n"

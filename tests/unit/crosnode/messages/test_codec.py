@@ -166,7 +166,8 @@ def test_message_of_another_type() -> None:
         ("int32 x", b"\0\0\0\0\0"),
         ("", b"\0"),
         ("string s", b"\xff\xff\xff\xff"),
-        ("string s", b"\x01\0\0\0\xff"),
+        ("string s", b"\x01\0\0\0\xff\xff"),
+        ("string[] s", b"\xff\xff\xff\xff\x01\0\0\0\xff"),
         ("uint8[] x", b"\xff\xff\xff\xff"),
         ("float64[] x", b"\xff\xff\xff\x1f" + bytes(64)),
         ("float64[2] x", bytes(8)),
@@ -192,6 +193,35 @@ def test_long_fixed_arrays() -> None:
     assert len(codec.encode("pkg/Type", codec.decode("pkg/Type", bytes(100000)))) == 100000
     with pytest.raises(DefinitionError, match=r"pkg/Long\.x: fixed array"):
         codec_of(Long=f"string[{MAX_UNROLLED + 1}] x")
+
+
+TEXTS = codec_of(
+    Inner="string y", Type="uint8[] d\nstring s\nstring[] w\nstring[2] two\nInner[] i\nfloat32[] f"
+)
+
+
+@given(st.lists(st.binary(max_size=8), min_size=5, max_size=5))
+def test_strings_of_any_bytes_come_back_as_they_came(texts: list[bytes]) -> None:
+    a, b, c, d, e = (struct.pack("<I", len(text)) + text for text in texts)
+    one = struct.pack("<I", 1)
+    data = one + b"\xff" + a + one + b + c + d + one + e + one + struct.pack("<f", 0.5)
+    message = TEXTS.decode("pkg/Type", data)
+    assert message.s.encode(errors="surrogateescape") == texts[0]
+    assert message.i[0].y.encode(errors="surrogateescape") == texts[4]
+    assert (message.d.tolist(), message.f.tolist()) == ([255], [0.5])
+    assert bytes(TEXTS.encode("pkg/Type", message)) == data
+
+
+def test_a_text_that_is_not_utf8_is_plain_and_the_message_stays_as_it_was() -> None:
+    """A program may cut it, join it and send the pieces on."""
+    codec = codec_of(Type="string s\nint32[] n\nstring[] w")
+    message = codec.decode("pkg/Type", b"\x03\0\0\0a\xe9b" + bytes(8))
+    assert (type(message.s), message.s) == (str, "a\udce9b")
+    words = message.w = [message.s[1:]]
+    message.n = [7]
+    data = bytes(codec.encode("pkg/Type", message))
+    assert data == b"\x03\0\0\0a\xe9b" + struct.pack("<IiII", 1, 7, 1, 2) + b"\xe9b"
+    assert (message.w is words, message.n, type(words[0])) == (True, [7], str)
 
 
 EVERY_KIND = (

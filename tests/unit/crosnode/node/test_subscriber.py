@@ -185,6 +185,25 @@ def test_a_body_that_is_no_message_is_passed_over_and_ends_its_connection() -> N
     assert "std_msgs/String" in str(news(node, StatusKind.BAD_MESSAGE))
 
 
+def test_a_string_that_is_not_utf8_is_kept_and_can_be_sent_on() -> None:
+    """A roscpp node may send any bytes; rospy keeps such messages, too."""
+    world, node, subscriber, peer = raw()
+    other = world.node("other", OTHER_IP).register_subscriber("/relay", STRING)
+    relay = node.register_publisher("/relay", STRING)
+    world.until(lambda: relay.subscribers)
+    peer.greet()
+    peer.send(frame(frame(b"gr\xfc\xdfe")) + text("next"))
+    world.run(5)
+    message = subscriber.pop()
+    assert message is not None
+    assert message.data == "gr\udcfc\udcdfe"
+    assert words(subscriber.pop) == ["next"]
+    assert (subscriber.publishers, subscriber.bad_messages) == (1, 0)
+    relay.send(relay.new(data=message.data))
+    world.run(5)
+    assert other.pop_raw() == frame(b"gr\xfc\xdfe")
+
+
 def test_a_publisher_that_says_nothing_is_given_up_and_tried_again() -> None:
     world, _, subscriber, peer = raw()
     world.run(9_900)
