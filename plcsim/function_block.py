@@ -15,7 +15,7 @@ only what cannot lie in memory (a socket) is kept in the context, under a number
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from st_types.views import DataBlock, context_of
 
@@ -49,7 +49,7 @@ class FunctionBlock(DataBlock):
         Raises:
             RuntimeError: the block was made outside a controller.
         """
-        context = context_of(self)
+        context: Context | None = context_of(self)
         if context is None:
             raise RuntimeError(f"{type(self).__name__} runs only inside a controller.")
-        return cast("Context", context)
+        return context

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.statistics import Histogram
 from st_types.views import Struct, context_of
@@ -39,7 +39,8 @@ class Program(Struct):
     @property
     def context(self) -> Context:
         """The controller the program runs on."""
-        return cast("Context", context_of(self))
+        context: Context = context_of(self)
+        return context
 
 
 class Unit(Enum):

@@ -314,7 +314,7 @@ def address_of(view: Struct | Array[Any]) -> int:
     return view.address if isinstance(view, Array) else view._plc_address
 
 
-def context_of(view: Struct) -> object:
+def context_of(view: Struct) -> Any:
     """Return what the view was bound with, None where it lies in memory of its own."""
     return view._plc_context
 

@@ -74,6 +74,9 @@ _OPTIONS: Final = {
 
 _LINGER: Final = struct.Struct("ii")
 
+_NOTHING_YET: Final = Received(Outcome.WOULD_BLOCK)
+_NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
+
 
 def _outcome(error: OSError) -> Outcome:
     return _OUTCOMES.get(error.errno or 0, Outcome.SYSTEM)
@@ -174,9 +177,11 @@ class OsSocket:
         flags = (socket.MSG_PEEK if peek else 0) | (socket.MSG_OOB if urgent else 0)
         try:
             data = self._socket.recv(min(size, MAX_RECEIVE), flags)
+        except BlockingIOError:  # by far the commonest answer to a program that polls
+            return _NOTHING_URGENT if urgent else _NOTHING_YET
         except OSError as error:
-            if urgent and error.errno in (errno.EINVAL, errno.EAGAIN):
-                return Received(Outcome.NO_URGENT_DATA)
+            if urgent and error.errno == errno.EINVAL:
+                return _NOTHING_URGENT
             return Received(self._connection_outcome(error))
         if data:
             return Received(Outcome.OK, data)

@@ -28,6 +28,8 @@ MAX_LINGER_S = 32_767
 class Outcome(Enum):
     """What came of a call."""
 
+    __hash__ = object.__hash__  # that of Enum is written in Python, and every poll needs it
+
     OK = auto()
     WOULD_BLOCK = auto()
     """Nothing could be done yet; the same call may succeed later."""

@@ -40,8 +40,9 @@ class AsTcpBlock(FunctionBlock):
             PageFault: a pointer input is wild; nothing was taken from a socket.
         """
         if self.enable:
-            self.status = self.i_result = self.step(self.context.library(IdentTable))
-            self.i_state = BUSY if self.status == ERR_FUB_BUSY else IDLE
+            status = self.step(self.context.library(IdentTable))
+            self.status = self.i_result = status
+            self.i_state = BUSY if status == ERR_FUB_BUSY else IDLE
         else:
             self.status = ERR_FUB_ENABLE_FALSE
             self.i_state = IDLE

@@ -113,12 +113,14 @@ class TcpRecv(AsTcpBlock):
         endpoint = idents.find(self.ident)
         if endpoint is None:
             return self.unknown_ident(idents)
-        if not self.pData or not self.datamax or self.flags & ~(tcpMSG_OOB | tcpMSG_PEEK):
+        address, size, flags = self.pData, self.datamax, self.flags
+        if not address or not size or flags & ~(tcpMSG_OOB | tcpMSG_PEEK):
             return tcpERR_PARAMETER
         memory = self.context.memory
-        memory.check(self.pData, self.datamax)
-        peek, urgent = bool(self.flags & tcpMSG_PEEK), bool(self.flags & tcpMSG_OOB)
-        outcome, data = endpoint.socket.recv(self.datamax, peek=peek, urgent=urgent)
-        memory.write(self.pData, data)
-        self.recvlen = len(data)
+        memory.check(address, size)
+        peek, urgent = bool(flags & tcpMSG_PEEK), bool(flags & tcpMSG_OOB)
+        outcome, data = endpoint.socket.recv(size, peek=peek, urgent=urgent)
+        if data:
+            memory.write(address, data)
+            self.recvlen = len(data)
         return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM)
