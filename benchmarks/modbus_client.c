@@ -3,6 +3,8 @@
  *   modbus_client load PORT CONNECTIONS REGISTERS SECONDS
  *       reads REGISTERS holding registers from 0 on; the program under test keeps all of them
  *       equal, so an answer with two values is torn
+ *   modbus_client write PORT FIRST REGISTERS SECONDS
+ *       writes REGISTERS holding registers from FIRST on with one value, the next one each time
  *   modbus_client echo PORT SECONDS
  *       writes register 0 and reads register 1, into which the program copies it, until it is there
  *
@@ -24,6 +26,7 @@
 
 static uint32_t samples_us[SAMPLES];
 static long sampled;
+static long exceptions[256];
 
 struct peer {
     int fd;
@@ -69,6 +72,7 @@ static void ask(struct peer *p, uint8_t function, uint16_t first, uint16_t secon
 static int receive(struct peer *p)
 {
     int n = read(p->fd, p->answer + p->got, sizeof p->answer - p->got);
+    if (n < 0 && errno == EAGAIN) return 0;
     if (n <= 0) fail("read");
     p->got += n;
     if (p->got < 9 || p->got < 6 + (p->answer[4] << 8 | p->answer[5])) return 0;
@@ -78,7 +82,7 @@ static int receive(struct peer *p)
     }
     p->got = 0;
     p->answered_ns = now_ns();
-    if (sampled < SAMPLES) samples_us[sampled++] = (p->answered_ns - p->sent_ns) / 1000;
+    samples_us[sampled++ % SAMPLES] = (p->answered_ns - p->sent_ns) / 1000; /* the latest ones */
     return 1;
 }
 
@@ -89,14 +93,40 @@ static int ascending(const void *a, const void *b)
 
 static uint32_t percentile(double share)
 {
-    return sampled ? samples_us[(long)(share * (sampled - 1))] : 0;
+    long kept = sampled < SAMPLES ? sampled : SAMPLES;
+    return kept ? samples_us[(long)(share * (kept - 1))] : 0;
+}
+
+static void sort_samples(void)
+{
+    qsort(samples_us, sampled < SAMPLES ? sampled : SAMPLES, sizeof *samples_us, ascending);
+}
+
+/* Returns 1 for an exception response, which is counted by its code. */
+static int is_exception(const struct peer *p)
+{
+    if (!(p->answer[7] & 0x80)) return 0;
+    exceptions[p->answer[8]]++;
+    return 1;
+}
+
+static void print_exceptions(void)
+{
+    const char *comma = "";
+    printf("\"exceptions\": {");
+    for (int code = 0; code < 256; code++)
+        if (exceptions[code]) {
+            printf("%s\"%d\": %ld", comma, code, exceptions[code]);
+            comma = ", ";
+        }
+    printf("}, ");
 }
 
 static void load(int port, int connections, int registers, double seconds)
 {
     struct peer *peers = calloc(connections, sizeof *peers);
     struct epoll_event ready[256];
-    long answers = 0, torn = 0, refused = 0, hung = 0;
+    long answers = 0, torn = 0, hung = 0;
     int poll = epoll_create1(0);
     for (int i = 0; i < connections; i++) {
         struct epoll_event e = {.events = EPOLLIN, .data.ptr = &peers[i]};
@@ -111,8 +141,7 @@ static void load(int port, int connections, int registers, double seconds)
             struct peer *p = ready[i].data.ptr;
             if (!receive(p)) continue;
             answers++;
-            if (p->answer[7] != 3 || p->answer[8] != 2 * registers) refused++;
-            else
+            if (!is_exception(p))
                 for (int k = 1; k < registers; k++)
                     if (memcmp(p->answer + 9, p->answer + 9 + 2 * k, 2)) {
                         torn++;
@@ -123,10 +152,41 @@ static void load(int port, int connections, int registers, double seconds)
     }
     double elapsed = (now_ns() - start) / 1e9;
     for (int i = 0; i < connections; i++) hung += now_ns() - peers[i].sent_ns > 1000000000LL;
-    qsort(samples_us, sampled, sizeof *samples_us, ascending);
-    printf("{\"requests\": %ld, \"seconds\": %.3f, \"torn\": %ld, \"refused\": %ld, "
-           "\"hung\": %ld, \"p50_us\": %u, \"p99_us\": %u}\n",
-           answers, elapsed, torn, refused, hung, percentile(0.5), percentile(0.99));
+    sort_samples();
+    printf("{\"requests\": %ld, \"seconds\": %.3f, \"torn\": %ld, \"hung\": %ld, ", answers,
+           elapsed, torn, hung);
+    print_exceptions();
+    printf("\"p50_us\": %u, \"p99_us\": %u}\n", percentile(0.5), percentile(0.99));
+}
+
+static void write_registers(int port, int first, int registers, double seconds)
+{
+    struct peer p = {.fd = connected(port)};
+    struct timeval second = {.tv_sec = 1};
+    uint8_t r[13 + 2 * 123] = {0, 0, 0, 0, 0, 7 + 2 * registers, 1, 16,
+                               first >> 8, first, 0, registers, 2 * registers};
+    long answers = 0, hung = 0;
+    int64_t start = now_ns(), end = start + (int64_t)(seconds * 1e9);
+    setsockopt(p.fd, SOL_SOCKET, SO_RCVTIMEO, &second, sizeof second);
+    while (now_ns() < end) {
+        p.transaction++;
+        r[0] = p.transaction >> 8;
+        r[1] = p.transaction;
+        for (int i = 0; i < registers; i++) memcpy(r + 13 + 2 * i, r, 2);
+        p.sent_ns = now_ns();
+        if (write(p.fd, r, 13 + 2 * registers) != 13 + 2 * registers) fail("write");
+        int answered;
+        while (!(answered = receive(&p)) && now_ns() < end) {}
+        hung += now_ns() - p.sent_ns > 1000000000LL;
+        if (!answered) break;
+        answers++;
+        is_exception(&p);
+    }
+    sort_samples();
+    printf("{\"requests\": %ld, \"seconds\": %.3f, \"hung\": %ld, ", answers,
+           (now_ns() - start) / 1e9, hung);
+    print_exceptions();
+    printf("\"p50_us\": %u, \"p99_us\": %u}\n", percentile(0.5), percentile(0.99));
 }
 
 static void echo(int port, double seconds)
@@ -150,7 +210,7 @@ static void echo(int port, double seconds)
     }
     memcpy(samples_us, loops_us, loops * sizeof *loops_us);
     sampled = loops;
-    qsort(samples_us, sampled, sizeof *samples_us, ascending);
+    sort_samples();
     printf("{\"loops\": %ld, \"p50_us\": %u, \"p99_us\": %u}\n", loops, percentile(0.5),
            percentile(0.99));
 }
@@ -159,6 +219,8 @@ int main(int argc, char **argv)
 {
     if (argc == 6 && !strcmp(argv[1], "load"))
         load(atoi(argv[2]), atoi(argv[3]), atoi(argv[4]), atof(argv[5]));
+    else if (argc == 6 && !strcmp(argv[1], "write"))
+        write_registers(atoi(argv[2]), atoi(argv[3]), atoi(argv[4]), atof(argv[5]));
     else if (argc == 4 && !strcmp(argv[1], "echo"))
         echo(atoi(argv[2]), atof(argv[3]));
     else

@@ -1,55 +1,66 @@
 """Modbus TCP under load: requests/s beside two yardsticks, and what the scan notices of it.
 
-    python benchmarks/modbus_load.py [--seconds 3] [--scan-seconds 20] [--rounds 3] [--json FILE]
+    python benchmarks/modbus_load.py [--only abcde] [--seconds 3] [--scan-seconds 60] [--rounds 6]
+        [--soak-minutes 0] [--json FILE]
 
-All of one run: (a) requests/s and CPU time of the server for each request, beside pymodbus' own
-server and a libmodbus server in C; (b) lateness and missed grid points of a 1 ms scan with 0, 4 and
-50 clients at full rate; (c) the time of write, program, read back; (d) the service killed under
-load. For (a) the server has the first processor and the client (in C) the last one; for (b) both
-have the first one, the scan the last one. Needs gcc; without libmodbus-dev its column is left out.
+(a) requests/s and CPU time of the server for each request, beside pymodbus' own server and a
+libmodbus server in C. (b) lateness and missed grid points of a 1 ms scan with 0, 4 and 50 clients
+at full rate, and with a busy processor but no client. (c) the time of write, program, read back.
+(d) the service killed under load. (e) memory and everything else over many minutes of reads and
+writes. For (a) the server has the first processor and the client (in C) the last one; for (b) and
+(e) both have the first one, the scan the last one. Needs gcc; without libmodbus-dev its column is
+left out.
+
+A virtual machine loses grid points whether there are clients or not, and not evenly. So (b) runs in
+short rounds in which every load has its turn, each round beginning with another one, and compares
+stalls (groups of missed grid points): all points of a stall have one cause. Two counts of stalls
+differ by chance up to about twice the root of their sum; that is printed beside the difference. A
+stall that comes while the hypervisor takes time from the scan's processor is counted as such; how
+often it does so at any time is printed beside it, because only more than that says something.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import platform
 import shutil
 import signal
-import socket
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from _modbus_site import (
+    BLOCK,
+    ECHO,
+    TORN,
+    TORN_AT,
+    WRITTEN,
+    WRITTEN_AT,
+    Site,
+    build,
+    child_with,
+    cpu_s,
+    free_port,
+    make_project,
+    registers,
+    result_of,
+    run_client,
+    running,
+    start_client,
+    wait_for,
+)
+from _stalls import StallWatch
 
-HERE = Path(__file__).parent
 CONNECTIONS = (1, 10, 50)
 REGISTERS = (10, 125)
-
-PROGRAM = """
-from plcsim import Program
-from st_types import ARRAY, UINT, var
-
-
-class Load(Program):
-    echo_in = var(UINT)
-    echo_out = var(UINT)
-    block = var(ARRAY(UINT, (1, 125)))
-    count = var(UINT)
-
-    def cyclic(self) -> None:
-        self.echo_out = self.echo_in
-        self.count += 1
-        self.block.write(self.count.to_bytes(2, "little") * 125)
-"""
+FIRST_CPU, LAST_CPU = min(os.sched_getaffinity(0)), max(os.sched_getaffinity(0))
 
 STOCK = """
 import sys
@@ -61,219 +72,43 @@ StartTcpServer(SimDevice(1, simdata=[data]), address=("127.0.0.1", int(sys.argv[
 """
 
 
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return int(probe.getsockname()[1])
-
-
-def build(folder: Path, name: str, *flags: str) -> Path | None:
-    """Compile one of the C programs here; None where its library is missing."""
-    target = folder / name
-    command = ["gcc", "-O2", "-o", str(target), str(HERE / f"{name}.c"), *flags]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    return target if done.returncode == 0 else None
-
-
-def make_project(folder: Path, port: int, rows: list[str]) -> Path:
-    project = folder / f"project{port}"
-    (project / "load").mkdir(parents=True)
-    (project / "load" / "main.py").write_text(PROGRAM)
-    (project / "tags.csv").write_text("\n".join(["tag,area,offset", *rows]) + "\n")
-    (project / "plc.toml").write_text(
-        f'[task_class.1]\ncycle = "1ms"\ntolerance = "1s"\nprograms = ["load"]\n'
-        f'[modbus]\nport = {port}\naudit = ""\n'
-    )
-    return project
-
-
-BLOCK = [f"load.block[{i}],hr,{i - 1}" for i in range(1, 126)]
-ECHO = ["load.echo_in,hr,0", "load.echo_out,hr,1"]
-
-
-def wait_for(port: int, process: subprocess.Popen[bytes]) -> None:
-    deadline = time.monotonic() + 20
-    while time.monotonic() < deadline:
-        try:
-            with socket.create_connection(("127.0.0.1", port), 1) as probe:
-                probe.sendall(bytes.fromhex("000100000006010300000001"))
-                if probe.recv(260)[7:8] == b"\x03":
-                    return
-        except OSError:
-            pass
-        if process.poll() is not None:
-            raise SystemExit(f"{process.args!r} ended")
-        time.sleep(0.05)
-    raise SystemExit(f"nothing serves port {port}")
-
-
-@contextmanager
-def running(command: list[str], port: int, cpu: int | None) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a server; where a processor is given, it stays on it."""
-    pinned = command if cpu is None else ["taskset", "-c", str(cpu), *command]
-    process = subprocess.Popen(pinned, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        wait_for(port, process)
-        yield process
-    finally:
-        process.send_signal(signal.SIGINT)
-        try:
-            process.wait(10)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-
-def cpu_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def resident_kib(pid: int) -> int:
-    text = Path(f"/proc/{pid}/status").read_text()
-    return int(text.split("VmRSS:")[1].split()[0])
-
-
-def child_with(pid: int, module: str) -> int:
-    """Return the child process that runs a module."""
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            if parent == pid and module in (folder / "cmdline").read_text():
-                return int(folder.name)
-        except (OSError, ValueError):
-            continue
-    raise SystemExit(f"no process runs {module}")
-
-
-def run_client(client: Path, *arguments: object, cpu: int | None = None) -> dict[str, Any]:
-    command = [str(client), *map(str, arguments)]
-    if cpu is not None:
-        command = ["taskset", "-c", str(cpu), *command]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    result: dict[str, Any] = json.loads(done.stdout)
-    return result
-
-
-def throughput(client: Path, server: int, port: int, seconds: float, cpu: int) -> dict[str, Any]:
+def throughput(client: Path, server: int, port: int, seconds: float) -> dict[str, Any]:
     """Return requests/s and microseconds of the server's CPU for each request, by load."""
     found = {}
     for connections in CONNECTIONS:
-        for registers in REGISTERS:
+        for count in REGISTERS:
             best: dict[str, Any] = {"per_s": 0}
             for _ in range(2):
                 before = cpu_s(server)
-                load = run_client(client, "load", port, connections, registers, seconds, cpu=cpu)
+                load = run_client(client, "load", port, connections, count, seconds, cpu=LAST_CPU)
                 used_s = cpu_s(server) - before
                 per_s = load["requests"] / load["seconds"]
                 if per_s > best["per_s"]:
                     cpu_us = 1e6 * used_s / max(1, load["requests"])
                     best = {"per_s": round(per_s), "cpu_us": round(cpu_us, 1), **load}
-            found[f"{connections}c/{registers}r"] = best
+            found[f"{connections}c/{count}r"] = best
     return found
 
 
 def compare(folder: Path, client: Path, seconds: float) -> dict[str, Any]:
     """Return table (a)."""
-    first, last = min(os.sched_getaffinity(0)), max(os.sched_getaffinity(0))
     results: dict[str, Any] = {}
     port = free_port()
     project = make_project(folder, port, BLOCK)
     plcsim = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet", str(project)]
     with running(plcsim, port, None) as process:
         service = child_with(process.pid, "plcsim.services.modbus")
-        os.sched_setaffinity(service, {first})
-        results["plcsim"] = throughput(client, service, port, seconds, last)
+        os.sched_setaffinity(service, {FIRST_CPU})
+        results["plcsim"] = throughput(client, service, port, seconds)
     port = free_port()
-    with running([sys.executable, "-c", STOCK, str(port)], port, first) as process:
-        results["pymodbus"] = throughput(client, process.pid, port, seconds, last)
+    with running([sys.executable, "-c", STOCK, str(port)], port, FIRST_CPU) as process:
+        results["pymodbus"] = throughput(client, process.pid, port, seconds)
     server = build(folder, "modbus_libmodbus_server", "-I/usr/include/modbus", "-lmodbus")
     if server is not None:
         port = free_port()
-        with running([str(server), str(port)], port, first) as process:
-            results["libmodbus"] = throughput(client, process.pid, port, seconds, last)
+        with running([str(server), str(port)], port, FIRST_CPU) as process:
+            results["libmodbus"] = throughput(client, process.pid, port, seconds)
     return results
-
-
-BUSY = "busy"
-LOADS: tuple[int | str, ...] = (0, BUSY, 4, 50)
-"""Clients at full rate; "busy" is a control: none, but the first processor computes meanwhile."""
-
-
-def beside_a_scan(folder: Path, client: Path, seconds: float, rounds: int) -> list[dict[str, Any]]:
-    """Return table (b): rounds of one run for each load, so that the host's mood is in all."""
-    return [
-        one_scan(folder, client, load, seconds / rounds) for _ in range(rounds) for load in LOADS
-    ]
-
-
-def one_scan(folder: Path, client: Path, load: int | str, seconds: float) -> dict[str, Any]:
-    first, port = min(os.sched_getaffinity(0)), free_port()
-    project = make_project(folder, port, BLOCK)
-    report = folder / f"report{port}.json"
-    command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet",
-               "--report", str(report), str(project)]  # fmt: skip
-    row: dict[str, Any] = {"load": load}
-    with running(command, port, None) as process:
-        service = child_with(process.pid, "plcsim.services.modbus")
-        scan = child_with(process.pid, "plcsim.scan_process")
-        row["rss_before_kib"] = [resident_kib(scan), resident_kib(service)]
-        if load == BUSY:
-            compute_for(seconds, first)
-        elif load:
-            row |= run_client(client, "load", port, load, 125, seconds, cpu=first)
-        else:
-            time.sleep(seconds)
-        row["rss_after_kib"] = [resident_kib(scan), resident_kib(service)]
-    (scanned,) = json.loads(report.read_text())["task_classes"]
-    row["cycles"] = scanned["cycles"]
-    row["missed"] = scanned["missed_grid_points"]
-    row["lateness_ns"] = scanned["lateness_ns"]
-    return row
-
-
-def compute_for(seconds: float, cpu: int) -> None:
-    loop = f"import time; end = time.time() + {seconds}\nwhile time.time() < end: pass"
-    subprocess.run(["taskset", "-c", str(cpu), sys.executable, "-c", loop], check=True)
-
-
-def write_and_read_back(folder: Path, client: Path, seconds: float) -> dict[str, Any]:
-    """Return table (c)."""
-    port = free_port()
-    project = make_project(folder, port, ECHO)
-    command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet", str(project)]
-    with running(command, port, None):
-        return run_client(client, "echo", port, seconds)
-
-
-KILLS = 5
-
-
-def killed(folder: Path, client: Path) -> dict[str, Any]:
-    """Return table (d): the service is killed under load, again and again."""
-    port = free_port()
-    project = make_project(folder, port, BLOCK)
-    report = folder / "killed.json"
-    command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet",
-               "--report", str(report), str(project)]  # fmt: skip
-    back_s = []
-    with running(command, port, None) as process:
-        for _ in range(KILLS):
-            load = subprocess.Popen(
-                [str(client), "load", str(port), "4", "125", "60"], stderr=subprocess.DEVNULL
-            )
-            time.sleep(1)
-            os.kill(child_with(process.pid, "plcsim.services.modbus"), signal.SIGKILL)
-            killed_at = time.monotonic()
-            load.wait()  # its connections are reset
-            wait_for(port, process)
-            back_s.append(round(time.monotonic() - killed_at, 3))
-    (scanned,) = json.loads(report.read_text())["task_classes"]
-    return {
-        "back_s": back_s,
-        "cycles": scanned["cycles"],
-        "missed": scanned["missed_grid_points"],
-        "lateness_ns": scanned["lateness_ns"],
-    }
 
 
 def show_comparison(results: dict[str, Any]) -> None:
@@ -288,63 +123,219 @@ def show_comparison(results: dict[str, Any]) -> None:
         print(f"{load:12}" + "".join(f"{cell:>20}" for cell in cells) + f"{ratio:>17.1f}x")
 
 
-def show_scan(rows: list[dict[str, Any]]) -> None:
-    print("(b) a 1 ms scan beside clients that read 125 registers at full rate; medians of rounds")
+BUSY = "busy"
+LOADS: tuple[int | str, ...] = (0, 4, BUSY, 50)
+"""Clients at full rate; "busy" is a control: none, but the first processor computes meanwhile."""
+
+
+def beside_a_scan(folder: Path, client: Path, seconds: float, rounds: int) -> list[dict[str, Any]]:
+    """Return the runs of (b): ``seconds`` of each load, in rounds."""
+    rows = []
+    for number in range(rounds):
+        turn = number % len(LOADS)
+        for load in (*LOADS[turn:], *LOADS[:turn]):
+            rows.append(one_scan(folder, client, load, seconds / rounds))
+            print(f"  round {number + 1}, load {load}: {rows[-1]['missed']} missed", flush=True)
+    return rows
+
+
+def one_scan(folder: Path, client: Path, load: int | str, seconds: float) -> dict[str, Any]:
+    row: dict[str, Any] = {"load": load}
+    with Site(folder, BLOCK) as site:
+        row["rss_before_kib"] = site.resident_kib()
+        with StallWatch(site.project, LAST_CPU) as watch:
+            if load == BUSY:
+                compute_for(seconds)
+            elif load:
+                row |= run_client(client, "load", site.port, load, 125, seconds, cpu=FIRST_CPU)
+            else:
+                time.sleep(seconds)
+        row["rss_after_kib"] = site.resident_kib()
+    return row | site.figures | watch.stalls._asdict() | {"missed": watch.missed}
+
+
+def compute_for(seconds: float) -> None:
+    loop = f"import time; end = time.time() + {seconds}\nwhile time.time() < end: pass"
+    subprocess.run(["taskset", "-c", str(FIRST_CPU), sys.executable, "-c", loop], check=True)
+
+
+def show_scan(rows: list[dict[str, Any]], seconds: float) -> None:
     print(
-        "load  requests/s  torn  hung   cycles  missed  late p50 us  p99 us   RSS scan, service KiB"
+        f"(b) a 1 ms scan beside clients that read 125 registers at full rate, {seconds:g} s each"
     )
-    for load in LOADS:
-        same = [row for row in rows if row["load"] == load]
-        late = {
-            p: statistics.median(r["lateness_ns"][p] / 1000 for r in same) for p in ("p50", "p99")
-        }
-        per_s = statistics.median(r.get("requests", 0) / r.get("seconds", 1) for r in same)
-        torn, hung, cycles, missed = (
-            sum(r.get(name, 0) for r in same) for name in ("torn", "hung", "cycles", "missed")
-        )
-        growth = [max(r["rss_after_kib"][i] - r["rss_before_kib"][i] for r in same) for i in (0, 1)]
+    print(
+        "load  requests/s  torn  hung  missed  stalls  in stolen time (of all)  "
+        "late p50 us  p99 us  RSS scan, service KiB"
+    )
+    sums = {load: total([row for row in rows if row["load"] == load]) for load in LOADS}
+    for load, found in sums.items():
+        share = 100 * found["stolen_windows"] / max(1, found["windows"])
+        scan, service = found["growth"]
         print(
-            f"{load:>4}  {per_s:10,.0f}  {torn:4}  {hung:4}  {cycles:7}  {missed:6}"
-            f"  {late['p50']:11.1f}  {late['p99']:6.1f}   +{growth[0]}, +{growth[1]}"
+            f"{load:>4}  {found['per_s']:10,.0f}  {found['torn']:4}  {found['hung']:4}"
+            f"  {found['missed']:6}  {found['stalls']:6}"
+            f"  {found['stolen_stalls']:14} ({share:4.0f} %)"
+            f"  {found['p50']:11.1f}  {found['p99']:6.1f}  {scan:+}, {service:+}"
+        )
+    for load in LOADS[1:]:
+        more = sums[load]["stalls"] - sums[0]["stalls"]
+        chance = 2 * math.sqrt(sums[load]["stalls"] + sums[0]["stalls"])
+        late = sums[load]["p99"] - sums[0]["p99"]
+        print(
+            f"{load} beside none: {more:+} stalls, by chance up to {chance:.1f}; p99 {late:+.1f} us"
         )
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
-    parser.add_argument("--seconds", type=float, default=3.0, help="of each load of (a)")
-    parser.add_argument("--scan-seconds", type=float, default=20.0, help="of each run of (b), (c)")
-    parser.add_argument("--rounds", type=int, default=3, help="of (b), one after another")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="keep all figures")
-    options = parser.parse_args()
-    if shutil.which("gcc") is None:
-        raise SystemExit("gcc is needed for the client")
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        client = build(folder, "modbus_client")
-        if client is None:
-            raise SystemExit("modbus_client.c does not compile")
-        comparison = compare(folder, client, options.seconds)
-        scans = beside_a_scan(folder, client, options.scan_seconds, options.rounds)
-        echo = write_and_read_back(folder, client, options.scan_seconds)
-        kills = killed(folder, client)
-    machine = f"{platform.machine()}, {os.cpu_count()} processors, Linux {platform.release()}"
-    print(f"{machine}, Python {platform.python_version()}")
-    show_comparison(comparison)
-    show_scan(scans)
+def total(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return sums over the rounds of one load, and medians of what cannot be added."""
+    names = ("torn", "hung", "missed", "windows", "stolen_windows", "stalls", "stolen_stalls")
+    found: dict[str, Any] = {name: sum(row.get(name, 0) for row in rows) for name in names}
+    for p in ("p50", "p99"):
+        found[p] = statistics.median(row["lateness_ns"][p] / 1000 for row in rows)
+    found["per_s"] = statistics.median(r.get("requests", 0) / r.get("seconds", 1) for r in rows)
+    found["growth"] = [
+        max(row["rss_after_kib"][i] - row["rss_before_kib"][i] for row in rows) for i in (0, 1)
+    ]
+    return found
+
+
+def write_and_read_back(folder: Path, client: Path, seconds: float) -> dict[str, Any]:
+    """Return the figures of (c)."""
+    with Site(folder, ECHO) as site:
+        return run_client(client, "echo", site.port, seconds)
+
+
+def show_echo(echo: dict[str, Any]) -> None:
     print(
         f"(c) write, program, read back at 1 ms: {echo['loops']} times, "
         f"p50 {echo['p50_us']} us, p99 {echo['p99_us']} us"
     )
+
+
+KILLS = 5
+
+
+def killed(folder: Path, client: Path) -> dict[str, Any]:
+    """Return the figures of (d): the service is killed under load, again and again."""
+    back_s = []
+    with Site(folder, BLOCK) as site:
+        for _ in range(KILLS):
+            load = subprocess.Popen(
+                [str(client), "load", str(site.port), "4", "125", "60"], stderr=subprocess.DEVNULL
+            )
+            time.sleep(1)
+            os.kill(site.service, signal.SIGKILL)
+            killed_at = time.monotonic()
+            load.wait()  # its connections are reset
+            wait_for(site.port, site.process)
+            back_s.append(round(time.monotonic() - killed_at, 3))
+    return {"back_s": back_s, **site.figures}
+
+
+def show_killed(kills: dict[str, Any]) -> None:
     print(
         f"(d) service killed {KILLS} times under load: back after {kills['back_s']} s, "
         f"{kills['missed']} of {kills['cycles']} grid points missed, "
         f"late p99 {kills['lateness_ns']['p99'] / 1000:.1f} us"
     )
+
+
+def soak(folder: Path, client: Path, minutes: int) -> dict[str, Any]:
+    """Return the figures of (e): 4 clients that read, one that writes; memory minute by minute."""
+    print(f"(e) {minutes} min of 4 clients that read 125 registers and one that writes 120")
+    print("minute  RSS scan, service KiB  missed")
+    kib = []
+    with Site(folder, [*BLOCK, *WRITTEN, *TORN]) as site:
+        with StallWatch(site.project, LAST_CPU) as watch:
+            kib.append(site.resident_kib())
+            seconds = 60 * minutes
+            loads = (
+                start_client(client, "load", site.port, 4, 125, seconds, cpu=FIRST_CPU),
+                start_client(client, "write", site.port, WRITTEN_AT, 120, seconds, cpu=FIRST_CPU),
+            )
+            start = time.monotonic()
+            for minute in range(1, minutes + 1):
+                time.sleep(max(0.0, start + 60 * minute - 0.5 - time.monotonic()))
+                kib.append(site.resident_kib())
+                print(f"{minute:6}  {kib[-1][0]:13}, {kib[-1][1]:6}  {watch.missed:6}", flush=True)
+            read, written = map(result_of, loads)
+        torn = int.from_bytes(registers(site.port, TORN_AT), "big")
+    growth = [kib[-1][i] - kib[1][i] for i in (0, 1)]
+    stalls = watch.stalls._asdict()
+    return {"read": read, "written": written, "torn_writes": torn, "rss_kib": kib,
+            "growth_kib": growth, **stalls, **site.figures}  # fmt: skip
+
+
+def show_soak(found: dict[str, Any]) -> None:
+    for name in ("read", "written"):
+        one = found[name]
+        print(
+            f"{name}: {one['requests']:,} requests, "
+            f"exceptions by code {one['exceptions'] or 'none'}, {one['hung']} hung, p50 {one['p50_us']} us, p99 {one['p99_us']} us"
+        )
+    late = found["lateness_ns"]
+    print(
+        f"torn: {found['read']['torn']} reads, {found['torn_writes']} writes; "
+        f"{found['missed']} of {found['cycles']} grid points missed in {found['stalls']} stalls, "
+        f"{found['stolen_stalls']} of them in stolen time; "
+        f"late p50 {late['p50'] / 1000:.1f} us, p99 {late['p99'] / 1000:.1f} us"
+    )
+    scan, service = found["growth_kib"]
+    print(f"growth after the first minute: scan {scan:+} KiB, service {service:+} KiB")
+
+
+def main() -> int:
+    options = _options()
+    if shutil.which("gcc") is None:
+        raise SystemExit("gcc is needed for the client")
+    machine = f"{platform.machine()}, {os.cpu_count()} processors, Linux {platform.release()}"
+    print(f"{machine}, Python {platform.python_version()}", flush=True)
+    results: dict[str, Any] = {"machine": machine}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        client = build(folder, "modbus_client")
+        if client is None:
+            raise SystemExit("modbus_client.c does not compile")
+        for part in options.only:
+            results[part] = _run_part(part, folder, client, options)
     if options.json:
-        values = {"machine": machine, "comparison": comparison, "scan": scans, "echo": echo,
-                  "killed": kills}  # fmt: skip
-        options.json.write_text(json.dumps(values, indent=2) + "\n")
+        options.json.write_text(json.dumps(results, indent=2) + "\n")
     return 0
+
+
+def _run_part(part: str, folder: Path, client: Path, options: argparse.Namespace) -> object:
+    """Run one part, print its figures and return them."""
+    found: Any = None
+    match part:
+        case "a":
+            show_comparison(found := compare(folder, client, options.seconds))
+        case "b":
+            found = beside_a_scan(folder, client, options.scan_seconds, options.rounds)
+            show_scan(found, options.scan_seconds)
+        case "c":
+            show_echo(found := write_and_read_back(folder, client, options.seconds))
+        case "d":
+            show_killed(found := killed(folder, client))
+        case "e" if options.soak_minutes:
+            show_soak(found := soak(folder, client, options.soak_minutes))
+    return found
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
+    parser.add_argument("--only", type=_parts, default="abcde", metavar="PARTS", help="such as be")
+    parser.add_argument("--seconds", type=float, default=3.0, help="of each load of (a), of (c)")
+    parser.add_argument("--scan-seconds", type=float, default=60.0, help="of each load of (b)")
+    parser.add_argument("--rounds", type=int, default=6, help="of (b), one after another")
+    parser.add_argument("--soak-minutes", type=int, default=0, help="of (e); 0 leaves it out")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="keep all figures")
+    return parser.parse_args()
+
+
+def _parts(text: str) -> str:
+    if not text or set(text) - set("abcde"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not some of abcde")
+    return text
 
 
 if __name__ == "__main__":
