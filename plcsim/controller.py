@@ -134,7 +134,7 @@ class Controller:
         for index, task in enumerate(self.tasks):
             task.index = index
         self.tags = TagTable(self.memory, self.tasks)
-        self.image = ProcessImage(self.tags)
+        self.image = ProcessImage()
         self.scan = Scan(self.classes, self.clock, self.context, self.image, self, place_of)
         self.image.attach(self.scan)
         self._heartbeat = heartbeat or _Nobody()

@@ -77,21 +77,10 @@ class TagTable:
         Raises:
             TagError: the tag cannot take the value.
         """
-        self.store(tag, self.encode(tag, value))
-
-    def encode(self, tag: Tag, value: object) -> bytes:
-        """Return the bytes of a plain value for a tag, without storing them.
-
-        Raises:
-            TagError: the tag cannot take the value.
-        """
         try:
-            return encode(tag.data_type, value)
+            data = encode(tag.data_type, value)
         except ValueRangeError as err:
             raise TagError(f"tag {tag.path}: {err}") from None
-
-    def store(self, tag: Tag, data: bytes) -> None:
-        """Store bytes made by `encode`."""
         self._memory.write(tag.address, data)
 
     def __iter__(self) -> Iterator[Tag]:

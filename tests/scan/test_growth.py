@@ -12,7 +12,7 @@ ALLOWED = 4096
 """Bytes; what lists and integers of a few bytes more may take."""
 
 
-def test_thousands_of_cycles_with_violations_and_commands_take_no_more_memory(
+def test_thousands_of_cycles_with_violations_and_inputs_take_no_more_memory(
     make_controller, task_class, program_of, clock
 ):
     def cyclic(program):
@@ -26,7 +26,8 @@ def test_thousands_of_cycles_with_violations_and_commands_take_no_more_memory(
         task_class(2, 50, settings, q=program_of(cyclic, count=var(UINT))),
         exception_program=program_of(count=var(UINT)),
     )
-    controller.image.inputs.append(lambda _: controller.image.command("q.count", 7))
+    tag = controller.tags.find("q.count")
+    controller.image.inputs.append(lambda _: controller.tags.write(tag, 7))
     controller.boot()
     controller.run(cycles=CYCLES)
     tracemalloc.start()

@@ -1,9 +1,9 @@
-"""The process image: commands in LATCH, bounded; observations in PUBLISH."""
+"""The process image: inputs are set in LATCH, watchers see the tags in PUBLISH."""
 
 import pytest
 
-from plcsim.errors import TagError
-from plcsim.image import DRAINED_PER_CYCLE, QUEUE_LENGTH
+from plcsim.errors import PhaseError
+from plcsim.image import ProcessImage
 from plcsim.task import Policy
 from st_types import BOOL, INT, UINT, var
 
@@ -23,80 +23,56 @@ def controller(make_controller, task_class, program_of):
     return controller
 
 
-def test_a_command_is_applied_in_the_next_latch(controller):
-    variables = controller.tasks[0].variables
-    assert controller.image.command("main.speed", -3)
-    assert controller.image.command("MAIN.ON", True)
-    assert (variables.speed, variables.on) == (0, False)
-    controller.run(cycles=1)
-    assert (variables.speed, variables.on) == (-3, True)
-
-
-def test_commands_are_applied_in_order(controller):
-    for value in (1, 2, 3):
-        controller.image.command("main.speed", value)
-    controller.run(cycles=1)
-    assert controller.tasks[0].variables.speed == 3
-
-
-def test_a_flood_of_commands_is_bounded_and_applied_some_in_each_cycle(controller):
-    taken = [controller.image.command("main.speed", value) for value in range(QUEUE_LENGTH + 10)]
-    assert taken == [True] * QUEUE_LENGTH + [False] * 10
-    assert controller.image.refused == 10
-    controller.run(cycles=1)
-    assert controller.tasks[0].variables.speed == DRAINED_PER_CYCLE - 1
-    assert controller.image.command("main.speed", 7)
-    controller.run(cycles=QUEUE_LENGTH // DRAINED_PER_CYCLE)
-    assert controller.tasks[0].variables.speed == 7
-
-
-@pytest.mark.parametrize(
-    ("path", "value"),
-    [("main.sped", 1), ("other.speed", 1), ("main.speed", 40_000), ("main.speed", "fast")],
-)
-def test_a_wrong_command_is_refused_at_once(controller, path, value):
-    with pytest.raises(TagError, match=path):
-        controller.image.command(path, value)
-    controller.run(cycles=1)
-    assert controller.tasks[0].variables.speed == 0
-
-
-def test_inputs_see_what_commands_did_and_programs_see_both(controller):
+def test_inputs_are_set_before_the_programs_run_and_watchers_see_what_they_did(controller):
     seen = []
+    variables = controller.tasks[0].variables
 
     def plant(task_class):
-        seen.append((task_class.number, controller.tasks[0].variables.speed))
-        controller.tasks[0].variables.on = True
+        seen.append((task_class.number, variables.cycles))
+        variables.on = True
 
     controller.image.inputs.append(plant)
-    controller.image.watchers.append(
-        lambda _: seen.append((controller.tasks[0].variables.on, len(seen)))
-    )
-    controller.image.command("main.speed", 5)
+    controller.image.watchers.append(lambda _: seen.append((variables.on, variables.cycles)))
+    controller.run(cycles=2)
+    assert seen == [(1, 0), (True, 1), (1, 1), (True, 2)]
+
+
+def test_what_was_entered_first_is_called_first(controller):
+    calls = []
+    for name in ("first", "second"):
+        controller.image.inputs.append(lambda _, name=name: calls.append(("in", name)))
+        controller.image.watchers.append(lambda _, name=name: calls.append(("out", name)))
     controller.run(cycles=1)
-    assert seen == [(1, 5), (True, 1)]
+    assert calls == [("in", "first"), ("in", "second"), ("out", "first"), ("out", "second")]
 
 
-def test_a_command_does_not_reach_into_a_cycle_that_is_preempted(
-    make_controller, task_class, program_of, clock
+def test_inputs_stand_still_in_run_and_are_not_published_from_there(
+    make_controller, task_class, program_of
 ):
-    seen = []
+    refused = []
 
-    def note(_):
-        seen.append(controller.tasks[1].variables.level)
-        clock.spend_ns(6 * MS)
+    def reach_out(_):
+        for act in (controller.image.latch, controller.image.publish):
+            with pytest.raises(PhaseError) as error:
+                act(controller.classes[0])
+            refused.append(str(error.value))
 
-    def ask(program):
-        program.level += 1
-        controller.image.command("A.level", program.level)
-
-    slow = {"a": program_of(note, level=var(INT)), "b": program_of(note), "c": program_of(note)}
     controller = make_controller(
-        task_class(1, 4, {"policy": Policy.LOG}, fast=program_of(ask, level=var(INT))),
-        task_class(2, 30, **slow),
+        task_class(1, 10, {"policy": Policy.LOG}, main=program_of(reach_out))
     )
     controller.boot()
-    controller.run_for(70 * MS)
-    first, second = seen[0], seen[3]
-    assert seen == [first] * 3 + [second] * 3
-    assert 0 < first < second
+    controller.run(cycles=1)
+    assert refused == [
+        "not allowed in RUN, only in LATCH",
+        "not allowed in RUN, only in PUBLISH",
+    ]
+
+
+def test_an_image_without_a_scan_has_no_phases():
+    calls = []
+    image = ProcessImage()
+    image.inputs.append(calls.append)
+    image.watchers.append(calls.append)
+    image.latch("class 1")
+    image.publish("class 2")
+    assert calls == ["class 1", "class 2"]
