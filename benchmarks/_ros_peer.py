@@ -1,6 +1,6 @@
 """The other side of the ROS benchmarks: a master and a node of ours in a process of its own.
 
-    python _ros_peer.py PORT talk TOPIC TYPE RATE SIZE | idle COUNT | echo TOPIC | flood TOPIC SIZE
+    python _ros_peer.py PORT talk TOPIC TYPE RATE SIZE | idle COUNT | echo TOPIC | call COUNT
 
 It runs unpaced, so that the measured side is the one that limits.
 """
@@ -11,10 +11,12 @@ import sys
 import time
 from typing import Any
 
-from crosnode.budget import UNPACED
+from crosnode.api_caller import ApiCall, ApiCaller, CallState
+from crosnode.budget import UNPACED, Budget
 from crosnode.master_server import MasterOptions, MasterServer
 from crosnode.names import node_settings
 from crosnode.node import CrosNode, NodeOptions
+from crosnode.xmlrpc import Limits
 from plcsim.context import Context
 from plcsim.memory import Memory
 from plcsim.network import OsNetwork
@@ -88,7 +90,27 @@ class Idle:
         pass
 
 
-ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle}
+class Call:
+    """Calls getBusInfo of the node ``/plc`` over so many connections, as often as it answers."""
+
+    def __init__(self, node: CrosNode, count: str) -> None:
+        core = node.core
+        self.callers = [ApiCaller(core.loop, core.hosts, Limits()) for _ in range(int(count))]
+        self.node = node
+        self.lookup: ApiCall | None = None
+
+    def step(self, now_ns: int) -> None:
+        if self.lookup is None or self.lookup.state is CallState.FAILED:
+            self.lookup = self.node.call_master("lookupNode", "/plc")
+        elif self.lookup.state is CallState.DONE:
+            for caller in self.callers:
+                if caller.is_idle:
+                    call = ApiCall(str(self.lookup.value), "getBusInfo", ["/peer"])
+                    caller.start(call, keep=True)
+                caller.step(now_ns, Budget(UNPACED))
+
+
+ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle, "call": Call}
 
 
 def main() -> None:

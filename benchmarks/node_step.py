@@ -82,6 +82,7 @@ CASES = [
     ),
     Case("50 Hz of 1 MB in", f"talk /in {BYTES} 50 1000000"),
     Case("5000 String/s in", f"talk /in {STRING} 5000 16"),
+    Case("8 nodes call getBusInfo", "call 8"),
 ]
 
 
@@ -146,7 +147,7 @@ def ordinary() -> None:
 
 
 def targets(figures: list[dict[str, Any]]) -> list[Target]:
-    _, idle, strings, large, many = figures
+    _, idle, strings, large, many, _ = figures
     return [
         Target("idle, 10 connections: median", idle["p50_ns"] / 1e3, 80, "us"),
         Target("500 String/s in and out: median", strings["p50_ns"] / 1e3, 150, "us"),

@@ -6,9 +6,9 @@ from collections import deque
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
+from crosnode.budget import CALL_WORK
 from crosnode.connection import State
 from crosnode.errors import InvalidNameError, MessageValueError
-from crosnode.tcpros import Failed
 from crosnode.xmlrpc import (
     FaultReceived,
     Limits,
@@ -115,6 +115,8 @@ class ApiCaller:
         self._hosts = hosts
         self._limits = limits
         self._channels: dict[str, _Channel] = {}
+        self._is_first = False
+        self._turn = 0
 
     @property
     def is_idle(self) -> bool:
@@ -138,16 +140,24 @@ class ApiCaller:
             oldest.fail("too many calls wait for this node")
         return call
 
+    def step_first(self, now_ns: int, budget: Budget) -> None:
+        """Go before the connections in every other step, so that these cannot use up all of it."""
+        self._is_first = not self._is_first
+        if self._is_first:
+            self.step(now_ns, budget)
+
     def step(self, now_ns: int, budget: Budget) -> None:
-        """Make connections for waiting calls, and send the next call of each connection."""
-        for uri, channel in list(self._channels.items()):
-            if channel.calls and channel.link is None and budget.calls > 0:
-                budget.calls -= 1
-                self._connect(uri, channel, now_ns)
-            elif channel.link is not None:
-                channel.advance(now_ns)
-            elif not channel.calls:
+        """Make connections for waiting calls, and send the next call of each, in turn."""
+        channels = list(self._channels.items())
+        self._turn = (self._turn + 1) % max(1, len(channels))
+        for uri, channel in channels[self._turn :] + channels[: self._turn]:
+            if channel.calls and channel.link is None:
+                if budget.start_call():
+                    self._connect(uri, channel, now_ns)
+            elif not channel.calls and channel.link is None:
                 del self._channels[uri]
+            if channel.link is not None:
+                channel.advance(now_ns, budget)
 
     def _connect(self, uri: str, channel: _Channel, now_ns: int) -> None:
         try:
@@ -158,7 +168,6 @@ class ApiCaller:
         connection = XmlRpcClientConnection(f"{address.host}:{address.port}", self._limits, now_ns)
         channel.link = self._loop.connect(address, connection, channel, now_ns, is_xmlrpc=True)
         channel.connection = connection
-        channel.advance(now_ns)
 
 
 class _Channel:
@@ -170,7 +179,7 @@ class _Channel:
         self.connection: XmlRpcClientConnection | None = None
         self.keep = False
 
-    def advance(self, now_ns: int) -> None:
+    def advance(self, now_ns: int, budget: Budget) -> None:
         """Send the next call, or close a connection that is needed no more."""
         connection = self.connection
         if connection is None or connection.state is not State.IDLE:
@@ -178,7 +187,11 @@ class _Channel:
         if not self.calls:
             if not self.keep and self.link:
                 self.link.close()
+                self.link = self.connection = None  # a later call makes another
             return
+        if not budget.affords(CALL_WORK):
+            return
+        budget.work -= CALL_WORK
         try:
             connection.call(self.calls[0].method, self.calls[0].params, now_ns)
         except MessageValueError as error:
@@ -196,9 +209,6 @@ class _Channel:
             self.calls.popleft().answer(event.value)
         elif isinstance(event, FaultReceived):
             self.calls.popleft().fail(event.text, was_answered=True)
-        elif isinstance(event, Failed):
-            return
-        self.advance(now_ns)
 
     def expects_data(self, link: Link) -> bool:
         """Whether a call waits for its answer."""
@@ -209,5 +219,6 @@ class _Channel:
 
     def ended(self, link: Link, reason: str, now_ns: int) -> None:
         """Fail what waits; an idle connection that the node closed is made again when needed."""
-        self.link = self.connection = None
-        self.fail_all(reason or "the connection was closed")
+        if link is self.link:
+            self.link = self.connection = None
+            self.fail_all(reason or "the connection was closed")

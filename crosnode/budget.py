@@ -1,8 +1,25 @@
-"""What one step of a node may do at most."""
+"""What one step of a node may do at most.
+
+Each kind of work has a bound of its own, and all of it together has one: ``work``. Its unit is the
+time that a byte of a topic takes; work that moves few bytes has a price in this unit, as measured
+at a tick of 1 ms by benchmarks/node_step.py (docs/decisions/0005-the-step-is-bounded-by-counts.md).
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
+
+MESSAGE_WORK: Final = 4_096
+"""Price of a message, a request or a reply, beside its bytes."""
+
+CONNECTION_WORK: Final = 32_768
+"""Price of a connection that is made, taken, or ended, and of its header."""
+
+CALL_WORK: Final = 49_152
+"""Price of an XML-RPC call that is sent."""
+
+XMLRPC_WORK: Final = 65_536
+"""Price of an XML-RPC call that is taken and answered, or of an answer."""
 
 
 class StepLimits(NamedTuple):
@@ -16,6 +33,7 @@ class StepLimits(NamedTuple):
         accepts: new connections taken.
         calls: connections started: to publishers, services and other nodes.
         polls: connections looked at.
+        work: all of it together, at the prices above.
     """
 
     bytes_in: int = 131_072
@@ -25,11 +43,12 @@ class StepLimits(NamedTuple):
     accepts: int = 4
     calls: int = 4
     polls: int = 32
+    work: int = 131_072
 
 
 UNPACED = StepLimits(
     bytes_in=4 << 20, bytes_out=4 << 20, bytes_parsed=1 << 20, messages=10_000, accepts=100,
-    calls=100, polls=1_000,
+    calls=100, polls=1_000, work=64 << 20,
 )  # fmt: skip
 """Limits of a node that owns its process, such as a benchmark, where a long step hurts nobody."""
 
@@ -39,15 +58,49 @@ class Budget:
 
     Args:
         limits: of the step.
+
+    Attributes:
+        is_short: whether something had to wait for the next step.
     """
 
-    __slots__ = ("accepts", "bytes_in", "bytes_out", "bytes_parsed", "calls", "messages", "polls")
+    __slots__ = (*StepLimits._fields, "_half", "is_short")
+
+    bytes_in: int
+    bytes_out: int
+    bytes_parsed: int
+    messages: int
+    accepts: int
+    calls: int
+    polls: int
+    work: int
 
     def __init__(self, limits: StepLimits) -> None:
-        self.bytes_in = limits.bytes_in
-        self.bytes_out = limits.bytes_out
-        self.bytes_parsed = limits.bytes_parsed
-        self.messages = limits.messages
-        self.accepts = limits.accepts
-        self.calls = limits.calls
-        self.polls = limits.polls
+        (self.bytes_in, self.bytes_out, self.bytes_parsed, self.messages, self.accepts,
+         self.calls, self.polls, self.work) = limits  # fmt: skip
+        self._half = limits.work // 2
+        self.is_short = False
+
+    def affords(self, price: int) -> bool:
+        """Whether work of a price may begin: it fits, or half of all work is left.
+
+        So even the dearest work has its turn in a step that begins with it.
+        """
+        if self.work >= price or self.work > self._half:
+            return True
+        self.is_short = True
+        return False
+
+    def at_most(self, size: int) -> int:
+        """Return how many of ``size`` bytes may be moved, by the work that is left."""
+        allowed = min(size, self.work)
+        if allowed <= 0:
+            self.is_short = True
+        return allowed
+
+    def start_call(self) -> bool:
+        """Take the price of starting a connection; False where it must wait."""
+        if self.calls <= 0 or not self.affords(CONNECTION_WORK):
+            return False
+        self.calls -= 1
+        self.work -= CONNECTION_WORK
+        return True

@@ -1,14 +1,14 @@
 """The bounded step that the node and the embedded master share: listeners and links, in turn.
 
 Each step goes on at the connection where the budget of the step before ended, so that no peer can
-keep the others from their turn. Budgets of what happens less often (accepts, calls) are spent
-first come, first served.
+keep the others from their turn.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
+from crosnode.budget import CONNECTION_WORK
 from crosnode.link import Link
 from crosnode.tcpip_socket import SocketPool, TcpipSocketState
 
@@ -91,7 +91,7 @@ class Listener:
         """Take waiting connections within the budget."""
         if not self.open(now_ns):
             return
-        while budget.accepts > 0:
+        while budget.accepts > 0 and budget.affords(CONNECTION_WORK):
             client = self._next
             state = self._socket.accept(client, BACKLOG)
             if state is not TcpipSocketState.DONE:
@@ -100,6 +100,7 @@ class Listener:
                 return
             self._next = self._loop.pool.get()
             budget.accepts -= 1
+            budget.work -= CONNECTION_WORK
             client.set_options()
             connection, owner, is_xmlrpc = self._acceptor.accepted(now_ns)
             self._loop.add(Link(client, connection, owner, now_ns, is_xmlrpc=is_xmlrpc))
@@ -170,14 +171,15 @@ class EventLoop:
         self._new.append(link)
 
     def step(self, now_ns: int, budget: Budget) -> None:
-        """Look at one listener, then at each link in turn while the budget lasts."""
+        """Look at one listener, then at each link in turn while the budget lasts.
+
+        The next step begins with the first link that had to wait.
+        """
         if self.listeners:
             self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
             self.listeners[self._listener_turn].step(now_ns, budget)
-        count = min(len(self.links), budget.polls)
-        for link in self._in_turn(count):
-            if not link.is_over:  # another link's event may have ended it
-                link.step(now_ns, budget)
+        budget.is_short = False
+        self._turn = self._go_round(now_ns, budget)
         if any(link.is_over for link in self.links):
             self._remove_ended()
 
@@ -188,14 +190,18 @@ class EventLoop:
             if budget.polls > 0 and not link.is_over:
                 link.step(now_ns, budget)
 
-    def _in_turn(self, count: int) -> list[Link]:
-        """Return the next links, those that were waiting longest first."""
-        links = self.links
-        if not count:
-            return []
-        start = self._turn % len(links)
-        self._turn = start + (count if count < len(links) else 1)
-        return [*links[start:], *links[:start]][:count]
+    def _go_round(self, now_ns: int, budget: Budget) -> int:
+        """Give links their turn while the budget lasts; return where the next step begins."""
+        links, count = self.links, len(self.links)
+        start = self._turn if self._turn < count else 0
+        turns = min(count, budget.polls)
+        for turn in range(start, start + turns):
+            link, work = links[turn % count], budget.work
+            if not link.is_over:  # another link's event may have ended it
+                link.step(now_ns, budget)
+            if budget.is_short:  # a link that could do nothing goes first, another goes last
+                return (turn if budget.work == work else turn + 1) % count
+        return (start + (turns if turns < count else 1)) % max(1, count)
 
     def _remove_ended(self) -> None:
         for link in self.links:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
+from crosnode.budget import CONNECTION_WORK, MESSAGE_WORK, XMLRPC_WORK
 from crosnode.connection import Failed, State
 from crosnode.dyn_buffer import DynBuffer
 from crosnode.tcpip_socket import AREA_SIZE, TcpipSocketState
@@ -140,13 +141,17 @@ class Link:
             self._handle(failed, now_ns)
         if not self.connection.wants_data:
             self._take_events(now_ns, budget)
-        elif self._turn % QUIET_TURNS == 0 or self.owner.expects_data(self):
+        if self.connection.wants_data and (
+            self._turn % QUIET_TURNS == 0 or self.owner.expects_data(self)
+        ):
             self._receive(now_ns, budget)
             if self._has_more and self.connection.wants_data:
                 self._receive(now_ns, budget)
         self._send(now_ns, budget)
         if self.connection.state is State.CLOSED and not self.is_over:
             self._finish(now_ns)
+        if self.is_over:
+            budget.work -= CONNECTION_WORK
 
     def close(self, reason: str = "") -> None:
         """End the link from this side: what waits is still written, for a while."""
@@ -177,6 +182,7 @@ class Link:
 
     def _receive(self, now_ns: int, budget: Budget) -> None:
         size = min(XMLRPC_READ, budget.bytes_parsed) if self._xmlrpc else budget.bytes_in
+        size = budget.at_most(size)
         if size <= 0:
             return
         state, data = self.socket.read_area(size)
@@ -192,16 +198,27 @@ class Link:
 
     def _count(self, received: int, budget: Budget) -> None:
         self.bytes_in += received
+        budget.work -= received
         if self._xmlrpc:
             budget.bytes_parsed -= received
         else:
             budget.bytes_in -= received
 
     def _take_events(self, now_ns: int, budget: Budget) -> None:
-        connection = self.connection
-        while budget.messages > 0 and (event := connection.next_event(now_ns)) is not None:
+        while budget.messages > 0 and budget.affords(price := self._price()):
+            event = self.connection.next_event(now_ns)
+            if event is None:
+                return
             budget.messages -= 1
+            budget.work -= price
             self._handle(event, now_ns)
+
+    def _price(self) -> int:
+        """Return the price of the next event."""
+        if self._xmlrpc:
+            return XMLRPC_WORK
+        is_new = self.connection.state is State.HANDSHAKE
+        return CONNECTION_WORK if is_new else MESSAGE_WORK
 
     def _handle(self, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
         if isinstance(event, Failed):
@@ -213,11 +230,15 @@ class Link:
             self.owner.fill(self)
         for piece in self.connection.data_to_send():
             self._outbox.push_back(piece)
-        if not self._outbox.size or budget.bytes_out <= 0:
+        if not self._outbox.size:
             return
-        state, written = self.socket.write_buffer_ex(self._outbox, budget.bytes_out)
+        size = budget.bytes_out if self._xmlrpc else budget.at_most(budget.bytes_out)
+        if size <= 0:
+            return
+        state, written = self.socket.write_buffer_ex(self._outbox, size)
         self.bytes_out += written
         budget.bytes_out -= written
+        budget.work -= 0 if self._xmlrpc else written  # in the price of the call
         if state not in (_DONE, _IN_PROGRESS):
             self.abort(f"{self.peer} is gone", now_ns)
 

@@ -82,6 +82,7 @@ class MasterServer:
     def step(self) -> None:
         """Answer calls and make those that they cause, within the budget of a step."""
         now_ns, budget = self._context.release_ns, Budget(self.options.step)
+        self._api.step_first(now_ns, budget)
         self._loop.step(now_ns, budget)
         self._api.step(now_ns, budget)
         self._loop.step_new(now_ns, budget)

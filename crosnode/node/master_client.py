@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 PING_NS: Final = 1_000_000_000
 FIRST_RETRY_NS: Final = 50_000_000
 LONGEST_RETRY_NS: Final = 1_000_000_000
+SETTLE_NS: Final = 5_000_000_000
+"""Nanoseconds that other nodes have to register with a master that was started again."""
 
 
 class Wish(Enum):
@@ -89,6 +91,13 @@ class MasterClient:
         self._ping_ns = 0
         self._pinging = False
         self._is_dirty = False
+        self._settled_ns: int | None = None
+        self._was_lost = False
+
+    @property
+    def is_settling(self) -> bool:
+        """Whether the master may not know again all that the one before it knew."""
+        return self._settled_ns is not None and self._now_ns < self._settled_ns
 
     @property
     def is_clean(self) -> bool:
@@ -180,6 +189,7 @@ class MasterClient:
             self._lost(call.error)
         elif call.state is CallState.FAILED:
             self._found()
+            self._settled_ns = self._now_ns + SETTLE_NS
             self._register_again()
         else:
             self._found()
@@ -190,6 +200,8 @@ class MasterClient:
         self._pause_ns = FIRST_RETRY_NS
         if not self.is_found:
             self.is_found = True
+            if self._was_lost:
+                self._settled_ns = self._now_ns + SETTLE_NS
             self._ping_ns = self._now_ns + PING_NS
             self._tell(StatusKind.MASTER_FOUND, self.uri)
 
@@ -197,6 +209,7 @@ class MasterClient:
         """Wait a little longer each time before the master is tried again."""
         self._register_again()
         if self.is_found:
+            self._was_lost = True
             self._tell(StatusKind.MASTER_LOST, self.uri, reason)
         elif self._now_ns < self._retry_ns:
             return  # another call of the same attempt failed

@@ -339,6 +339,7 @@ class CrosNode:
 
     def _step(self, now_ns: int, budget: Budget) -> None:
         core = self.core
+        core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)
         for publisher in self.publishers.values():
             publisher.tick(now_ns)

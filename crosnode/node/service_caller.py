@@ -142,9 +142,8 @@ class ServiceCaller:
             self._fail(str(error))
 
     def _connect(self, address: Address, now_ns: int, budget: Budget) -> None:
-        if budget.calls <= 0:
+        if not budget.start_call():
             return
-        budget.calls -= 1
         self._address = None
         self._connection = ServiceClientConnection(
             self.service,

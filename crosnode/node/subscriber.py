@@ -72,6 +72,7 @@ class Subscriber:
         self.tcp_nodelay = tcp_nodelay
         self.core = core
         self._is_overtaken = False
+        self._unlisted: list[str] = []
 
     @property
     def publishers(self) -> int:
@@ -112,17 +113,32 @@ class Subscriber:
         self.update(uris)
 
     def update(self, uris: Value) -> None:
-        """Connect to the publishers at ``uris`` and part from all others."""
+        """Connect to the publishers at ``uris`` and part from all others, in time."""
         wanted = [uri for uri in uris if isinstance(uri, str)] if isinstance(uris, list) else []
         wanted = list(dict.fromkeys(wanted))[:MAX_PUBLISHERS]
-        for uri in [uri for uri in self.peers if uri not in wanted]:
-            self.peers.pop(uri).leave()
+        self._unlisted = [uri for uri in self.peers if uri not in wanted]
         for uri in wanted:
             if uri not in self.peers:
                 self.peers[uri] = PublisherLink(self, uri)
+        self._part()
+
+    def _part(self) -> None:
+        """Part from publishers that the master does not name.
+
+        A master that has just been started again names those that have registered again; an open
+        connection to another one is kept until all had the time to.
+        """
+        is_settling = self.core.master.is_settling
+        kept = [u for u in self._unlisted if is_settling and self.peers[u].is_streaming]
+        for uri in self._unlisted:
+            if uri not in kept:
+                self.peers.pop(uri).leave()
+        self._unlisted = kept
 
     def step(self, now_ns: int, budget: Budget) -> None:
         """Go on connecting."""
+        if self._unlisted:
+            self._part()
         for peer in self.peers.values():
             if peer.link is None:
                 peer.step(now_ns, budget)
@@ -159,13 +175,13 @@ class PublisherLink:
 
     def step(self, now_ns: int, budget: Budget) -> None:
         """Ask for the address, then connect, each when it is time."""
-        if self._address is not None and budget.calls > 0:
-            budget.calls -= 1
-            self._connect(self._address, now_ns)
-            self._address = None
+        if self._address is not None:
+            if budget.start_call():
+                self._connect(self._address, now_ns)
+                self._address = None
         elif self._call is not None:
             self._take_answer(self._call, now_ns)
-        elif now_ns >= self._retry_ns and self._address is None:
+        elif now_ns >= self._retry_ns:
             core = self._subscriber.core
             params = [core.name, self._subscriber.topic, [["TCPROS"]]]
             self._call = core.api.start(ApiCall(self.uri, "requestTopic", params))

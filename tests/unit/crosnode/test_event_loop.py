@@ -2,8 +2,10 @@
 
 from itertools import pairwise
 
+from crosnode.api_caller import ApiCall, CallState
 from crosnode.budget import StepLimits
 from crosnode.tcpros.header import encode_header
+from crosnode.xmlrpc.values import dump_call
 
 from .node.world import OTHER_IP, PLC_IP, STRING, World, words
 
@@ -36,6 +38,52 @@ def test_a_flood_on_one_connection_leaves_the_others_their_turn() -> None:
     calm.send(calm.new(data="calm"))
     world.run(8)
     assert "calm" in words(subscriber.pop)
+
+
+def test_calls_of_many_nodes_at_once_are_spread_over_steps() -> None:
+    world = World()
+    node = world.node("n")
+    world.until(lambda: node.is_registered)
+    request = dump_call("getPid", ["/x"])
+    head = b"POST / HTTP/1.1\r\nHost: n\r\nContent-Length: %d\r\n\r\n" % len(request)
+    port = int(node.uri.rstrip("/").rpartition(":")[2])
+    sockets = [world.dial(PLC_IP, port) for _ in range(20)]
+    world.run(20)
+    for socket in sockets:
+        socket.send(4 * (head + request))
+    answered = []
+    for _ in range(80):
+        world.run(1)
+        answered.append(sum(socket.recv(65_536).data.count(b"HTTP/1.1 200") for socket in sockets))
+    assert sum(answered) == 80
+    assert max(answered) <= 2
+
+
+def flood(callers: int) -> tuple[int, int]:
+    """Return the calls answered and the messages received within 300 steps."""
+    world = World()
+    listener = world.node("listener")
+    subscriber = listener.register_subscriber("/x", STRING, queue_size=10_000)
+    talker = world.node("talker", OTHER_IP).register_publisher("/x", STRING, queue_size=10_000)
+    nodes = [world.node(f"caller{i}", f"192.168.1.{i + 1}") for i in range(callers)]
+    world.until(lambda: talker.subscribers and all(node.is_registered for node in nodes))
+    calls: list[ApiCall | None] = [None] * callers
+    answered = 0
+    for _ in range(300):
+        talker.send(talker.new(data="x" * 150_000))
+        for place, call in enumerate(calls):
+            if call is None or call.state is CallState.DONE:
+                answered += call is not None
+                calls[place] = nodes[place].call_node(listener.uri, "getPid")
+        world.run(1)
+    return answered, len(words(subscriber.pop))
+
+
+def test_a_flood_of_calls_leaves_a_topic_its_turn_and_the_other_way_round() -> None:
+    _, alone = flood(0)
+    answered, beside = flood(4)
+    assert beside == alone > 10
+    assert answered > 100
 
 
 def test_accepts_are_bounded() -> None:

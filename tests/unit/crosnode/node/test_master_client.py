@@ -48,6 +48,33 @@ def test_after_a_restart_all_is_registered_again_and_no_message_is_lost() -> Non
     assert {StatusKind.MASTER_FOUND, StatusKind.MASTER_LOST} <= kinds
 
 
+def test_publishers_that_register_again_late_are_kept_and_those_that_do_not_are_left() -> None:
+    world = World()
+    listener = world.node("listener")
+    subscriber = listener.register_subscriber("/x", STRING, queue_size=1000)
+    late, gone = world.node("late", OTHER_IP), world.node("gone", "192.168.0.21")
+    publishers = [node.register_publisher("/x", STRING) for node in (late, gone)]
+    world.until(lambda: subscriber.publishers == 2)
+    world.run(50)
+    for node in (late, gone):
+        world.steps.remove(node.do_events_loop)
+    world.kill_master()
+    world.restart_master()
+    world.until(lambda: listener.is_registered and subscriber._unlisted)
+    world.run(1_000)
+    world.steps.append(late.do_events_loop)
+    world.until(lambda: late.is_registered)
+    publishers[0].send(publishers[0].new(data="still here"))
+    world.run(20)
+    assert words(subscriber.pop) == ["still here"]
+    assert subscriber.publishers == 2
+    world.run(6_000)
+    assert list(subscriber.peers) == [late.uri]
+    assert subscriber.peers[late.uri].received == 1
+    kinds = [status.kind for status in drain(listener.pop_status) if status.name == "/x"]
+    assert kinds.count(StatusKind.CONNECTED) == 2  # nobody was connected to again
+
+
 def test_a_master_that_forgot_all_while_the_connection_stayed_is_told_again() -> None:
     world = World()
     node = world.node("n")

@@ -144,7 +144,7 @@ def test_too_many_waiting_requests_are_refused() -> None:
         for _ in range(3)
     ]
     answers = [world.receive(socket, 20) for socket in sockets]
-    assert [b"too many requests wait" in answer for answer in answers] == [False, False, True]
+    assert [b"too many requests wait" in answer for answer in answers].count(True) == 1
     assert provider.requests == 3
 
 
