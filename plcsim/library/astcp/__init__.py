@@ -8,10 +8,6 @@ chosen; table [library.AsTCP] of plc.toml changes it.
 from plcsim.library.astcp.client import TcpClient
 from plcsim.library.astcp.close import TcpClose
 from plcsim.library.astcp.constants import (
-    ERR_FUB_BUSY,
-    ERR_FUB_ENABLE_FALSE,
-    ERR_NOTIMPLEMENTED,
-    ERR_OK,
     tcpERR_ALREADY_CONNECTED,
     tcpERR_ALREADY_EXIST,
     tcpERR_INTERFACE,
@@ -69,6 +65,7 @@ from plcsim.library.astcp.open import TcpOpen, TcpOpenSsl
 from plcsim.library.astcp.server import TcpServer
 from plcsim.library.astcp.structs import tcpLINGER_typ, tcpSO_ADDRESS_typ
 from plcsim.library.astcp.transfer import TcpRecv, TcpSend
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE, ERR_NOTIMPLEMENTED, ERR_OK
 
 __all__ = [
     "ERR_FUB_BUSY",

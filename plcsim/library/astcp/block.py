@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from plcsim.function_block import FunctionBlock
-from plcsim.library.astcp.constants import (
-    ERR_FUB_BUSY,
-    ERR_FUB_ENABLE_FALSE,
-    tcpERR_INVALID_IDENT,
-)
+from plcsim.library.astcp.constants import tcpERR_INVALID_IDENT
 from plcsim.library.astcp.idents import IdentTable
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE
 
 IDLE = 0
 BUSY = 1

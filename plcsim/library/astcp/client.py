@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.library.astcp.block import BUSY, AsTcpBlock
 from plcsim.library.astcp.constants import (
-    ERR_FUB_BUSY,
-    ERR_OK,
     tcpERR_ALREADY_CONNECTED,
     tcpERR_INVALID,
     tcpERR_PARAMETER,
     tcpERR_SYSTEM,
 )
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_OK
 from plcsim.network.protocol import Address, Outcome
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plcsim.library.astcp.block import AsTcpBlock
-from plcsim.library.astcp.constants import ERR_OK, tcpERR_PARAMETER, tcpSHUT_RD, tcpSHUT_WR
+from plcsim.library.astcp.constants import tcpERR_PARAMETER, tcpSHUT_RD, tcpSHUT_WR
+from plcsim.library.runtime import ERR_OK
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:

@@ -1,16 +1,10 @@
-"""Constants of library AsTCP (``AsTCP.var``), and those of library runtime that go with them."""
+"""Constants of library AsTCP (``AsTCP.var``)."""
 
 # ruff: noqa: N816  # the constants have the controller's names
 
 from __future__ import annotations
 
 from typing import Final
-
-# Library runtime: statuses of all asynchronous function blocks.
-ERR_OK: Final = 0
-ERR_NOTIMPLEMENTED: Final = 9999
-ERR_FUB_ENABLE_FALSE: Final = 65534
-ERR_FUB_BUSY: Final = 65535
 
 # Statuses.
 tcpERR_INVALID_IDENT: Final = 32600

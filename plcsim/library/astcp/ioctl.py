@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.astcp import constants as c
 from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
+from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import Option, Outcome
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
@@ -40,7 +41,7 @@ class _Ioctl(NamedTuple):
 
 def _set_status(outcome: Outcome) -> int:
     if outcome is Outcome.OK:
-        return c.ERR_OK
+        return ERR_OK
     return c.tcpERR_PARAMETER if outcome is Outcome.INVALID else c.tcpERR_SYSTEM
 
 
@@ -53,7 +54,7 @@ def _get_option(option: Option, endpoint: Endpoint, _data: bytes, _memory: Memor
     outcome, value = endpoint.socket.option(option)
     if outcome is not Outcome.OK:
         return _Answer(c.tcpERR_SYSTEM)
-    return _Answer(c.ERR_OK, _UDINT.pack(value))
+    return _Answer(ERR_OK, _UDINT.pack(value))
 
 
 def _set_linger(endpoint: Endpoint, data: bytes, _memory: Memory) -> _Answer:
@@ -63,16 +64,16 @@ def _set_linger(endpoint: Endpoint, data: bytes, _memory: Memory) -> _Answer:
 
 def _get_linger(endpoint: Endpoint, _data: bytes, _memory: Memory) -> _Answer:
     seconds = endpoint.socket.linger()
-    return _Answer(c.ERR_OK, _PAIR.pack(seconds is not None, seconds or 0))
+    return _Answer(ERR_OK, _PAIR.pack(seconds is not None, seconds or 0))
 
 
 def _set_no_waiting(endpoint: Endpoint, data: bytes, _memory: Memory) -> _Answer:
     endpoint.no_waiting = any(data)
-    return _Answer(c.ERR_OK)
+    return _Answer(ERR_OK)
 
 
 def _get_no_waiting(endpoint: Endpoint, _data: bytes, _memory: Memory) -> _Answer:
-    return _Answer(c.ERR_OK, _UDINT.pack(endpoint.no_waiting))
+    return _Answer(ERR_OK, _UDINT.pack(endpoint.no_waiting))
 
 
 def _get_address(endpoint: Endpoint, data: bytes, memory: Memory) -> _Answer:
@@ -86,7 +87,7 @@ def _get_address(endpoint: Endpoint, data: bytes, memory: Memory) -> _Answer:
         memory.write(port_at, _UINT.pack(local.port))
     if ip_at:
         memory.write(ip_at, ip_string(local.ip))
-    return _Answer(c.ERR_OK, data)
+    return _Answer(ERR_OK, data)
 
 
 _OPTIONS: Final = {
@@ -166,9 +167,9 @@ class TcpIoctl(AsTcpBlock):
             return c.tcpERR_PARAMETER
         self.context.memory.check(self.pData, self.datalen)
         stored = idents[: self.datalen // _UDINT.size]
-        return self._store(_Answer(c.ERR_OK, b"".join(_UDINT.pack(ident) for ident in stored)))
+        return self._store(_Answer(ERR_OK, b"".join(_UDINT.pack(ident) for ident in stored)))
 
     def _store_max(self, most: int) -> int:
         if not self.pData or self.datalen != _UDINT.size:
             return c.tcpERR_PARAMETER
-        return self._store(_Answer(c.ERR_OK, _UDINT.pack(most)))
+        return self._store(_Answer(ERR_OK, _UDINT.pack(most)))

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.library.astcp.block import AsTcpBlock
 from plcsim.library.astcp.constants import (
-    ERR_NOTIMPLEMENTED,
-    ERR_OK,
     tcpERR_ALREADY_EXIST,
     tcpERR_INTERFACE,
     tcpERR_NOMORE_IDENTS,
@@ -20,6 +18,7 @@ from plcsim.library.astcp.constants import (
     tcpINVALID_IDENT,
     tcpOPT_REUSEADDR,
 )
+from plcsim.library.runtime import ERR_NOTIMPLEMENTED, ERR_OK
 from plcsim.network.protocol import Outcome
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 

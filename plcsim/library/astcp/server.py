@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
 from plcsim.library.astcp.constants import (
-    ERR_FUB_BUSY,
-    ERR_OK,
     tcpERR_ALREADY_CONNECTED,
     tcpERR_NOCLIENT,
     tcpERR_NOMORE_IDENTS,
     tcpERR_SOCKET_ACCEPT,
     tcpERR_SOCKET_LISTEN,
 )
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_OK
 from plcsim.network.protocol import Outcome
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.library.astcp.block import AsTcpBlock
 from plcsim.library.astcp.constants import (
-    ERR_OK,
     tcpERR_NO_DATA,
     tcpERR_NO_OOBDATA,
     tcpERR_NOT_CONNECTED,
@@ -20,6 +19,7 @@ from plcsim.library.astcp.constants import (
     tcpMSG_OOB,
     tcpMSG_PEEK,
 )
+from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import MAX_BUFFER, Outcome
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
