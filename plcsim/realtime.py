@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
+import re
 import resource
 from pathlib import Path
 from typing import NamedTuple
@@ -18,6 +19,9 @@ from plcsim import garbage
 
 _MCL_CURRENT, _MCL_FUTURE = 1, 2
 _PR_SET_PDEATHSIG, _PR_SET_TIMERSLACK = 1, 29
+_CAP_IPC_LOCK = 14
+
+PROCESS_STATUS = Path("/proc/self/status")
 
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -62,7 +66,9 @@ def acquire(priority: int, cpu: int | None) -> Rights:
     refused: list[str] = []
     sharpen_timers()
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(priority))
+        # What a program starts (a thread, a process) must not hold the scan up as its equal.
+        policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
+        os.sched_setscheduler(0, policy, os.sched_param(priority))
         granted.append(f"SCHED_FIFO {priority}")
     except OSError as err:
         refused.append(f"SCHED_FIFO: {err.strerror}")
@@ -88,14 +94,24 @@ def scan_cpu(cpu: int | None) -> int | None:
 
 
 def _lock_memory(granted: list[str], refused: list[str]) -> None:
-    """Lock all pages; only where no limit could make a later allocation fail."""
+    """Lock all pages; only where no limit could make a later allocation fail (mlock(2))."""
     limit = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0]
-    if os.geteuid() != 0 and limit != resource.RLIM_INFINITY:
+    if limit != resource.RLIM_INFINITY and not _has_capability(_CAP_IPC_LOCK):
         refused.append(f"locked memory: the limit is {limit // 1024} KiB")
     elif _libc.mlockall(_MCL_CURRENT | _MCL_FUTURE) == 0:
         granted.append("locked memory")
     else:
         refused.append(f"locked memory: {os.strerror(ctypes.get_errno())}")
+
+
+def _has_capability(number: int) -> bool:
+    """Return True where a capability is in effect, False where the kernel does not say."""
+    try:
+        status = PROCESS_STATUS.read_text("utf-8", "replace")
+    except OSError:
+        return False
+    effective = re.search(r"^CapEff:\s*([0-9a-f]+)$", status, re.MULTILINE)
+    return effective is not None and bool(int(effective[1], 16) >> number & 1)
 
 
 def _stay_awake(granted: list[str], refused: list[str]) -> None:

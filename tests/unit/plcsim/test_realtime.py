@@ -36,7 +36,7 @@ def test_what_is_given_is_said(scheduler):
     rights = realtime.acquire(50, None)
     assert rights == Rights(("SCHED_FIFO 50", "CPU 2", "memory", "awake"), ())
     assert rights.complete
-    assert scheduler[0][:2] == (0, os.SCHED_FIFO)
+    assert scheduler[0][:2] == (0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK)
     assert scheduler[0][2].sched_priority == 50
     assert scheduler[1] == (0, {2})
 
@@ -69,12 +69,36 @@ def test_the_scan_takes_the_last_of_several_processors(monkeypatch):
     assert realtime.scan_cpu(None) is None
 
 
-def test_a_limit_on_locked_memory_is_respected(monkeypatch):
-    monkeypatch.setattr(os, "geteuid", lambda: 1000)
-    monkeypatch.setattr(resource, "getrlimit", lambda _: (65536, 65536))
-    granted, refused = [], []
-    realtime._lock_memory(granted, refused)
-    assert (granted, refused) == ([], ["locked memory: the limit is 64 KiB"])
+class Libc:
+    """A kernel that locks whatever it is asked to."""
+
+    @staticmethod
+    def mlockall(_flags):
+        return 0
+
+
+@pytest.mark.parametrize(
+    ("limit", "status", "granted"),
+    [
+        (65536, "Name:\tpython\nCapEff:\t0000000000800000\n", False),  # CAP_SYS_NICE alone
+        (65536, "Name:\tpython\nCapEff:\t0000000000804000\n", True),  # and CAP_IPC_LOCK
+        (65536, "Name:\tpython\n", False),
+        (65536, None, False),
+        (resource.RLIM_INFINITY, "CapEff:\t0000000000000000\n", True),
+    ],
+)
+def test_memory_is_locked_only_where_no_limit_stops_a_later_allocation(
+    monkeypatch, tmp_path, limit, status, granted
+):
+    monkeypatch.setattr(realtime, "PROCESS_STATUS", tmp_path / "status")
+    monkeypatch.setattr(realtime, "_libc", Libc)
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
+    if status is not None:
+        (tmp_path / "status").write_text(status)
+    given, refused = [], []
+    realtime._lock_memory(given, refused)
+    assert given == ["locked memory"] * granted
+    assert refused == ["locked memory: the limit is 64 KiB"] * (not granted)
 
 
 @pytest.mark.skipif(len(CPUS) < 2, reason="needs two processors")
