@@ -10,6 +10,7 @@ import contextlib
 import hashlib
 import json
 import os
+import stat
 import tempfile
 from pathlib import Path
 from typing import NamedTuple
@@ -45,13 +46,14 @@ def _folder() -> Path:
     """Return the user's folder of run files, made if need be.
 
     Raises:
-        PlcError: the folder belongs to somebody else.
+        PlcError: the folder belongs to somebody else, or something else has its name.
     """
     base = os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir()
     folder = Path(base) / f"plcsim-{os.getuid()}"
     folder.mkdir(mode=0o700, exist_ok=True)
-    if folder.stat().st_uid != os.getuid():
-        raise PlcError(f"{folder} belongs to another user")
+    found = folder.lstat()  # in a folder that all may write to, anybody may leave a link
+    if found.st_uid != os.getuid() or not stat.S_ISDIR(found.st_mode):
+        raise PlcError(f"{folder} belongs to another user or is no folder")
     return folder
 
 

@@ -61,3 +61,14 @@ def test_a_damaged_file_is_no_run(tmp_path: Path, runtime_folder: Path, text: st
 def test_the_folder_is_for_its_user_only(tmp_path: Path, runtime_folder: Path) -> None:
     announce(tmp_path, own_run())
     assert runtime_folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_a_link_in_the_place_of_the_folder_is_not_followed(
+    tmp_path: Path, runtime_folder: Path
+) -> None:
+    home = tmp_path / "home"
+    home.mkdir()
+    runtime_folder.symlink_to(home)
+    with pytest.raises(PlcError, match="is no folder"):
+        announce(tmp_path, own_run())
+    assert list(home.iterdir()) == []
