@@ -57,8 +57,12 @@ class Context:
         return tuple(self._libraries.values())
 
     def restart(self) -> None:
-        """Forget the states of all libraries; those with a ``close`` method are closed first."""
+        """Forget the states of all libraries; those with a ``close`` method are closed first.
+
+        The last violation is forgotten too.
+        """
         for state in self.libraries():
             if hasattr(state, "close"):
                 state.close()
         self._libraries.clear()
+        self.violation = None

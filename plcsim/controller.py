@@ -164,6 +164,9 @@ class Controller:
 
         Returns:
             RUN, or SERVICE where an INIT failed.
+
+        Raises:
+            StateError: the controller runs; call `shutdown` first.
         """
         if self.state is not State.BOOT:
             self._enter(Event.RESTART)
@@ -266,13 +269,13 @@ class Controller:
         self._program_failed(task, Unit.CYCLIC, error)
 
     def violated(self, violation: Violation, policy: Policy) -> None:
-        """Log a violation and do what the policy says."""
+        """Log a violation and do what the policy says; after a fault no program runs any more."""
         self.violations = [*self.violations[1 - VIOLATIONS_KEPT :], violation]
         severity = Severity.ERROR if policy is Policy.SERVICE else Severity.WARNING
         self.log(severity, f"task class {violation.task_class}", describe_violation(violation))
         if policy is Policy.SERVICE:
             self._go_to_service(violation)
-        elif policy is Policy.EXCEPTION and self._exception_task is not None:
+        elif policy is Policy.EXCEPTION and self._exception_task and self.state is State.RUN:
             self.context.violation = violation
             self.scan.run_exception_program(self._exception_task)
 

@@ -6,6 +6,7 @@
     ├── ConfigurationError           plc.toml or a project folder is wrong; names file and field
     ├── PageFault                    an address that no variable lies at
     ├── PhaseError                   an act in a phase of the scan that does not allow it
+    ├── StateError                   an act in a system state that does not allow it
     ├── TagError                     no such tag, or a value it cannot take
     └── ProgramError                 what a program raised, with program, unit, file and line
 
@@ -40,6 +41,10 @@ class PageFault(PlcError):  # noqa: N818  # the field's term
 
 class PhaseError(PlcError):
     """An act that the current phase of the scan does not allow."""
+
+
+class StateError(PlcError):
+    """An act that the system state of the controller does not allow."""
 
 
 class TagError(PlcError):

@@ -91,6 +91,9 @@ class Scan:
         supervisor: Supervisor,
         place_of: Callable[[BaseException], str],
     ) -> None:
+        numbers = sorted(c.number for c in classes)
+        if not numbers or len(set(numbers)) < len(numbers):
+            raise ValueError(f"task classes {numbers}: at least one, each number once")
         self.classes = sorted(classes, key=lambda c: c.number)
         self.phase = Phase.SLEEP
         self.in_cycle: list[TaskClass] = []

@@ -9,6 +9,8 @@ from __future__ import annotations
 from enum import Enum
 from typing import Final
 
+from plcsim.errors import StateError
+
 
 class State(Enum):
     """What the controller is doing; values go into the status page."""
@@ -34,7 +36,7 @@ TRANSITIONS: Final[dict[State, dict[Event, State]]] = {
     State.SERVICE: {Event.RESTART: State.BOOT},
     State.STOPPED: {Event.FAULT: State.SERVICE, Event.RESTART: State.BOOT},
 }
-"""Every transition; what is not in the table is a fault of plcsim and raises KeyError.
+"""Every transition.
 
 SERVICE has no STOP, so that the way a run ended is not lost. An EXIT that fails after STOP leads to
 SERVICE too.
@@ -42,5 +44,11 @@ SERVICE too.
 
 
 def next_state(state: State, event: Event) -> State:
-    """Return the state that follows."""
+    """Return the state that follows.
+
+    Raises:
+        StateError: the event cannot happen in this state.
+    """
+    if event not in TRANSITIONS[state]:
+        raise StateError(f"not possible in state {state.name}: {event.value}")
     return TRANSITIONS[state][event]

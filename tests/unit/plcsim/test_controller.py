@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.controller import VIOLATIONS_KEPT
-from plcsim.errors import CycleTimeViolation, ProgramError
+from plcsim.errors import CycleTimeViolation, ProgramError, StateError
 from plcsim.logbook import Severity
 from plcsim.system import State
 from plcsim.task import Cause, Policy, Violation
@@ -251,6 +251,29 @@ def test_the_first_fault_is_the_one_that_counts(make_controller, task_class, not
     assert len(texts(controller)) == 2
 
 
+def test_after_a_fault_not_even_the_exception_program_runs(
+    make_controller, task_class, noting, calls, clock
+):
+    def late_and_wrong(_):
+        clock.spend_ns(11 * MS)
+        raise ValueError("no")
+
+    controller = make_controller(
+        task_class(1, 10, {"policy": Policy.EXCEPTION}, p=noting("p", cyclic=late_and_wrong)),
+        exception_program=noting("x"),
+    )
+    controller.boot()
+    assert controller.run(cycles=1) is State.SERVICE
+    assert len(controller.violations) == 1
+    assert ("x", "cyclic") not in calls
+
+
+@pytest.mark.parametrize("numbers", [(), (2, 2)])
+def test_task_classes_have_numbers_of_their_own(make_controller, task_class, noting, numbers):
+    with pytest.raises(ValueError, match="at least one, each number once"):
+        make_controller(*(task_class(number, 10, p=noting("p")) for number in numbers))
+
+
 def test_only_a_running_program_can_be_ended(make_controller, task_class, program_of):
     controller = make_controller(task_class(1, 10, p=program_of()))
     controller.boot()
@@ -314,6 +337,32 @@ def test_a_restart_starts_a_new_grid(make_controller, task_class, program_of, cl
     controller.run(cycles=1)
     assert seen[1] == restarted_ns + 5 * MS
     assert controller.classes[0].missed == 0
+
+
+def test_a_controller_that_runs_cannot_be_booted(make_controller, task_class, noting, calls):
+    controller = make_controller(task_class(1, 10, p=noting("p")))
+    controller.boot()
+    with pytest.raises(StateError, match="not possible in state RUN: somebody asked for a restart"):
+        controller.boot()
+    assert controller.state is State.RUN
+    assert calls == [("p", "init")]
+
+
+def test_a_restart_forgets_the_last_violation(make_controller, task_class, program_of, clock):
+    seen = []
+    slow = program_of(lambda _: clock.spend_ns(11 * MS))
+    record = program_of(
+        lambda program: seen.append(program.context.violation),
+        init=lambda program: seen.append(program.context.violation),
+    )
+    controller = make_controller(
+        task_class(1, 10, {"policy": Policy.EXCEPTION}, p=slow), exception_program=record
+    )
+    controller.boot()
+    controller.run(cycles=1)
+    controller.shutdown()
+    controller.boot()
+    assert [violation is None for violation in seen] == [True, False, True]
 
 
 def test_the_logbook_goes_on_over_a_restart(make_controller, task_class, program_of):

@@ -2,22 +2,18 @@
 
 import pytest
 
-from plcsim.errors import PhaseError
 from plcsim.image import ProcessImage
-from plcsim.task import Policy
-from st_types import BOOL, INT, UINT, var
-
-MS = 1_000_000
+from st_types import BOOL, UINT, var
 
 
 @pytest.fixture
 def controller(make_controller, task_class, program_of):
-    """One program that counts its cycles and has two inputs."""
+    """One program that counts its cycles and has an input."""
 
     def cyclic(program):
         program.cycles += 1
 
-    program = program_of(cyclic, cycles=var(UINT), speed=var(INT), on=var(BOOL))
+    program = program_of(cyclic, cycles=var(UINT), on=var(BOOL))
     controller = make_controller(task_class(1, 10, main=program))
     controller.boot()
     return controller
@@ -44,28 +40,6 @@ def test_what_was_entered_first_is_called_first(controller):
         controller.image.watchers.append(lambda _, name=name: calls.append(("out", name)))
     controller.run(cycles=1)
     assert calls == [("in", "first"), ("in", "second"), ("out", "first"), ("out", "second")]
-
-
-def test_inputs_stand_still_in_run_and_are_not_published_from_there(
-    make_controller, task_class, program_of
-):
-    refused = []
-
-    def reach_out(_):
-        for act in (controller.image.latch, controller.image.publish):
-            with pytest.raises(PhaseError) as error:
-                act(controller.classes[0])
-            refused.append(str(error.value))
-
-    controller = make_controller(
-        task_class(1, 10, {"policy": Policy.LOG}, main=program_of(reach_out))
-    )
-    controller.boot()
-    controller.run(cycles=1)
-    assert refused == [
-        "not allowed in RUN, only in LATCH",
-        "not allowed in RUN, only in PUBLISH",
-    ]
 
 
 def test_an_image_without_a_scan_has_no_phases():

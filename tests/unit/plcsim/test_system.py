@@ -2,6 +2,7 @@
 
 import pytest
 
+from plcsim.errors import StateError
 from plcsim.system import TRANSITIONS, Event, State, next_state
 
 
@@ -29,6 +30,6 @@ def test_every_state_has_its_row_and_service_is_left_by_a_restart_only():
     assert TRANSITIONS[State.SERVICE].keys() == {Event.RESTART}
 
 
-def test_an_event_that_is_not_in_the_table_is_a_fault_of_ours():
-    with pytest.raises(KeyError):
+def test_an_event_that_is_not_in_the_table_is_refused_by_name():
+    with pytest.raises(StateError, match="not possible in state SERVICE: somebody asked to stop"):
         next_state(State.SERVICE, Event.STOP)
