@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.errors import TagError
 from plcsim.testing.values import leaves_of
+from st_types.errors import ValueRangeError
+from st_types.values import encode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -71,10 +73,11 @@ class Tags:
         Raises:
             TagError: there is no such tag, or it cannot take the value.
         """
+        tag = self.find(path)
         try:
-            return self._table.encode(self.find(path), value)
-        except TagError as err:
-            raise TagError(str(err)) from None
+            return encode(tag.data_type, value)
+        except ValueRangeError as err:
+            raise TagError(f"tag {tag.path}: {err}") from None
 
     def store(self, path: str, data: bytes) -> None:
         """Store bytes made by `encode`."""
