@@ -271,7 +271,8 @@ def show_soak(found: dict[str, Any]) -> None:
         one = found[name]
         print(
             f"{name}: {one['requests']:,} requests, "
-            f"exceptions by code {one['exceptions'] or 'none'}, {one['hung']} hung, p50 {one['p50_us']} us, p99 {one['p99_us']} us"
+            f"exceptions by code {one['exceptions'] or 'none'}, {one['hung']} hung, "
+            f"p50 {one['p50_us']} us, p99 {one['p99_us']} us"
         )
     late = found["lateness_ns"]
     print(

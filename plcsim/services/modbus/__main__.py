@@ -9,10 +9,11 @@ from __future__ import annotations
 import asyncio
 import importlib
 import json
+import resource
 import signal
 import sys
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim import realtime
 from plcsim.errors import PlcError
@@ -28,6 +29,9 @@ from plcsim.tagmap.status_block import ControllerStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+SPARE_DESCRIPTORS: Final = 64
+"""For everything but connections."""
 
 
 def main() -> int:
@@ -63,6 +67,7 @@ async def _serve(order: ServiceOrder) -> int:
         Identity(revision=version("plcsim"), project=image.directory.project),
         _status_reader(order, given["first_class"], image.layout_hash),
     )
+    _allow_descriptors(settings.connections + SPARE_DESCRIPTORS)
     stopped = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
@@ -78,6 +83,14 @@ async def _serve(order: ServiceOrder) -> int:
         await stopped.wait()
         await server.stop()
     return 0
+
+
+def _allow_descriptors(wanted: int) -> None:
+    """Raise the limit of this process; beyond the system's, connections wait for free ones."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if soft < wanted:
+        most = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
 
 
 def _status_reader(

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from plcsim.errors import ConfigurationError
 from plcsim.services.modbus.connection import Connection, Limits, WriteRecord
 from plcsim.services.modbus.handler import Handler, Rights
-from plcsim.services.modbus.tls import rights_of, role_of, server_context
+from plcsim.services.modbus.listener import Listener
+from plcsim.services.modbus.tls import rights_of, role_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,10 +29,6 @@ TICK_S: Final = 0.05
 
 HIGH_WATER: Final = 64 * 1024
 """Bytes of answers a peer may leave unread before its requests wait too."""
-
-BACKLOG: Final = 128
-HANDSHAKE_S: Final = 10.0
-"""A peer has this long to finish the handshake of TLS."""
 
 
 class Server:
@@ -68,7 +65,7 @@ class Server:
         self.peers: set[_Peer] = set()
         self._audit = audit
         self._networks = [ipaddress.ip_network(network) for network in settings.allow]
-        self._server: asyncio.Server | None = None
+        self._listener: Listener | None = None
         self._ticker: asyncio.TimerHandle | None = None
         self._wake_fd = -1
 
@@ -81,22 +78,14 @@ class Server:
         Raises:
             ConfigurationError: the address cannot be listened on, or TLS is not set up.
         """
-        tls = server_context(self.settings.tls) if self.settings.tls else None
         loop = asyncio.get_running_loop()
         host, port = self.settings.host, self.settings.port
         try:
-            self._server = await loop.create_server(
-                lambda: _Peer(self),
-                host,
-                port,
-                ssl=tls,
-                ssl_handshake_timeout=HANDSHAKE_S if tls else None,
-                backlog=BACKLOG,
-            )
-            loop.set_exception_handler(self._report)
+            self._listener = Listener(host, port, self.settings.tls, self._admit, self.faulty)
         except OSError as err:
             raise ConfigurationError(f"modbus: cannot listen on {host}:{port}: {err}") from None
-        self.port = self._server.sockets[0].getsockname()[1]
+        loop.set_exception_handler(self._report)
+        self.port = self._listener.port
         if wake_fd >= 0:
             self._wake_fd = wake_fd
             loop.add_reader(wake_fd, self._woken)
@@ -112,12 +101,12 @@ class Server:
             peer.pump()
 
     def _tick(self) -> None:
+        self._ticker = asyncio.get_running_loop().call_later(TICK_S, self._tick)
         now_ns = self.now_ns()
         self.device.tick(now_ns)
         self._pump_waiting()
         for peer in list(self.peers):
             peer.check_idle(now_ns)
-        self._ticker = asyncio.get_running_loop().call_later(TICK_S, self._tick)
 
     async def stop(self) -> None:
         """Close all connections and stop listening."""
@@ -125,8 +114,8 @@ class Server:
             self._ticker.cancel()
         if self._wake_fd >= 0:
             asyncio.get_running_loop().remove_reader(self._wake_fd)
-        if self._server is not None:
-            self._server.close()
+        if self._listener is not None:
+            self._listener.close()
         for peer in list(self.peers):
             peer.abort()
         await asyncio.sleep(0)
@@ -136,10 +125,19 @@ class Server:
         address = ipaddress.ip_address(host.partition("%")[0])
         mapped = getattr(address, "ipv4_mapped", None)
         known = not self._networks or any((mapped or address) in n for n in self._networks)
-        if known and len(self.peers) < self.settings.connections:
+        if known and len(self.peers) + self._entering < self.settings.connections:
             return True
         self.refused += 1
         return False
+
+    @property
+    def _entering(self) -> int:
+        """Connections that are being made; with TLS that may take a while."""
+        entering = self._listener.entering if self._listener else {}
+        return sum(protocol not in self.peers for protocol in entering)
+
+    def _admit(self, host: str, port: int) -> _Peer | None:
+        return _Peer(self, f"{host}:{port}") if self.admits(host) else None
 
     def rights_of(self, role: str) -> Rights:
         """Return what a peer may do."""
@@ -169,30 +167,25 @@ class _Peer(asyncio.Protocol):
     connection: Connection
     _transport: asyncio.Transport
 
-    def __init__(self, server: Server) -> None:
+    def __init__(self, server: Server, name: str) -> None:
+        self.name = name
         self._server = server
-        self._name = ""
         self._is_blocked = False
         self._is_paused = False
         self._is_scheduled = False
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Refuse the peer, or get ready for its requests."""
+        """Get ready for requests."""
         self._transport = cast("asyncio.Transport", transport)
-        server = self._server
-        address = transport.get_extra_info("peername") or ("0.0.0.0", 0)  # noqa: S104  # gone already
-        self._name = f"{address[0]}:{address[1]}"
-        if not server.admits(address[0]):
-            self._transport.abort()
-            return
-        role = _role(transport) if server.settings.tls and server.settings.tls.roles else ""
         self._transport.set_write_buffer_limits(HIGH_WATER)
+        server = self._server
+        role = _role(transport) if server.settings.tls and server.settings.tls.roles else ""
         self.connection = Connection(
             Handler(server.device, server.rights_of(role)),
             server.device,
             server.limits,
             server.now_ns(),
-            lambda record: server.audited(self._name, role, record),
+            lambda record: server.audited(self.name, role, record),
         )
         server.peers.add(self)
 
@@ -202,9 +195,8 @@ class _Peer(asyncio.Protocol):
 
     def data_received(self, data: bytes) -> None:
         """Execute what has come."""
-        if self in self._server.peers:
-            self.connection.receive(data)
-            self.pump()
+        self.connection.receive(data)
+        self.pump()
 
     def pause_writing(self) -> None:
         """Let requests wait while the peer does not read its answers."""
@@ -225,7 +217,7 @@ class _Peer(asyncio.Protocol):
             if answers:
                 self._transport.write(answers)
             if connection.fault:
-                self._server.faulty(self._name, connection.fault)
+                self._server.faulty(self.name, connection.fault)
                 self._transport.close()
                 return
             if connection.has_more and not self._is_scheduled:

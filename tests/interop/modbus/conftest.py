@@ -1,5 +1,6 @@
 """programs/tank as a user runs it, on a port of its own, for every client here."""
 
+import json
 import re
 import shutil
 import signal
@@ -9,6 +10,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -32,7 +34,9 @@ class Running:
         text, changes = re.subn(r"^port = \d+", f"port = {self.port}", file.read_text(), flags=re.M)
         assert changes == 1
         file.write_text(text)
-        command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet", str(folder)]
+        self._report = folder / "report.json"
+        command = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet",
+                   "--report", str(self._report), str(folder)]  # fmt: skip
         self._process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
         self._wait()
 
@@ -50,6 +54,21 @@ class Running:
                 pass
             time.sleep(0.05)
         raise AssertionError("programs/tank does not serve")
+
+    @property
+    def service_pid(self) -> int:
+        """The process that serves Modbus."""
+        found = subprocess.run(
+            ["ps", "--ppid", str(self._process.pid), "-o", "pid=,args="],
+            capture_output=True, text=True, check=True,
+        )  # fmt: skip
+        (line,) = [line for line in found.stdout.splitlines() if "services.modbus" in line]
+        return int(line.split()[0])
+
+    def report(self) -> dict[str, Any]:
+        """Return the report of the run, after `stop`."""
+        found: dict[str, Any] = json.loads(self._report.read_text())
+        return found
 
     def stop(self) -> int:
         self._process.send_signal(signal.SIGINT)

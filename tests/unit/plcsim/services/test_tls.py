@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.errors import ConfigurationError
-from plcsim.services.modbus import tls
+from plcsim.services.modbus import listener, tls
 from plcsim.services.modbus.audit import AuditLog
 from plcsim.services.modbus.server import Server
 from plcsim.services.modbus.tls import ROLE_OID, rights_of, role_of, server_context
@@ -165,3 +165,50 @@ def test_no_certificate_has_no_role_and_unknown_roles_no_rights() -> None:
     assert role_of(None) == ""
     assert rights_of("", {}) == tls.RIGHTS["rw"]
     assert rights_of("", ROLES) == tls.RIGHTS["none"]
+
+
+def test_a_handshake_that_never_ends_takes_a_place_for_a_while_only(
+    authority: Authority, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listener, "HANDSHAKE_S", 0.5)
+    world, own = World(), authority.issue("client")
+    modbus = ModbusSettings(port=0, tls=settings_of(authority, {}), connections=3)
+
+    async def run() -> None:
+        server = Server(world.server.device, modbus, AuditLog(""))
+        await server.start()
+        silent = [await asyncio.open_connection("127.0.0.1", server.port) for _ in range(3)]
+        with pytest.raises((ssl.SSLError, ConnectionError)):  # the places are taken
+            await asyncio.open_connection(
+                "127.0.0.1", server.port, ssl=client_context(authority, own)
+            )
+        assert server.refused == 1
+        for reader, writer in silent:
+            assert await asyncio.wait_for(reader.read(), 5) == b""
+            writer.close()
+        reader, writer = await asyncio.open_connection(
+            "127.0.0.1", server.port, ssl=client_context(authority, own)
+        )
+        writer.write(frame(bytes.fromhex("0800000001")))
+        assert (await asyncio.wait_for(reader.readexactly(9), 5))[7] == 8
+        writer.close()
+        await server.stop()
+
+    asyncio.run(run())
+
+
+def test_a_peer_outside_the_allowed_networks_gets_no_handshake(authority: Authority) -> None:
+    world = World()
+    modbus = ModbusSettings(port=0, tls=settings_of(authority, {}), allow=("10.0.0.0/8",))
+
+    async def run() -> None:
+        server = Server(world.server.device, modbus, AuditLog(""))
+        await server.start()
+        reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+        assert await asyncio.wait_for(reader.read(), 5) == b""
+        writer.close()
+        await server.stop()
+        assert server.refused == 1
+        assert server.faults == 0
+
+    asyncio.run(run())
