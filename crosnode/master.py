@@ -14,7 +14,7 @@ from crosnode.errors import InvalidNameError, MessageTypeError, MessageValueErro
 from crosnode.messages.definition import split_type_name
 from crosnode.names import PRIVATE, SEPARATOR, join, namespace_of
 from crosnode.parameters import ParameterTree, changes_for, slashed
-from crosnode.registrations import ANY_TYPE, Graph, Node, Registrations
+from crosnode.registrations import ANY_TYPE, Graph, Node, Registrations, Replaced
 from crosnode.uri import parse_uri
 from crosnode.xmlrpc import Call, Fault, Response, Value, check_value, run_multicall
 
@@ -134,11 +134,14 @@ class Master:
     def _register(self, kind: Registrations, key: str, node: Node) -> None:
         self._shut_down(self._graph.register(kind, key, node))
 
-    def _shut_down(self, replaced: Node | None) -> None:
-        """Tell a node that another one took its name."""
+    def _shut_down(self, replaced: Replaced | None) -> None:
+        """Tell a node that another one took its name, and its subscribers that it has gone."""
         if replaced:
-            reason = f"[{replaced.name}] Reason: new node registered with same name"
-            self._calls.append(OutgoingCall(replaced.uri, "shutdown", [MASTER_NAME, reason]))
+            name, uri = replaced.node
+            reason = f"[{name}] Reason: new node registered with same name"
+            self._calls.append(OutgoingCall(uri, "shutdown", [MASTER_NAME, reason]))
+            for topic in replaced.topics:
+                self._tell_subscribers(topic)
 
     def _tell_subscribers(self, topic: str) -> None:
         publishers = self._graph.publishers.uris(topic)

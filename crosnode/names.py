@@ -10,7 +10,8 @@ import json
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
-from crosnode.errors import InvalidNameError
+from crosnode.errors import InvalidNameError, MessageValueError
+from crosnode.xmlrpc import check_value
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -108,7 +109,8 @@ def parse_arguments(arguments: Iterable[str]) -> Arguments:
     """Sort out remapping arguments.
 
     Raises:
-        InvalidNameError: one side of a remapping is not a legal name.
+        InvalidNameError: one side of a remapping is not a legal name, or XML-RPC cannot carry the
+            value of a parameter.
     """
     found = Arguments({}, {}, {}, [])
     for argument in arguments:
@@ -118,10 +120,19 @@ def parse_arguments(arguments: Iterable[str]) -> Arguments:
         elif left.startswith("__"):
             found.special[left[2:]] = right
         elif left.startswith("_"):
-            found.parameters[check_name(left[1:])] = parse_parameter(right)
+            found.parameters[check_name(left[1:])] = _checked_parameter(argument, right)
         else:
             found.remappings[check_name(left)] = check_name(right)
     return found
+
+
+def _checked_parameter(argument: str, text: str) -> Parameter:
+    value = parse_parameter(text)
+    try:
+        check_value(value)
+    except MessageValueError as error:
+        raise InvalidNameError(f"{argument[:100]!r}: {error}") from error
+    return value
 
 
 def parse_parameter(text: str) -> Parameter:

@@ -48,6 +48,11 @@ class DropOldestQueue(Generic[T]):
         """Return the oldest entry and take it away, None where there is none."""
         return self._entries.popleft() if self._entries else None
 
+    @property
+    def newest(self) -> T | None:
+        """The entry pushed last, where it still waits."""
+        return self._entries[-1] if self._entries else None
+
     def release(self) -> None:
         """Forget all entries."""
         self._entries.clear()

@@ -15,6 +15,13 @@ class Node(NamedTuple):
     uri: str
 
 
+class Replaced(NamedTuple):
+    """A node that lost its name to another one, and the topics it published."""
+
+    node: Node
+    topics: list[str]
+
+
 @dataclass
 class Registrations:
     """Nodes by what they registered for, in order of registration; empty entries vanish."""
@@ -36,10 +43,12 @@ class Registrations:
             del self.nodes[key]
         return True
 
-    def remove_all(self, node: Node) -> None:
-        """Unregister a node from everything."""
-        for key in [key for key, nodes in self.nodes.items() if node in nodes]:
+    def remove_all(self, node: Node) -> list[str]:
+        """Unregister a node from everything and return the keys."""
+        keys = [key for key, nodes in self.nodes.items() if node in nodes]
+        for key in keys:
             self.remove(key, node)
+        return keys
 
     def uris(self, key: str) -> list[str]:
         """Return the URIs registered for a key."""
@@ -78,7 +87,7 @@ class Graph:
         """Return the node of a name."""
         return self._nodes.get(name)
 
-    def register(self, kind: Registrations, key: str, node: Node) -> Node | None:
+    def register(self, kind: Registrations, key: str, node: Node) -> Replaced | None:
         """Register a node; return the node of the same name and another URI that it replaces.
 
         Raises:
@@ -87,14 +96,12 @@ class Graph:
         if sum(map(len, self._kinds)) >= self._max_registrations:
             raise ValueError(f"more than {self._max_registrations} registrations")
         old = self._nodes.get(node.name)
-        replaced = old if old and old != node else None
-        if replaced:
-            self._forget(replaced)
+        replaced = Replaced(old, self._forget(old)) if old and old != node else None
         self._nodes[node.name] = node
         kind.add(key, node)
         return replaced
 
-    def register_service(self, service: str, service_uri: str, node: Node) -> Node | None:
+    def register_service(self, service: str, service_uri: str, node: Node) -> Replaced | None:
         """Register the provider of a service in the place of any other; as ``register``."""
         replaced = self.register(self.services, service, node)
         for other in [other for other in self.services.nodes[service] if other != node]:
@@ -125,10 +132,13 @@ class Graph:
         elif by_publisher or self.topic_types.get(topic, ANY_TYPE) == ANY_TYPE:
             self.topic_types[topic] = type_name
 
-    def _forget(self, node: Node) -> None:
+    def _forget(self, node: Node) -> list[str]:
+        """Unregister a node from everything and return the topics it published."""
+        topics = self.publishers.remove_all(node)
         for kind in self._kinds:
             kind.remove_all(node)
         self._clean(node)
+        return topics
 
     def _clean(self, node: Node) -> None:
         """Drop what no registration refers to any more."""

@@ -58,6 +58,7 @@ class Publisher:
         self.sent = 0
         self.bytes_sent = 0
         self.links: dict[Link, SubscriberLink] = {}
+        DropOldestQueue[bytes](queue_size)  # a wrong size is an error now, not in the cycle
         self._latched: memoryview | bytes | None = None
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
         self._period = Period(loop_period_ns)

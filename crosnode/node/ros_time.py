@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from crosnode.api_caller import CallState
+from crosnode.errors import DecodeError, InvalidNameError
+from crosnode.node.status import StatusKind
 
 if TYPE_CHECKING:
     from crosnode.api_caller import ApiCall
     from crosnode.node.node import CrosNode
-    from crosnode.node.subscriber import Subscriber
+    from crosnode.node.subscriber import Packet, Subscriber
+
+CLOCK: Final = "rosgraph_msgs/Clock"
 
 
 class RosTime:
@@ -29,6 +33,7 @@ class RosTime:
         self._epoch_ns = epoch_ns
         self._simulated_ns = 0
         self._clock: Subscriber | None = None
+        self._seen: Packet | None = None
         self._question: ApiCall | None = None
         self._is_known = False
 
@@ -41,8 +46,18 @@ class RosTime:
         if not self._is_known:
             self._ask()
         elif self._clock is not None:
-            while (message := self._clock.pop()) is not None:
-                self._simulated_ns = message.clock.to_ns()
+            self._look(self._clock)
+
+    def _look(self, clock: Subscriber) -> None:
+        """Take the newest message and leave it in the queue, which may be the program's."""
+        packet = clock.queue.newest
+        if packet is None or packet is self._seen:
+            return
+        self._seen = packet
+        try:
+            self._simulated_ns = clock.message_type.decode(packet.body).clock.to_ns()
+        except DecodeError as error:
+            packet.peer.drop(str(error))
 
     def _ask(self) -> None:
         question = self._question
@@ -56,7 +71,13 @@ class RosTime:
 
     def _use(self, is_simulated: bool) -> None:  # a setter
         self.is_simulated = is_simulated
-        if is_simulated and self._clock is None:
-            self._clock = self._node.register_subscriber(
-                "/clock", "rosgraph_msgs/Clock", queue_size=1
-            )
+        if not is_simulated or self._clock is not None:
+            return
+        node = self._node
+        try:
+            self._clock = node.register_subscriber("/clock", CLOCK, queue_size=1)
+        except InvalidNameError as error:  # the program subscribes to it as well
+            found = [s for s in node.subscribers.values() if s.message_type.name == CLOCK]
+            self._clock = found[0] if found else None
+            if not found:
+                node.core.tell(StatusKind.REGISTRATION_REFUSED, "/clock", str(error))

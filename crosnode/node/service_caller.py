@@ -49,7 +49,7 @@ class ServiceCaller:
         service: resolved name.
         service_type: its type.
         persistent: whether the connection is kept for the next call.
-        requests: calls that wait; the oldest fails for one too many.
+        requests: calls that wait; for one too many the oldest fails, in its turn.
         replies: what came of the calls, in order of the calls.
     """
 
@@ -72,6 +72,7 @@ class ServiceCaller:
         self._period = Period(loop_period_ns)
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
         self._running: bytes | memoryview | None = None
+        self._overrun = 0
         self._lookup: ApiCall | None = None
         self._address: Address | None = None
         self._link: Link | None = None
@@ -91,7 +92,11 @@ class ServiceCaller:
         Raises:
             MessageValueError: a field cannot hold its value; nothing is called.
         """
+        dropped = self.requests.dropped
         self.requests.push(self.service_type.request.encode(request))
+        self._overrun += self.requests.dropped - dropped
+        if self._running is None:
+            self._fail_dropped()
 
     def pop(self) -> ServiceReply | None:
         """Return the oldest reply, None where there is none yet."""
@@ -128,6 +133,7 @@ class ServiceCaller:
         """End the connection and forget all calls."""
         self.requests.release()
         self._running = None
+        self._overrun = 0
         if self._link:
             self._link.close("the caller was released")
 
@@ -182,13 +188,22 @@ class ServiceCaller:
             self._fail(str(error))
             link.close(str(error))
             return
-        self._running = None
-        self.replies.push(ServiceReply(response))
+        self._end(ServiceReply(response))
 
     def _fail(self, error: str) -> None:
         if self._running is not None:
-            self._running = None
-            self.replies.push(ServiceReply(None, error))
+            self._end(ServiceReply(None, error))
+
+    def _end(self, reply: ServiceReply) -> None:
+        self._running = None
+        self.replies.push(reply)
+        self._fail_dropped()
+
+    def _fail_dropped(self) -> None:
+        """Tell of the calls dropped since the running one began: it was made before them."""
+        for _ in range(self._overrun):
+            self.replies.push(ServiceReply(None, "too many calls wait"))
+        self._overrun = 0
 
     def expects_data(self, link: Link) -> bool:
         """Whether a call waits for its header or its reply."""

@@ -67,7 +67,7 @@ class ServiceServerConnection(ServerConnection):
     @property
     def is_persistent(self) -> bool:
         """True where the client wants more than one call."""
-        return self.header.get("persistent") == "1"
+        return self.header.get("persistent", "").lower() in ("1", "true")  # as rospy and roscpp
 
     def accept(self, type_info: TypeInfo, caller_id: str) -> bool:
         """Answer the header; a client that does not fit is refused and False returned."""

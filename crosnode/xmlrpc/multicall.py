@@ -17,8 +17,14 @@ if TYPE_CHECKING:
 METHOD: Final = "system.multicall"
 MAX_CALLS: Final = 1000
 
+MAX_VALUES: Final = 20_000
+"""Values in all answers together: a short document could ask for any number of long ones."""
+
+REPLY_TOO_LARGE: Final = -32500
 INVALID_PARAMETERS: Final = -32602
-"""Fault code, as in xmlrpc-epi's fault code interoperability."""
+"""Fault codes, as in xmlrpc-epi's fault code interoperability."""
+
+TOO_LARGE: Final = Fault(REPLY_TOO_LARGE, f"the answers before have more than {MAX_VALUES} values")
 
 
 def split_multicall(params: list[Value]) -> list[Call | Fault]:
@@ -41,11 +47,25 @@ def _call(entry: Value) -> Call | Fault:
 
 
 def run_multicall(params: list[Value], answer: Callable[[Call], Response | Fault]) -> list[Value]:
-    """Answer all calls in order and return the value of the whole."""
-    return [
-        _packed(call if isinstance(call, Fault) else answer(call))
-        for call in split_multicall(params)
-    ]
+    """Answer calls in order and return the value of the whole.
+
+    Behind ``MAX_VALUES`` calls are not made; a fault stands for each.
+    """
+    found: list[Value] = []
+    left = MAX_VALUES
+    for call in split_multicall(params):
+        if isinstance(call, Call) and left > 0:
+            found.append(_packed(answer(call)))
+        else:
+            found.append(_packed(call if isinstance(call, Fault) else TOO_LARGE))
+        left -= _count(found[-1])
+    return found
+
+
+def _count(value: Value) -> int:
+    """Return how many values a value is made of."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + sum(map(_count, inner))
 
 
 def _packed(reply: Response | Fault) -> Value:

@@ -98,6 +98,16 @@ def test_second_node_of_a_name_shuts_the_first_down() -> None:
     assert ask(m, "getSystemState", "/x")[2][0] == [["/other", ["/talker"]]]
 
 
+def test_the_subscribers_of_a_node_that_lost_its_name_are_told() -> None:
+    """Else they would dial the old address for ever: the node itself is not known any more."""
+    m = master()
+    ask(m, "registerSubscriber", "/listener", "/chatter", STRING, LISTENER)
+    ask(m, "registerPublisher", "/talker", "/chatter", STRING, TALKER)
+    shutdown, *rest = calls(m, "registerPublisher", "/talker", "/other", STRING, "http://h:3/")
+    assert (shutdown.uri, shutdown.method) == (TALKER, "shutdown")
+    assert rest == [update(LISTENER, "/chatter", [])]
+
+
 def test_master_itself() -> None:
     m = master()
     assert ask(m, "getUri", "/x") == [1, "", "http://m:11311/"]

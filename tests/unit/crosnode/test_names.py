@@ -163,3 +163,11 @@ def test_any_arguments(arguments: list[str]) -> None:
     except InvalidNameError:
         return
     assert all(":=" not in argument for argument in found.rest)
+
+
+@pytest.mark.parametrize(
+    "argument", ["_p:=3000000000", "_p:=[null]", '_p:={"a": 1e400, "b": null}']
+)
+def test_a_parameter_that_xml_rpc_cannot_carry_is_an_error(argument: str) -> None:
+    with pytest.raises(InvalidNameError, match=r"_p:=.*cannot carry"):
+        parse_arguments([argument])

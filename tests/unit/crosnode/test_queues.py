@@ -29,3 +29,11 @@ def test_release_empties_the_queue() -> None:
 def test_a_queue_of_no_length_is_an_error() -> None:
     with pytest.raises(ValueError, match="above 0"):
         DropOldestQueue(0)
+
+
+def test_the_newest_entry_can_be_seen_while_it_waits() -> None:
+    queue: DropOldestQueue[int] = DropOldestQueue(2)
+    assert queue.newest is None
+    queue.push(1)
+    queue.push(2)
+    assert (queue.newest, len(queue)) == (2, 2)

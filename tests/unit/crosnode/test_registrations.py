@@ -2,7 +2,7 @@
 
 import pytest
 
-from crosnode.registrations import Graph, Node, Registrations
+from crosnode.registrations import Graph, Node, Registrations, Replaced
 
 A, A2, B = Node("/a", "http://h:1/"), Node("/a", "http://h:2/"), Node("/b", "http://h:3/")
 
@@ -26,7 +26,7 @@ def test_node_with_the_same_name_replaces_the_other_everywhere() -> None:
     graph.register(graph.subscribers, "/u", A)
     graph.register(graph.parameters, "/p", A)
     graph.register_service("/s", "rosrpc://h:9", A)
-    assert graph.register(graph.publishers, "/v", A2) == A
+    assert graph.register(graph.publishers, "/v", A2) == Replaced(A, ["/t"])
     assert graph.publishers.nodes == {"/v": [A2]}
     assert not graph.subscribers.nodes
     assert not graph.parameters.nodes

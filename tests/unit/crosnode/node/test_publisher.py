@@ -230,3 +230,8 @@ def test_unregistering_with_messages_in_the_queue_harms_nobody() -> None:
     node.unregister(publisher)
     world.run(20)
     assert publisher.subscribers == 0
+
+
+def test_a_queue_of_no_length_is_an_error_when_it_is_registered() -> None:
+    with pytest.raises(ValueError, match="above 0"):
+        World().node("talker").register_publisher("/x", STRING, queue_size=0)

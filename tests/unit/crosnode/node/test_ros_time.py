@@ -1,6 +1,7 @@
 from crosnode.messages import Time
+from crosnode.node import StatusKind
 
-from .world import MS, OTHER_IP, World
+from .world import MS, OTHER_IP, SECOND, World, drain, news
 
 
 def test_time_is_the_release_moved_to_the_epoch() -> None:
@@ -34,3 +35,48 @@ def test_the_question_is_asked_again_when_the_master_was_away() -> None:
     assert world.master
     world.master.master.set_param("/x", "/use_sim_time", True)
     world.until(lambda: "/clock" in node.subscribers)
+
+
+def test_a_program_may_listen_to_the_clock_as_well() -> None:
+    world = World()
+    assert world.master
+    world.master.master.set_param("/x", "/use_sim_time", True)
+    clock = world.node("driver", OTHER_IP).register_publisher("/clock", "rosgraph_msgs/Clock")
+    node = world.node("n")
+    own = node.register_subscriber("/clock", "rosgraph_msgs/Clock", queue_size=3)
+    world.until(lambda: own.publishers)
+    for seconds in (7, 3):  # time goes back as well, where a bag is played again
+        clock.send(clock.new(clock=Time(seconds, 0)))
+        world.run(5)
+        assert node.now_ns == seconds * SECOND
+    assert [message.clock.secs for message in drain(own.pop)] == [7, 3]
+    assert node.now_ns == 3 * SECOND
+
+
+def test_a_clock_of_another_type_is_told_and_time_stays_0() -> None:
+    world = World()
+    assert world.master
+    world.master.master.set_param("/x", "/use_sim_time", True)
+    node = world.node("n", epoch_ns=10**18)
+    node.register_subscriber("/clock", "std_msgs/Time")
+    world.run(300)
+    (refused,) = news(node, StatusKind.REGISTRATION_REFUSED)
+    assert (refused.name, refused.text) == ("/clock", "/n has /clock already.")
+    assert node.now_ns == 0
+
+
+def test_bytes_that_are_no_time_end_their_connection_only() -> None:
+    world = World()
+    assert world.master
+    world.master.master.set_param("/x", "/use_sim_time", True)
+    clock = world.node("driver", OTHER_IP).register_publisher("/clock", "rosgraph_msgs/Clock")
+    node = world.node("n")
+    world.until(lambda: "/clock" in node.subscribers)
+    subscriber = node.subscribers["/clock"]
+    world.until(lambda: subscriber.publishers)
+    clock.send_raw(b"\1\2\3")
+    world.until(lambda: not subscriber.publishers, 50)
+    world.until(lambda: subscriber.publishers)
+    clock.send(clock.new(clock=Time(9, 0)))
+    world.run(5)
+    assert node.now_ns == 9 * SECOND

@@ -239,3 +239,30 @@ def test_any_bytes_end_at_most_their_own_connection(data: bytes, greeted: bool) 
     service.call()
     service.world.until(lambda: service.caller.replies)
     assert results(service.caller) == ["done"]
+
+
+def test_a_call_too_many_fails_in_its_turn() -> None:
+    """Each call has its reply, in order, so a program can tell which is which."""
+    service = Service(queue_size=3)
+    caller = service.caller
+    service.answers = False
+    service.call()
+    service.world.until(lambda: service.provider.requests)
+    for _ in range(4):
+        service.call()
+    assert caller.requests.dropped == 1
+    assert not caller.replies
+    service.answers = True
+    service.world.until(lambda: len(caller.replies) == 2)
+    assert results(caller) == ["done", "too many calls wait"]
+    service.world.until(lambda: len(caller.replies) == 3)
+    assert results(caller) == ["done", "done", "done"]
+
+
+def test_calls_too_many_before_the_first_step_fail_at_once() -> None:
+    service = Service(queue_size=2)
+    for _ in range(3):
+        service.call()
+    assert results(service.caller) == ["too many calls wait"]
+    service.world.until(lambda: len(service.caller.replies) == 2)
+    assert results(service.caller) == ["done", "done"]

@@ -126,6 +126,18 @@ def test_missing_fields_are_refused(missing: str) -> None:
     ]
 
 
+@pytest.mark.parametrize(
+    ("value", "persistent"),
+    [("1", True), ("true", True), ("True", True), ("0", False), ("", False)],
+)
+def test_words_for_persistent(value: str, persistent: bool) -> None:
+    server = ServiceServerConnection(LIMITS, 0)
+    fields = {"callerid": "/c", "service": "/add", "md5sum": "*", "persistent": value}
+    server.receive_data(encode_header(fields))
+    server.next_event(0)
+    assert server.is_persistent is persistent
+
+
 def test_requests_wait_for_the_reply_before_them() -> None:
     server, client = pair(persistent=True)
     client.next_event(0)

@@ -1,6 +1,13 @@
 """Many calls in one."""
 
-from crosnode.xmlrpc.multicall import INVALID_PARAMETERS, MAX_CALLS, run_multicall, split_multicall
+from crosnode.xmlrpc.multicall import (
+    INVALID_PARAMETERS,
+    MAX_CALLS,
+    MAX_VALUES,
+    REPLY_TOO_LARGE,
+    run_multicall,
+    split_multicall,
+)
 from crosnode.xmlrpc.values import Call, Fault, Response
 
 
@@ -31,3 +38,16 @@ def test_refused() -> None:
     for call in (entry("system.multicall", [[]]), entry(1, []), entry("m", "x"), 5):
         (fault,) = split_multicall([[call]])
         assert isinstance(fault, Fault)
+
+
+def test_a_short_call_cannot_ask_for_any_number_of_long_answers() -> None:
+    asked = []
+
+    def answer(call: Call) -> Response:
+        asked.append(call.method)
+        return Response([[{"k": number}] for number in range(MAX_VALUES // 10)])
+
+    found = run_multicall([[entry("m", [])] * MAX_CALLS], answer)
+    assert len(found) == MAX_CALLS
+    assert len(asked) == 4
+    assert {each["faultCode"] for each in found[4:]} == {REPLY_TOO_LARGE}
