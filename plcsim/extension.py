@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.metadata import entry_points
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,6 +63,17 @@ class Extension(Protocol):
 
         Raises:
             ConfigurationError: the settings do not fit the controller's tags.
+        """
+
+
+@runtime_checkable
+class VirtualExtension(Protocol):
+    """An extension that asks for other settings on the virtual network of a test."""
+
+    def on_virtual_network(self, settings: Any, ip: str) -> Any:
+        """Return the settings for a controller at ``ip`` of a network with nothing of this machine.
+
+        Tests call it before ``attach``: what a test does must not depend on where it runs.
         """
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from plcsim.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from plcsim.services.modbus.errors import ModbusException
     from plcsim.testing.errors import (
         ControllerFault,
         ExpectationFailed,
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     )
     from plcsim.testing.interleavings import Interleaving
     from plcsim.testing.machine import PlcMachine, every_cycle
+    from plcsim.testing.modbus import Modbus
     from plcsim.testing.plc import Plc
     from plcsim.testing.strategies import stimuli, tag_values
     from plcsim.testing.target import open_plc
@@ -27,6 +29,8 @@ __all__ = [
     "ControllerFault",
     "ExpectationFailed",
     "Interleaving",
+    "Modbus",
+    "ModbusException",
     "PlantError",
     "Plc",
     "PlcMachine",
@@ -45,6 +49,8 @@ __getattr__ = lazy_names(
         "ControllerFault": "plcsim.testing.errors",
         "ExpectationFailed": "plcsim.testing.errors",
         "Interleaving": "plcsim.testing.interleavings",
+        "Modbus": "plcsim.testing.modbus",
+        "ModbusException": "plcsim.services.modbus.errors",
         "PlantError": "plcsim.testing.errors",
         "Plc": "plcsim.testing.plc",
         "PlcMachine": "plcsim.testing.machine",

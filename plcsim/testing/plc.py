@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller
 from plcsim.errors import ProgramError
-from plcsim.extension import extensions
 from plcsim.logbook import Severity
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.system import State
@@ -18,6 +17,7 @@ from plcsim.testing.condition import Condition
 from plcsim.testing.costs import Costs, garbage_held
 from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError, PlcTestError
 from plcsim.testing.expectations import Expectations
+from plcsim.testing.extensions import Extensions
 from plcsim.testing.history import History
 from plcsim.testing.interleavings import Interleaving, interleavings
 from plcsim.testing.tags import Tags
@@ -54,7 +54,7 @@ class Plc(World, Expectations):
         realtime: run on the wall clock instead of the virtual one.
         host_network: use the sockets of the host instead of a virtual network.
         task_class: number of the class whose cycles `cycles` counts; by default the lowest.
-        settings: tables of extensions in plc.toml; those without a service hook in.
+        settings: tables of extensions in plc.toml, by name.
 
     Attributes:
         controller: the controller itself.
@@ -62,6 +62,7 @@ class Plc(World, Expectations):
         costs: CPU time of the programs, cycle by cycle.
         faults: faults of the network and of tags.
         traces: all traces made by `record`.
+        extensions: those of the project, attached.
         after_cycle: functions called after every cycle, to step what runs beside the controller.
         interleaving: how the task classes meet, where `every_interleaving` made this controller.
     """
@@ -86,8 +87,11 @@ class Plc(World, Expectations):
         network: Network = OsNetwork() if net is None else net.host(CONTROLLER_IP)
         self.settings = dict(settings or {})
         self.controller = Controller(setup, network=network, clock=self.clock)
-        self._attach_extensions()
         World.__init__(self, Tags(self.controller), net, seed)
+        # first in PUBLISH and last in LATCH: nobody outside gets round a force
+        self.controller.image.watchers.append(lambda _: self._forces.apply())
+        ip = "" if host_network else CONTROLLER_IP
+        self.extensions = Extensions(self.settings, self.controller, name, ip)
         Expectations.__init__(self)
         self.costs = Costs(self.controller)
         self.history = History(self.controller)
@@ -103,13 +107,6 @@ class Plc(World, Expectations):
         self._last_release_ns = 0
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.append(self._publish)
-
-    def _attach_extensions(self) -> None:
-        """Let extensions hook in; those whose service is a process of its own have none here."""
-        for name, settings in self.settings.items():
-            extension = extensions()[name]
-            if not extension.service:
-                extension.attach(settings, self.controller)
 
     def _find_class(self, number: int | None) -> TaskClass:
         classes = {c.number: c for c in self.controller.classes}
@@ -168,6 +165,7 @@ class Plc(World, Expectations):
         if self.latest is not self:
             self.latest.close()
             self.latest = self
+        self.extensions.close()
         if self.controller.state is State.RUN:
             self.stop()
         else:
@@ -377,7 +375,6 @@ class Plc(World, Expectations):
         """Record, and look whether what the test waits for has come."""
         time_ns = self.controller.context.release_ns - self.controller.scan.origin_ns
         self._last_release_ns = time_ns
-        self._forces.apply()
         self.history.add(task_class)
         for trace in self.traces:
             trace.sample(self.controller.memory, task_class.number, task_class.cycles, time_ns)

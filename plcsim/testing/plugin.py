@@ -14,6 +14,7 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
 
+    from plcsim.testing.modbus import Modbus
     from plcsim.testing.plc import Plc
 
 __tracebackhide__ = True
@@ -113,6 +114,14 @@ def plc(request: pytest.FixtureRequest, _plc_seed_step: int) -> Iterator[Plc]:
     The project is the one that the test's folder belongs to, or what @pytest.mark.plc names.
     """
     yield from _session().open_for(request, _plc_seed_step)
+
+
+@pytest.fixture
+def modbus(plc: Plc) -> Modbus:
+    """Give a Modbus master that is connected to the controller; the project has [modbus]."""
+    with _session().plain_errors():
+        master: Modbus = import_module("plcsim.testing.modbus").Modbus(plc)
+    return master
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -1,0 +1,75 @@
+"""The extensions of the project under test: attached as in the scan process, in one process."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from plcsim.extension import VirtualExtension, extensions, services_of
+from plcsim.shared_image import ImageReader, ImageWriter
+from plcsim.shared_image.layout import make_file
+from plcsim.tag import Tag
+from plcsim.testing.errors import PlcTestError
+from st_types.views import address_of, type_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from plcsim.controller import Controller
+
+__tracebackhide__ = True
+
+
+class Extensions:
+    """What plc.toml says beyond the controller itself, hooked into the controller under test.
+
+    No service process is started; what it would read and write, the shared image, is there, and a
+    client such as `plcsim.testing.modbus.Modbus` takes the place of the service.
+
+    Args:
+        settings: by table.
+        controller: under test, not booted.
+        name: of the project.
+        ip: of the controller on the virtual network, "" on the host's.
+    """
+
+    def __init__(
+        self, settings: Mapping[str, Any], controller: Controller, name: str, ip: str
+    ) -> None:
+        self._fd = -1
+        for table, given in settings.items():
+            extension = extensions()[table]
+            here = given
+            if ip and isinstance(extension, VirtualExtension):
+                here = extension.on_virtual_network(given, ip)
+            if not extension.service:
+                extension.attach(here, controller)
+        self._services = services_of(settings)
+        if self._services:
+            self._share(controller, name)
+
+    def _share(self, controller: Controller, name: str) -> None:
+        """Lay out the shared image, which holds all variables, however many they are."""
+        whole = [
+            Tag(task.name, type_of(task.variables), address_of(task.variables))
+            for task in controller.tasks
+        ]
+        self._fd = make_file()
+        services = dict.fromkeys(self._services)
+        ImageWriter(self._fd, controller, project=name, services=services, exports=whole)
+
+    def image(self, table: str) -> ImageReader:
+        """Return the shared image as the service of a table has it.
+
+        Raises:
+            PlcTestError: the project has no such service.
+        """
+        if table not in self._services:
+            raise PlcTestError(f"the project has no table [{table}] in its plc.toml")
+        return ImageReader(self._fd, table)
+
+    def close(self) -> None:
+        """Give the shared memory back; who has read it keeps what it has."""
+        if self._fd >= 0:
+            os.close(self._fd)
+            self._fd = -1

@@ -1,0 +1,115 @@
+"""Extensions of the project under test: what hooks in, with which settings, in which order."""
+
+from pathlib import Path
+
+import pytest
+
+from plcsim.controller import Controller
+from plcsim.extension import Attachment
+from plcsim.shared_image import writer
+from plcsim.testing import extensions as module
+from plcsim.testing.errors import PlcTestError
+from plcsim.testing.plc import Plc
+from st_types.views import type_of
+
+
+class Steps:
+    """An extension that steps with the scan."""
+
+    service = ""
+
+    def read(self, table, folder):
+        raise AssertionError("the table is read already")
+
+    def attach(self, settings, controller):
+        assert isinstance(controller, Controller)
+        self.settings = settings
+        self.seen = []
+        tag = controller.tags.find("Cell.count")
+        controller.image.watchers.append(lambda _: self.seen.append(controller.tags.read(tag)))
+        return Attachment()
+
+
+class Moves(Steps):
+    """One that lives at another address in tests."""
+
+    def on_virtual_network(self, settings, ip):
+        return f"{settings} at {ip}"
+
+
+class Serves(Steps):
+    """One with a process of its own."""
+
+    service = "a_module_that_nobody_may_import"
+
+    def attach(self, settings, controller):
+        raise AssertionError("nothing is handed over to a process that does not run")
+
+
+@pytest.fixture
+def installed(monkeypatch):
+    found = {"steps": Steps(), "moves": Moves(), "serves": Serves()}
+    monkeypatch.setattr(module, "extensions", lambda: found)
+    monkeypatch.setattr(module, "services_of", lambda tables: [t for t in tables if t == "serves"])
+    return found
+
+
+@pytest.fixture
+def open_with(installed, cell_plc):
+    made = []
+
+    def open_with(**options):
+        made.append(Plc("cell", cell_plc.setup, **options))
+        made[-1].boot()
+        return made[-1]
+
+    yield open_with
+    for plc in made:
+        plc.close()
+
+
+def test_those_that_step_are_attached_with_what_holds_on_the_virtual_network(open_with, installed):
+    open_with(settings={"steps": "a", "moves": "b"}).cycles(3)
+    assert installed["steps"].settings == "a"
+    assert installed["steps"].seen == [1, 2, 3]
+    assert installed["moves"].settings == "b at 192.168.0.10"
+
+
+def test_on_the_network_of_the_host_the_settings_stay(open_with, installed):
+    open_with(settings={"moves": "b"}, host_network=True)
+    assert installed["moves"].settings == "b"
+
+
+def test_what_is_forced_is_what_extensions_see(open_with, installed):
+    plc = open_with(settings={"steps": "a"})
+    plc.force("Cell.count", 70)
+    plc.cycles(2)
+    assert installed["steps"].seen == [70, 70]
+
+
+@pytest.mark.parametrize("limit", [writer.WHOLE_PROGRAMS, 0])
+def test_one_with_a_service_gets_the_image_of_all_variables(open_with, monkeypatch, limit):
+    monkeypatch.setattr(writer, "WHOLE_PROGRAMS", limit)
+    plc = open_with(settings={"serves": "c"})
+    image = plc.extensions.image("serves")
+    plc.cycles(2)
+    assert image.latest == 2
+    assert image.directory.bank_size == type_of(plc.controller.tasks[0].variables).size
+
+
+def test_without_a_service_there_is_no_image(open_with):
+    plc = open_with(settings={"steps": "a"})
+    with pytest.raises(PlcTestError, match=r"no table \[serves\]"):
+        plc.extensions.image("serves")
+
+
+def open_files():
+    return len(list(Path("/proc/self/fd").iterdir()))
+
+
+def test_closing_gives_the_memory_back(open_with):
+    plc = open_with(settings={"serves": "c"})
+    files = open_files()
+    plc.extensions.close()
+    plc.extensions.close()
+    assert open_files() == files - 1
