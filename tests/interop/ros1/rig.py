@@ -132,14 +132,29 @@ class Ros:
         self._nodes.append((context, node))
         return node
 
-    def tick(self) -> None:
-        """Let our nodes do a cycle of a millisecond."""
+    def step(self) -> None:
+        """Let our nodes do a cycle."""
         for context, node in self._nodes:
             context.release_ns = time.monotonic_ns()
             node.do_events_loop()
         for step in self.steps:
             step()
+
+    def tick(self) -> None:
+        """Let our nodes do a cycle of a millisecond."""
+        self.step()
         time.sleep(0.001)
+
+    def ticks_until(self, condition: Callable[[], Any], most: int = 2_000) -> int:
+        """Run on a grid of a millisecond until something is so; return the cycles it took."""
+        release_ns = time.monotonic_ns()
+        for count in range(most):
+            if condition():
+                return count
+            self.step()
+            release_ns += NS_PER_MS
+            time.sleep(max(0, release_ns - time.monotonic_ns()) / 1e9)
+        raise AssertionError(f"not so within {most} cycles")
 
     def until(self, condition: Callable[[], Any], seconds: float = 15) -> float:
         """Run until something is so; return the seconds it took."""
