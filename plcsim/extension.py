@@ -77,6 +77,24 @@ class VirtualExtension(Protocol):
         """
 
 
+@runtime_checkable
+class CheckingExtension(Protocol):
+    """An extension that has something to say in ``plcsim check``."""
+
+    def check(self, settings: Any, controller: Controller) -> Sequence[str]:
+        """Check what `Extension.read` cannot, with a controller that will not run.
+
+        Nothing may be written or opened to the world.
+
+        Returns:
+            what is right in the project but will not work on this host, a line for each.
+
+        Raises:
+            ConfigurationError: the settings do not fit the controller's tags, or a file that they
+                name is wrong.
+        """
+
+
 class _Installed(Mapping[str, "Extension"]):
     """The installed extensions; one is imported when a project has its table, not before."""
 
@@ -98,6 +116,24 @@ class _Installed(Mapping[str, "Extension"]):
 def extensions() -> Mapping[str, Extension]:
     """Return the installed extensions by the table they claim."""
     return _Installed()
+
+
+def check_settings(settings: Mapping[str, Any], controller: Controller) -> list[str]:
+    """Let the extensions of a project check their settings; return their notes on this host.
+
+    Args:
+        settings: of the extensions, by table.
+        controller: of the project, before its boot.
+
+    Raises:
+        ConfigurationError: something is wrong.
+    """
+    notes: list[str] = []
+    for name, value in settings.items():
+        extension = extensions()[name]
+        if isinstance(extension, CheckingExtension):
+            notes += extension.check(value, controller)
+    return notes
 
 
 def services_of(settings: Mapping[str, Any]) -> list[str]:

@@ -11,6 +11,7 @@ from rich.table import Table
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller
 from plcsim.duration import format_duration
+from plcsim.extension import check_settings
 from plcsim.network import VirtualNetwork
 from plcsim.project import load_setup, read_project
 from st_types.views import address_of, type_of
@@ -28,8 +29,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = subparsers.add_parser(
         "check",
         help="check a project without running it",
-        description="Load a project, lay out its memory, and show what would run. No unit of any "
-        "program runs.",
+        description="Load a project, lay out its memory, check what it maps and names, and show "
+        "what would run. No unit of any program runs.",
         epilog="Exit codes: 0 the project is right, 1 it is not.",
     )
     parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
@@ -42,6 +43,7 @@ def check(options: argparse.Namespace) -> int:
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
     controller = Controller(load_setup(project), network=network, clock=clock)
+    notes = check_settings(project.extensions, controller)
     console = Console(highlight=False, markup=False)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
@@ -54,6 +56,8 @@ def check(options: argparse.Namespace) -> int:
         f"{controller.memory.size} bytes of PLC memory used, tick "
         f"{format_duration(project.tick_ns)}"
     )
+    for note in notes:
+        console.print(f"on this host: {note}", soft_wrap=True)
     return 0
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.extension import Attachment
 from plcsim.tagmap.automatic import write_lock
 from plcsim.tagmap.load import load_map
+from plcsim.tagmap.ports import may_use_privileged_ports, unprivileged_ports
 from plcsim.tagmap.settings import read_settings
 
 if TYPE_CHECKING:
@@ -47,6 +48,19 @@ class ModbusExtension:
             },
             [controller.tags.find(point.tag) for point in points],
         )
+
+    def check(self, settings: ModbusProject, controller: Controller) -> list[str]:
+        """Check the map against the tags, and the files of TLS; say where the port needs rights."""
+        load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        if settings.settings.tls is not None:
+            # not at the top: the scan process has no use for ssl and pymodbus
+            from plcsim.services.modbus.tls import server_context  # noqa: PLC0415
+
+            server_context(settings.settings.tls)
+        port = settings.settings.port
+        if 0 < port < unprivileged_ports() and not may_use_privileged_ports():
+            return [f"modbus.port: {port} needs root or CAP_NET_BIND_SERVICE, which are not given"]
+        return []
 
 
 EXTENSION = ModbusExtension()

@@ -37,13 +37,31 @@ def server_context(settings: TlsSettings) -> ssl.SSLContext:
     context.minimum_version = ssl.TLSVersion.TLSv1_2
     context.verify_mode = ssl.CERT_REQUIRED
     try:
-        context.load_cert_chain(settings.certificate, settings.key)
+        # without a password OpenSSL would ask for one on the terminal, and wait
+        context.load_cert_chain(settings.certificate, settings.key, _no_password)
+    except (OSError, ssl.SSLError) as err:
+        files = f"certificate {settings.certificate}, key {settings.key}"
+        raise ConfigurationError(f"modbus.tls: {files}: {_reason(err)}") from None
+    try:
         context.load_verify_locations(settings.clients)
     except (OSError, ssl.SSLError) as err:
-        raise ConfigurationError(f"modbus.tls: {err}") from None
+        raise ConfigurationError(
+            f"modbus.tls.clients: {settings.clients}: {_reason(err)}"
+        ) from None
     if settings.roles:
         _require_cryptography()
     return context
+
+
+def _no_password() -> str:
+    raise ConfigurationError("modbus.tls.key: has a password; take it off (openssl pkey -in ...)")
+
+
+def _reason(err: OSError) -> str:
+    """Return what is wrong in words; OpenSSL has none for a file without anything in PEM."""
+    if isinstance(err, ssl.SSLError):
+        return (err.reason or "not PEM").replace("_", " ").lower()
+    return err.strerror or str(err)
 
 
 def _require_cryptography() -> None:
@@ -65,8 +83,11 @@ def role_of(certificate: bytes | None) -> str:
         return ""
     from cryptography import x509  # noqa: PLC0415  # an optional dependency
 
-    found = x509.load_der_x509_certificate(certificate)
-    for extension in found.extensions:
+    try:
+        extensions = list(x509.load_der_x509_certificate(certificate).extensions)
+    except ValueError:  # TLS takes what the stricter reader does not: a role of none
+        return ""
+    for extension in extensions:
         if extension.oid.dotted_string == ROLE_OID:
             return _utf8(getattr(extension.value, "value", b""))
     return ""

@@ -10,7 +10,7 @@ import pytest
 from plcsim import extension, project, service_processes
 from plcsim.controller import Controller
 from plcsim.errors import ConfigurationError
-from plcsim.extension import Attachment, services_of
+from plcsim.extension import Attachment, check_settings, services_of
 from plcsim.project import read_project
 from plcsim.service_processes import ServiceProcesses
 from plcsim.shared_image.layout import HEADER_SIZE
@@ -123,3 +123,19 @@ def test_a_service_that_gives_up_is_started_less_and_less_often(
             processes.tend(now_ns)
         pauses.append((now_ns - before) // 1_000_000)
     assert pauses == [210, 410, 810, 1610]
+
+
+class Careful(Web):
+    def check(self, settings: int, controller: Controller) -> list[str]:
+        if settings == 99:
+            raise ConfigurationError("web.port: 99 is nobody's")
+        return [f"web.port: {settings} is low"] if settings < 1024 else []
+
+
+def test_extensions_that_can_check_are_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    controller: Any = None
+    monkeypatch.setattr(extension, "extensions", lambda: {"web": Careful(), "quiet": Quiet()})
+    assert check_settings({"web": 80, "quiet": 80}, controller) == ["web.port: 80 is low"]
+    assert check_settings({"web": 8080}, controller) == []
+    with pytest.raises(ConfigurationError, match=r"web\.port: 99"):
+        check_settings({"web": 99}, controller)
