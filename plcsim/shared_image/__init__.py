@@ -5,7 +5,7 @@ in virtual time). Between them lies one file mapping: a directory of the program
 banks that hold the last two snapshots, and one ring of commands for each service.
 """
 
-from plcsim.shared_image.command import Command, Mask, Store
+from plcsim.shared_image.command import Command, Mask, Scatter, Store
 from plcsim.shared_image.directory import Directory
 from plcsim.shared_image.errors import CommandRefused, ImageError, ImageNotReady
 from plcsim.shared_image.reader import ImageReader, ScanWatch
@@ -21,5 +21,6 @@ __all__ = [
     "ImageWriter",
     "Mask",
     "ScanWatch",
+    "Scatter",
     "Store",
 ]

@@ -84,6 +84,9 @@ class Consumer:
             available = self._cells[self._at.head] - self.position
             if available <= 0:
                 return None
+            if available > RING_SIZE or available % 8:
+                self._drop_all()
+                return None
             start = self.position % RING_SIZE
             size, count = HEAD.unpack_from(self._ring, start)
             if size < HEAD.size or size % 8 or size > min(available, RING_SIZE - start):
@@ -95,7 +98,7 @@ class Consumer:
 
     def _drop_all(self) -> None:
         """Forget what is queued: without a length there is no next record to be found."""
-        self.position = self._cells[self._at.head]
+        self.position = self._cells[self._at.head] & ~7
         self.refuse()
 
     def refuse(self) -> None:

@@ -2,17 +2,31 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.shared_image.command import Mask, Store, decode_command, encode_command, merged
+from plcsim.shared_image.command import (
+    Command,
+    Mask,
+    Operation,
+    Scatter,
+    Store,
+    decode_command,
+    encode_command,
+    merged,
+)
 
 addresses = st.integers(0, 0xFFFF_FFFF)
 words = st.integers(0, 0xFFFF)
-operations = st.builds(Store, addresses, st.binary(max_size=40)) | st.builds(
-    Mask, addresses, words, words
+scattered = st.lists(st.tuples(addresses, st.integers(0, 255)), min_size=1, max_size=20).map(
+    lambda bytes_: Scatter(tuple(a for a, _ in bytes_), bytes(b for _, b in bytes_))
+)
+operations = (
+    st.builds(Store, addresses, st.binary(max_size=40))
+    | st.builds(Mask, addresses, words, words)
+    | scattered
 )
 
 
 @given(st.lists(operations, max_size=20))
-def test_a_command_survives_its_record(command: list[Store | Mask]) -> None:
+def test_a_command_survives_its_record(command: list[Operation]) -> None:
     record = encode_command(tuple(command))
     assert len(record) % 8 == 0
     assert decode_command(record) == tuple(command)
@@ -29,9 +43,13 @@ def test_any_bytes_are_a_command_or_a_value_error(record: bytes) -> None:
 
 @given(st.lists(st.builds(Store, st.integers(0, 64), st.binary(min_size=1, max_size=8))))
 def test_merging_does_not_change_what_is_stored(stores: list[Store]) -> None:
-    def image(command: tuple[Store | Mask, ...]) -> bytearray:
+    def image(command: Command) -> bytearray:
         memory = bytearray(80)
         for operation in command:
+            if isinstance(operation, Scatter):
+                for address, value in zip(operation.addresses, operation.data, strict=True):
+                    memory[address] = value
+                continue
             assert isinstance(operation, Store)
             memory[operation.address : operation.address + len(operation.data)] = operation.data
         return memory
@@ -43,6 +61,16 @@ def test_adjoining_stores_become_one() -> None:
     assert merged([Store(8, b"ab"), Store(10, b"c"), Store(12, b"d")]) == (
         Store(8, b"abc"),
         Store(12, b"d"),
+    )
+
+
+def test_single_bytes_that_follow_each_other_become_one() -> None:
+    stores = [Store(4, b"aa"), Store(8, b"b"), Store(20, b"c"), Mask(2, 1, 2), Store(6, b"d")]
+    assert merged(stores) == (
+        Store(4, b"aa"),
+        Scatter((8, 20), b"bc"),
+        Mask(2, 1, 2),
+        Store(6, b"d"),
     )
 
 

@@ -82,3 +82,19 @@ def test_a_record_without_a_length_empties_the_ring_and_is_counted(head: bytes) 
     assert consumer.peek() is None
     assert consumer.position == 16
     assert producer.refused == 1
+
+
+@given(
+    st.integers(0, 2**64 - 1) | st.integers(0, 2 * layout.RING_SIZE),
+    st.lists(st.integers(0, 2**64 - 1) | st.sampled_from([8, 16, 4096, 1 << 32 | 8]), max_size=40),
+)
+def test_whatever_a_service_leaves_in_the_ring_the_scan_is_through_soon(
+    head: int, words: list[int]
+) -> None:
+    _, consumer, cells = both_ends()
+    consumer._ring[: 8 * len(words)] = b"".join(w.to_bytes(8, "little") for w in words)
+    cells[layout.ring_cells(0).head] = head
+    for _ in range(10):
+        record = take(consumer)
+        assert record is None or len(record) <= layout.RING_SIZE
+    assert consumer.position % 8 == 0

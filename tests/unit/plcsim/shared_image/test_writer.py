@@ -6,7 +6,7 @@ from plcsim import Program
 from plcsim.controller import ProgramSetup, TaskClassSetup
 from plcsim.shared_image import CommandRefused, Mask, Store, layout
 from plcsim.shared_image.command import encode_command
-from plcsim.shared_image.writer import COMMANDS_PER_LATCH, OPERATIONS_PER_LATCH, _joined
+from plcsim.shared_image.writer import COMMANDS_PER_LATCH, STEPS_PER_COMMAND, _joined
 from st_types import ARRAY, BYTE, UINT, var
 
 from .conftest import MS, Fast, Make, Slow, World
@@ -40,7 +40,7 @@ def test_an_acknowledged_command_is_in_the_latest_snapshot(world: World) -> None
         world.controller.run(cycles=1)
         done = [n for n, ticket in tickets if world.reader.is_acknowledged(ticket)]
         assert world.read("fast.setpoint") == done[-1]
-        assert len(done) % COMMANDS_PER_LATCH == 0 or len(done) == len(tickets)
+        assert len(done) % world.writer.commands_per_latch == 0 or len(done) == len(tickets)
 
 
 def test_a_mask_works_on_what_the_program_left(world: World) -> None:
@@ -51,16 +51,42 @@ def test_a_mask_works_on_what_the_program_left(world: World) -> None:
     assert world.read("fast.word") == 0x17
 
 
+@pytest.mark.parametrize(
+    ("cycle_ns", "commands"), [(200_000, 8), (MS, 16), (2 * MS, 32), (4 * MS, 64), (100 * MS, 64)]
+)
+def test_a_latch_applies_as_many_commands_as_fit_its_cycle(
+    make: Make, cycle_ns: int, commands: int
+) -> None:
+    world = make(TaskClassSetup(1, cycle_ns, [ProgramSetup("fast", Fast)]))
+    least, most = COMMANDS_PER_LATCH
+    assert least <= world.writer.commands_per_latch <= most
+    address = world.address("fast.setpoint")
+    tickets = [world.reader.send((Store(address, b"\1\0"),)) for _ in range(100)]
+    world.controller.run(cycles=1)
+    assert sum(map(world.reader.is_acknowledged, tickets)) == commands
+
+
 def test_one_latch_applies_few_operations_but_a_command_whole(world: World) -> None:
     flags = world.address("fast.flags")
-    scattered = tuple(Store(flags + i % 8 * 2, b"\1") for i in range(OPERATIONS_PER_LATCH + 50))
-    first = world.reader.send(scattered)
+    many = STEPS_PER_COMMAND * world.writer.commands_per_latch
+    first = world.reader.send(tuple(Store(flags + i % 8 * 2, b"\1") for i in range(many)))
     second = world.reader.send((Store(flags + 1, b"\1"),))
     world.controller.run(cycles=1)
     assert world.reader.is_acknowledged(first)
     assert not world.reader.is_acknowledged(second)
+    assert [world.read(f"fast.flags[{i}]") for i in range(5)] == [True, False, True, False, True]
     world.controller.run(cycles=1)
     assert world.reader.is_acknowledged(second)
+
+
+def test_scattered_bytes_outside_the_memory_are_not_applied_at_all(world: World) -> None:
+    flags = world.address("fast.flags")
+    for bad in (0, 0xFFF, world.controller.memory.used, 0xFFFF_FFFF):
+        world.reader.send((Store(flags, b"\1"), Store(bad, b"\1")))
+        world.controller.run(cycles=1)
+        assert world.read("fast.flags[0]") is False
+    assert world.reader._producer is not None
+    assert world.reader._producer.refused == 4
 
 
 def test_a_command_with_one_bad_address_is_not_applied_at_all(world: World) -> None:
@@ -209,3 +235,18 @@ def test_each_service_has_its_own_ring(make: Make) -> None:
     assert (world.read("fast.word"), world.read("fast.setpoint")) == (1, 2)
     assert len(world.writer._rings) == 2
     assert layout.ring_cells(layout.MAX_RINGS - 1).refused < layout.HEADER_SIZE // 8
+
+
+def test_a_ring_that_made_no_sense_takes_commands_again(world: World) -> None:
+    producer = world.reader._producer
+    assert producer is not None
+    producer._ring[:8] = b"\xff" * 8
+    world.reader._cells[producer._at.head] = layout.RING_SIZE
+    with pytest.raises(CommandRefused):
+        world.reader.send((Store(world.address("fast.setpoint"), b"\1\0"),))
+    world.controller.run(cycles=1)
+    assert producer.refused == 1
+    ticket = world.reader.send((Store(world.address("fast.setpoint"), b"\1\0"),))
+    world.controller.run(cycles=1)
+    assert world.reader.is_acknowledged(ticket)
+    assert world.read("fast.setpoint") == 1
