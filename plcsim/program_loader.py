@@ -9,6 +9,7 @@ in files of those names. The project's folder is a package, so programs may shar
 from __future__ import annotations
 
 import importlib
+import inspect
 import itertools
 import os
 import sys
@@ -53,7 +54,10 @@ class ProgramLoader:
                 exactly one program.
         """
         if source not in self._classes:
-            self._classes[source] = self._load(source)
+            try:
+                self._classes[source] = self._load(source)
+            except OSError as err:
+                raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
         return self._classes[source]
 
     def _load(self, source: str) -> type[Program]:
@@ -68,7 +72,9 @@ class ProgramLoader:
         modules = [self._import(folder, f"{package}.{stem}") for stem in stems]
         program = self._program_in(folder, modules)
         units = self._units_in(folder, package)
-        return type(program.__name__, (program,), units) if units else program
+        whole = type(program.__name__, (program,), units) if units else program
+        _check_units(whole, folder)
+        return whole
 
     def _known(self) -> str:
         names = sorted(p.parent.name for s in _CLASS_FILES for p in self._folder.glob(f"*/{s}.py"))
@@ -87,7 +93,11 @@ class ProgramLoader:
             return importlib.import_module(name)
         except (Exception, SystemExit) as error:
             place = place_of(error) or str(folder)
-            raise ConfigurationError(f"{place}: {describe(error)}") from error
+            text = describe(error)
+            if isinstance(error, SyntaxError):  # the place is told already
+                text = f"{type(error).__name__}: {error.msg}"
+            text = text.replace(self._package, self._folder.name)
+            raise ConfigurationError(f"{place}: {text}") from error
 
     def _program_in(self, folder: Path, modules: list[ModuleType]) -> type[Program]:
         found = {
@@ -117,3 +127,46 @@ class ProgramLoader:
                     raise ConfigurationError(f"{folder / stem}.py: has no function {stem}")
                 units[stem] = function
         return units
+
+
+def _check_units(program: type[Program], folder: Path) -> None:
+    """Find units that would never run, or fail at their first call.
+
+    Raises:
+        ConfigurationError: there is one; its line is named.
+    """
+    for name in (unit.value.lower() for unit in Unit):
+        function = getattr(program, name)
+        if function is getattr(Program, name):
+            _check_misspelt(program, name, folder)
+        if any(is_one(function) for is_one in _NOT_RUN_BY_A_CALL):
+            raise ConfigurationError(
+                f"{_place_of_unit(function, folder)}: {name} neither awaits nor yields: a call of "
+                "it is one whole run"
+            )
+        try:
+            inspect.signature(function).bind(program)
+        except TypeError:
+            raise ConfigurationError(
+                f"{_place_of_unit(function, folder)}: {name} takes self and nothing else"
+            ) from None
+
+
+_NOT_RUN_BY_A_CALL = (
+    inspect.iscoroutinefunction,
+    inspect.isgeneratorfunction,
+    inspect.isasyncgenfunction,
+)
+
+
+def _check_misspelt(program: type[Program], name: str, folder: Path) -> None:
+    """Refuse a unit in other letters, such as ``Cyclic``: Python would not run it."""
+    for other, function in inspect.getmembers(program, inspect.isfunction):
+        if other != name and other.lower() == name:
+            place = _place_of_unit(function, folder)
+            raise ConfigurationError(f"{place}: the unit {other} is spelt {name}")
+
+
+def _place_of_unit(function: object, folder: Path) -> str:
+    code = getattr(inspect.unwrap(function), "__code__", None) if callable(function) else None
+    return f"{code.co_filename}:{code.co_firstlineno}" if code else str(folder)

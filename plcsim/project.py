@@ -6,6 +6,7 @@ ConfigurationError that names the file and the field.
 
 from __future__ import annotations
 
+import itertools
 import re
 import tomllib
 from dataclasses import dataclass, field
@@ -33,6 +34,9 @@ DEFAULT_CYCLES_MS = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10
 
 DEFAULT_TOLERANCE_OF_8_NS = 30_000_000_000
 """Class 8 tolerates 30 s, again as in a new Automation Studio project; others their cycle time."""
+
+MOST_HINTS = 5
+"""Projects that are named where one was not found."""
 
 ANY_CPU, LAST_CPU = -1, 1023
 """The last is the last that sched_setaffinity(2) takes without a larger set."""
@@ -103,6 +107,34 @@ class Project:
         return tuple(p for c in self.classes for p in c.programs) + last
 
 
+def find_project(path: Path) -> Path:
+    """Return the plc.toml of a project that a person named by its folder or by that file.
+
+    Raises:
+        ConfigurationError: there is none; projects nearby are named.
+    """
+    file = path if path.name == FILE_NAME else path / FILE_NAME
+    try:
+        file.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        raise ConfigurationError(f"{file}: there is no such file{_nearby(path)}") from None
+    except (OSError, ValueError) as err:
+        raise ConfigurationError(f"{file}: cannot be read: {err}") from None
+    return file
+
+
+def _nearby(path: Path) -> str:
+    """Return a hint at the project that ``path`` lies in, or at those below it or beside it."""
+    for parent in path.resolve().parents:
+        if (parent / FILE_NAME).is_file():
+            return f"; did you mean {parent}?"
+    folder = path if path.is_dir() else path.parent
+    found = sorted(
+        str(f.parent) for f in itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
+    )
+    return f"; there are projects in {', '.join(found)}" if found else "; a project has one"
+
+
 def read_project(path: Path) -> Project:
     """Read plc.toml of a project folder, without loading any program.
 
@@ -112,11 +144,9 @@ def read_project(path: Path) -> Project:
     Raises:
         ConfigurationError: something is missing or wrong; file and field are named.
     """
-    file = path if path.name == FILE_NAME else path / FILE_NAME
+    file = find_project(path)
     try:
         values = tomllib.loads(file.read_text("utf-8"))
-    except FileNotFoundError:
-        raise ConfigurationError(f"{file}: there is no such file; a project has one") from None
     except (OSError, UnicodeDecodeError) as err:
         raise ConfigurationError(f"{file}: cannot be read: {err}") from None
     except tomllib.TOMLDecodeError as err:
@@ -125,17 +155,18 @@ def read_project(path: Path) -> Project:
         raise ConfigurationError(f"{file}: brackets are nested too deep") from None
     top = Table(file, "", values)
     plc = Table(file, "plc", top.take("plc", dict, {}))
+    class_tables = top.take("task_class", dict, {})
+    options = top.take("library", dict, {})
+    tables = {name: top.table(name) for name in extensions() if name in top}
+    top.finish(*extensions())  # a misspelt table is not to be told as one that is missing
     tick_ns = plc.duration_ns("tick", 1_000_000)
     if tick_ns <= 0:
         raise plc.error("tick", "must be above 0")
-    classes = _task_classes(file, top.take("task_class", dict, {}), tick_ns)
-    options = top.take("library", dict, {})
+    classes = _task_classes(file, class_tables, tick_ns)
     settings = {
-        name: _extension_table(extensions()[name], top.table(name), file.parent)
-        for name in extensions()
-        if name in top
+        name: _extension_table(extensions()[name], table, file.parent)
+        for name, table in tables.items()
     }
-    top.finish(*extensions())
     project = _plc_table(file.parent, plc, tick_ns, classes, options, settings)
     _check_names(file, project)
     return project
@@ -200,7 +231,8 @@ def _task_classes(file: Path, tables: dict[str, Any], tick_ns: int) -> tuple[Tas
     for key in tables:
         if key not in numbers:
             raise ConfigurationError(
-                f"{file}: task_class.{key}: task classes are {LOWEST_CLASS} to {HIGHEST_CLASS}"
+                f"{file}: task_class.{key}: task classes are [task_class.{LOWEST_CLASS}] to "
+                f"[task_class.{HIGHEST_CLASS}]"
             )
     ordered = sorted(tables, key=lambda key: numbers[key])
     return tuple(
@@ -227,9 +259,9 @@ def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
             _program(table, "programs", value) for value in table.take("programs", list, [])
         ),
     )
+    table.finish()
     if not entry.programs:
         raise table.error("programs", "at least one program is needed")
-    table.finish()
     return entry
 
 

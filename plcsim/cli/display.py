@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import linecache
 import threading
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console, Group
+from rich.console import Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from plcsim.cli.console import CommandConsole
 from plcsim.duration import format_duration
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from plcsim.project import Project
     from plcsim.status_page import StatusPage
 
@@ -24,8 +28,7 @@ _STATE_STYLES = {"BOOT": "yellow", "RUN": "green", "SERVICE": "bold red", "STOPP
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in columns:
-        last = column == "programs"
-        table.add_column(column, justify="left" if last else "right", no_wrap=not last)
+        table.add_column(column, justify="right", no_wrap=True)
     return table
 
 
@@ -33,17 +36,28 @@ def _pair(first_ns: int, second_ns: int) -> str:
     return f"{format_duration(first_ns)} / {format_duration(second_ns)}"
 
 
+def _programs(number: int, names: Iterable[str]) -> Text:
+    """Return a line below the table: as a column, names would not fit into 80 columns."""
+    return Text(f"#{number}: {', '.join(names)}")
+
+
 class LiveTable:
     """A table that is drawn anew every quarter of a second, by a thread of the parent process.
 
     A thread, so that a terminal that does not take output cannot stop the watchdog. Nothing is
     shown where stderr is not a terminal.
+
+    Args:
+        project: what runs.
+        page: its status page.
+        for_ns: when the run ends, on the controller's clock; None for never.
     """
 
-    def __init__(self, project: Project, page: StatusPage) -> None:
+    def __init__(self, project: Project, page: StatusPage, for_ns: int | None = None) -> None:
         self._project = project
         self._page = page
-        self._console = Console(stderr=True)
+        self._goal = "" if for_ns is None else f" of {format_duration(for_ns)}"
+        self._console = CommandConsole(stderr=True)
         self._done = threading.Event()
         self._thread = threading.Thread(target=self._draw, daemon=True)
 
@@ -66,14 +80,11 @@ class LiveTable:
 
     def _picture(self) -> Group:
         state = self._page.state.name
-        elapsed = f"{self._page.elapsed_ns / 1e9:.1f} s"
+        elapsed = f"{self._page.elapsed_ns / 1e9:.1f} s{self._goal}"
         head = Text.assemble(
             (self._project.name, "bold"), "  ", (state, _STATE_STYLES[state]), f"  {elapsed}"
         )
-        table = _table(
-            "class", "cycle", "cycles", "missed", "viol.", "exec. / max", "late / max",
-            "programs",
-        )  # fmt: skip
+        table = _table("class", "cycle", "cycles", "missed", "viol.", "exec. / max", "late / max")
         for c in self._project.classes:
             s = self._page.of_class(c.number)
             table.add_row(
@@ -84,14 +95,14 @@ class LiveTable:
                 str(s.violations),
                 _pair(s.execution_ns, s.longest_execution_ns),
                 _pair(s.lateness_ns, s.longest_lateness_ns),
-                ", ".join(p.name for p in c.programs),
             )
-        return Group(head, table)
+        names = (_programs(c.number, (p.name for p in c.programs)) for c in self._project.classes)
+        return Group(head, table, *names)
 
 
 def print_summary(result: dict[str, Any]) -> None:
     """Print how a run ended: state, task classes, fault, logbook."""
-    console = Console(stderr=True, highlight=False)
+    console = CommandConsole(stderr=True)
     state = result["state"]
     elapsed = format_duration(result["elapsed_ns"])
     rights = ", ".join(result.get("realtime_rights", ())) or "no real-time rights"
@@ -102,16 +113,25 @@ def print_summary(result: dict[str, Any]) -> None:
             "  ",
             (state, _STATE_STYLES[state]),
             f"  after {elapsed}  ({clock})",
-        )
+        ),
+        soft_wrap=True,
     )
     if result["task_classes"]:
         console.print(_summary_table(result["task_classes"]))
+        for c in result["task_classes"]:
+            console.print(_programs(c["number"], (p["name"] for p in c["programs"])))
         if blame := _blame(result["task_classes"]):
             console.print(blame)
-    if result["fault"]:
-        fault = Text(f"SERVICE: {_fault_text(result['fault'])}", style="bold red")
-        console.print(fault, soft_wrap=True)  # so that no file name is cut
-    entries = [e for e in result["logbook"] if e["severity"] != "information"]
+    fault = _fault_text(result["fault"]) if result["fault"] else ""
+    if fault:
+        text = Text(f"SERVICE: {fault}", style="bold red")
+        console.print(text, soft_wrap=True)  # so that no file name is cut
+        console.print(source_line(result["fault"]["place"]), end="", soft_wrap=True)
+    entries = [
+        e
+        for e in result["logbook"]
+        if e["severity"] != "information" and not fault.endswith(e["text"])
+    ]
     for entry in entries[-10:]:
         seconds = f"{entry['time_ns'] / 1e9:.6f}"
         text = Text(f"{seconds:>13} s  {entry['source']}: {entry['text']}")
@@ -122,9 +142,8 @@ def print_summary(result: dict[str, Any]) -> None:
 
 def _summary_table(classes: list[dict[str, Any]]) -> Table:
     table = _table(
-        "class", "cycle", "cycles", "missed", "viol.", "exec. p50 / p99", "late p50 / p99",
-        "programs",
-    )  # fmt: skip
+        "class", "cycle", "cycles", "missed", "viol.", "exec. p50 / p99", "late p50 / p99"
+    )
     for c in classes:
         violations = c["violations"]
         table.add_row(
@@ -135,7 +154,6 @@ def _summary_table(classes: list[dict[str, Any]]) -> Table:
             str(sum(violations.values())),
             _pair(c["execution_ns"]["p50"], c["execution_ns"]["p99"]),
             _pair(c["lateness_ns"]["p50"], c["lateness_ns"]["p99"]),
-            ", ".join(p["name"] for p in c["programs"]),
         )
     return table
 
@@ -147,6 +165,13 @@ def _blame(classes: list[dict[str, Any]]) -> str:
     if not any(counts.values()):
         return ""
     return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())
+
+
+def source_line(place: str) -> str:
+    """Return the line of a program at "file:line", with its number; "" where there is none."""
+    file, _, number = place.rpartition(":")
+    line = linecache.getline(file, int(number)) if number.isdecimal() else ""
+    return f"{number:>6} | {line.rstrip()}\n" if line else ""
 
 
 def _fault_text(fault: dict[str, Any]) -> str:

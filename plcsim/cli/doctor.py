@@ -15,12 +15,12 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from plcsim.cli.output_file import check_output, write_output
 from plcsim.doctor.advice import advise
 from plcsim.doctor.host import read_host
 from plcsim.doctor.loops import Order, ScanLoop, floor_loop, measure, probe_rights
 from plcsim.doctor.verdict import Comparison, Verdict, explain, judge
 from plcsim.duration import format_duration, parse_duration_ns
-from plcsim.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -85,8 +85,7 @@ def _seconds(text: str) -> int:
 
 def doctor(options: argparse.Namespace) -> int:
     """Measure, print facts, figures, verdicts and advice."""
-    if options.json is not None and not options.json.parent.is_dir():
-        raise ConfigurationError(f"--json {options.json}: there is no folder {options.json.parent}")
+    check_output("--json", options.json)
     console = Console(highlight=False, soft_wrap=not sys.stdout.isatty())
     host, rights = read_host(), probe_rights()
     _print_host(console, host, rights)
@@ -101,7 +100,8 @@ def doctor(options: argparse.Namespace) -> int:
     console.print(_figures_table(comparisons))
     _print_verdicts(console, comparisons, rights, advice)
     if options.json is not None:
-        _write(options.json, _result(host, rights, comparisons, advice))
+        result = _result(host, rights, comparisons, advice)
+        write_output("--json", options.json, json.dumps(result, indent=2) + "\n")
     return 0
 
 
@@ -207,10 +207,3 @@ def _result(
         ],
         "advice": advice,
     }
-
-
-def _write(file: Path, result: dict[str, Any]) -> None:
-    try:
-        file.write_text(json.dumps(result, indent=2) + "\n", "utf-8")
-    except OSError as err:
-        raise ConfigurationError(f"--json {file}: {err.strerror}") from None

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import shlex
 import shutil
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,10 +53,13 @@ def new(options: argparse.Namespace) -> int:
     if example is None:
         known = ", ".join(sorted(_examples()))
         raise ConfigurationError(f"--like {options.like}: no such example; there are {known}")
-    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_-]*", target.name):
-        raise ConfigurationError(f"{target.name!r} cannot be the name of a project")
     if target.exists():
         raise ConfigurationError(f"{target}: exists already; nothing was changed")
+    if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_-]*", target.name):
+        raise ConfigurationError(
+            f"{target.name!r} cannot be the name of a project: a letter of A to Z comes "
+            "first, then more of them, digits, _ and -"
+        )
     if not target.parent.is_dir():
         raise ConfigurationError(f"{target}: there is no folder {target.parent}")
     try:
@@ -62,7 +67,9 @@ def new(options: argparse.Namespace) -> int:
     except OSError as err:
         raise ConfigurationError(f"{target}: cannot be made: {err}") from None
     print(f"Made {target} from the example {options.like}. Try:")
-    print(f"    plcsim run {target}")
+    print(f"    plcsim run {shlex.quote(str(target))}")
     if (target / "tests").is_dir():
-        print(f"    python -m pytest {target}/tests")
+        if find_spec("pytest") is None:
+            print("    python3 -m pip install pytest hypothesis")
+        print(f"    python3 -m pytest {shlex.quote(str(target / 'tests'))}")
     return 0

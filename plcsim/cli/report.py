@@ -6,19 +6,20 @@ calibration loop that ran between them. The repeats of A and B are compared by r
 
 from __future__ import annotations
 
+import argparse
 import json
 from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from plcsim.cli.console import CommandConsole
 from plcsim.errors import ConfigurationError
 from plcsim.rank_test import rank_test
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Mapping, Sequence
 
 SCHEMA = "plcsim-test-report/1"
@@ -63,9 +64,10 @@ class Comparison(NamedTuple):
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command."""
-    parser = subparsers.add_parser("report", help="compare the reports of two test runs")
-    acts = parser.add_subparsers(title="acts", metavar="ACT", required=True)
-    command = acts.add_parser(
+    text = "compare the reports of two test runs"
+    parser = subparsers.add_parser("report", help=text, description=f"{text.capitalize()}.")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    command = commands.add_parser(
         "compare",
         help="tell whether programs got slower",
         description="Compare two reports of `pytest --plc-report DIR --plc-repeat 30`: did a "
@@ -77,12 +79,23 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     command.add_argument("after", type=Path, metavar="B", help="folder or report.json")
     command.add_argument(
         "--smallest",
-        type=float,
+        type=_share,
         default=SMALLEST_CHANGE,
         metavar="SHARE",
         help=f"smallest growth of the median that counts (default: {SMALLEST_CHANGE})",
     )
     command.set_defaults(func=compare)
+
+
+def _share(text: str) -> float:
+    """Return a number from 0 to 100."""
+    try:
+        share = float(text)
+    except ValueError:
+        share = -1
+    if not 0 <= share <= 100:
+        raise argparse.ArgumentTypeError(f"{text!r} is no share such as 0.1")
+    return share
 
 
 def compare(options: argparse.Namespace) -> int:
@@ -169,9 +182,9 @@ def _print(found: Sequence[Comparison]) -> None:
             f"{c.repeats[0]} / {c.repeats[1]}",
             f"{c.change:+.1%}",
             f"{c.probability:.2g}",
-            "[bold red]slower[/]" if c.worse else "",
+            Text("slower", style="bold red") if c.worse else "",
         )
-    console = Console(highlight=False)
+    console = CommandConsole()
     console.print(table)
     worse = sum(c.worse for c in found)
     console.print(f"{worse} of {len(found)} got slower" if worse else "nothing got slower")

@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
-import os
 import signal
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.cli.display import LiveTable, print_summary
+from plcsim.cli.output_file import check_output, write_output
 from plcsim.duration import parse_duration_ns
 from plcsim.errors import ConfigurationError
 from plcsim.project import read_project
@@ -77,7 +76,7 @@ def _positive(text: str) -> int:
 def run(options: argparse.Namespace) -> int:
     """Run the project and return the exit code."""
     project = read_project(options.project)
-    _check_report_file(options.report)
+    check_output("--report", options.report)
     supervisor = Supervisor(
         project,
         virtual=options.virtual,
@@ -93,28 +92,21 @@ def run(options: argparse.Namespace) -> int:
 def _wait(supervisor: Supervisor, project: Project, options: argparse.Namespace) -> dict[str, Any]:
     if options.quiet:
         return supervisor.wait()
-    with LiveTable(project, supervisor.page):
+    with LiveTable(project, supervisor.page, options.for_ns):
         return supervisor.wait()
-
-
-def _check_report_file(report: Path | None) -> None:
-    """Find out before the run that its report cannot be written."""
-    if report is None:
-        return
-    if not report.parent.is_dir():
-        raise ConfigurationError(f"--report {report}: there is no folder {report.parent}")
-    if report.is_dir() or not os.access(report if report.exists() else report.parent, os.W_OK):
-        raise ConfigurationError(f"--report {report}: cannot be written")
 
 
 @contextlib.contextmanager
 def _signals_forwarded(supervisor: Supervisor) -> Iterator[None]:
-    """Let SIGINT and SIGTERM ask for a stop."""
+    """Let SIGINT and SIGTERM ask for a stop, and so the end of the terminal, unless under nohup."""
 
     def stop(_number: int, _frame: FrameType | None) -> None:
         supervisor.stop()
 
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        numbers.append(signal.SIGHUP)
+    before = {number: signal.signal(number, stop) for number in numbers}
     try:
         yield
     finally:
@@ -126,16 +118,16 @@ def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
     if "error" in result:
         raise ConfigurationError(result["error"])
     in_service = result["state"] == "SERVICE"
-    if not options.quiet or in_service:
-        sys.stdout.flush()
-        print_summary(result)
-    if options.report is not None:
-        _write_report(options.report, result)
+    try:
+        if options.report is not None:
+            write_output("--report", options.report, json.dumps(result, indent=2) + "\n")
+    finally:
+        if not options.quiet or in_service:
+            _show(result)
     return ENDED_IN_SERVICE if in_service else 0
 
 
-def _write_report(file: Path, result: dict[str, Any]) -> None:
-    try:
-        file.write_text(json.dumps(result, indent=2) + "\n", "utf-8")
-    except OSError as err:
-        raise ConfigurationError(f"--report {file}: {err.strerror}") from None
+def _show(result: dict[str, Any]) -> None:
+    """Print the summary; where nobody is left to read it, the exit code is told all the same."""
+    with contextlib.suppress(OSError):
+        print_summary(result)

@@ -6,15 +6,16 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.table import Table
 
 from plcsim.cli.check import CHECK_IP
+from plcsim.cli.console import CommandConsole
+from plcsim.cli.output_file import check_output, write_output
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller
 from plcsim.errors import ConfigurationError
 from plcsim.network import VirtualNetwork
-from plcsim.project import load_setup, read_project
+from plcsim.project import find_project, load_setup, read_project
 from plcsim.tagmap.automatic import LOCK_FILE, write_lock
 from plcsim.tagmap.export import FORMATS
 from plcsim.tagmap.export.entry import Entry, Export
@@ -36,13 +37,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="check, list and export the Modbus map of a project",
         description="The Modbus map of a project: tags.csv, automatic addresses, or both.",
     )
-    commands = tags.add_subparsers(required=True, metavar="COMMAND")
+    commands = tags.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add(commands, "check", check, "say whether the map fits the programs")
     _add(commands, "list", list_tags, "print every tag with its addresses")
     _add(commands, "lock", lock, f"write the automatic addresses to {LOCK_FILE}")
     parser = _add(commands, "export", export, "print the map for another tool")
     parser.add_argument("--format", choices=list(FORMATS), default="csv")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="instead of stdout")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="instead of stdout")
 
 
 def _add(
@@ -85,12 +86,13 @@ def check(options: argparse.Namespace) -> int:
 
 def lock(options: argparse.Namespace) -> int:
     """Write the lock file where it lacks addresses."""
-    _, settings, tag_map = _load(options.project)
+    folder = find_project(options.project).parent
+    _, settings, tag_map = _load(folder)
     if not settings.auto:
         raise ConfigurationError("modbus.auto: is not true, so there is nothing to lock")
     if not tag_map.is_locked:
-        write_lock(options.project, tag_map.lock)
-    print(f"{options.project / LOCK_FILE}: {len(tag_map.lock)} addresses")
+        write_lock(folder, tag_map.lock)
+    print(f"{folder / LOCK_FILE}: {len(tag_map.lock)} addresses")
     return 0
 
 
@@ -108,7 +110,7 @@ def list_tags(options: argparse.Namespace) -> int:
             point.tag, point.area, place, entry.modicon6, entry.type, order, point.access,
             entry.row.unit,
         )  # fmt: skip
-    Console(highlight=False).print(table)
+    CommandConsole().print(table)
     return 0
 
 
@@ -118,13 +120,11 @@ def _entries(tag_map: TagMap) -> list[Entry]:
 
 def export(options: argparse.Namespace) -> int:
     """Print the map, or write it to a file."""
+    check_output("--output", options.output)
     name, settings, tag_map = _load(options.project)
     text = FORMATS[options.format](Export(name, settings.host, settings.port, _entries(tag_map)))
     if options.output is None:
         sys.stdout.write(text)
-        return 0
-    try:
-        options.output.write_text(text, "utf-8")
-    except OSError as err:
-        raise ConfigurationError(f"--output {options.output}: {err.strerror}") from None
+    else:
+        write_output("--output", options.output, text)
     return 0

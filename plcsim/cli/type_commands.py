@@ -31,7 +31,8 @@ def check(options: argparse.Namespace) -> int:
     """Print what is wrong in the files, and how many they are."""
     reading, table = _resolved(options.paths, strict=options.strict)
     if not reading.files and not reading.failures:
-        raise PlcError("no .typ, .var or .fun file was found.")
+        places = ", ".join(map(str, options.paths))
+        raise PlcError(f"{places}: no .typ, .var or .fun file was found.")
     errors = _report(reading, print)
     warnings = sum(file.diagnostics.warning_count for file in reading.files)
     types = [data_type for _, data_type in table.types()]

@@ -7,11 +7,12 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
+from plcsim.cli.console import CommandConsole
 from plcsim.errors import ConfigurationError
+from plcsim.project import find_project
 from plcsim.run_file import Run, find_run
 from plcsim.shared_image import ImageError, ImageNotReady, ImageReader
 from plcsim.tag import Tag, leaves
@@ -21,6 +22,8 @@ from st_types.values import decode
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator, Sequence
+
+    from rich.console import Console
 
 PERIOD_S = 0.2
 PATIENCE_S = 5.0
@@ -44,12 +47,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def watch(options: argparse.Namespace) -> int:
     """Show the values."""
-    run = find_run(options.project)
+    run = find_run(find_project(options.project).parent)
     fd = run.open(run.image_fd)
     try:
         reader = _open(fd)
         tags = list(_chosen(reader, options.tags))
-        console = Console(highlight=False)
+        console = CommandConsole()
         if options.once or not console.is_terminal:
             console.print(_table(reader, tags))
         else:

@@ -1,5 +1,7 @@
 """Programs from folders: one file or three, shared modules, and everything that can be wrong."""
 
+from pathlib import Path
+
 import pytest
 
 from plcsim.clock import VirtualClock
@@ -145,7 +147,10 @@ def wrong(load, files, source="main"):
     [
         ("x = (\n", "main/main.py:1: SyntaxError: '(' was never closed"),
         ("\n\nimport nonsense_\n", "main/main.py:3: ModuleNotFoundError: No module named"),
-        ("\nfrom ..nothing import X\n", "main/main.py:2: ModuleNotFoundError: No module named"),
+        (
+            "\nfrom ..nothing import X\n",
+            "main/main.py:2: ModuleNotFoundError: No module named 'cell.nothing'",
+        ),
         ("def f():\n    1 // 0\nf()\n", "main/main.py:2: division by zero"),
         ("raise SystemExit(0)\n", "main/main.py:1: SystemExit: 0"),
         ("\nimport sys\nsys.exit()\n", "main/main.py:3: SystemExit"),
@@ -163,11 +168,50 @@ def test_a_wrong_program_is_named_with_file_and_line(load, source, error):
     assert wrong(load, {"main/main.py": source}).startswith(error)
 
 
+@pytest.mark.parametrize(
+    ("source", "error"),
+    [
+        ("def Cyclic(self): ...", "the unit Cyclic is spelt cyclic"),
+        ("def INIT(self): ...", "the unit INIT is spelt init"),
+        ("def cyclic(): ...", "cyclic takes self and nothing else"),
+        ("def exit(self, code): ...", "exit takes self and nothing else"),
+        ("async def cyclic(self): ...", "cyclic neither awaits nor yields"),
+        ("def cyclic(self): yield", "cyclic neither awaits nor yields"),
+    ],
+)
+def test_a_unit_that_would_not_run_is_an_error(load, source, error):
+    found = wrong(load, {"main/main.py": f"{DECLARED}    {source}\n"})
+    assert found.startswith(f"main/main.py:5: {error}")
+
+
+@pytest.mark.parametrize(
+    "body", ["Exit = var(UINT)", "def init(self): self.Init()\n    def Init(self): ..."]
+)
+def test_other_members_may_be_called_as_they_like(load, body):
+    assert load({"main/main.py": f"{DECLARED}    {body}\n"}).__name__ == "Main"
+
+
+def test_a_unit_in_a_file_of_its_own_is_checked_too(load):
+    files = {"main/variables.py": CLASS, "main/exit.py": "def exit():\n    pass\n"}
+    assert wrong(load, files) == "main/exit.py:1: exit takes self and nothing else"
+
+
+def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
+    def refused(path, **_):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    files = {"main/main.py": ""}
+    with monkeypatch.context() as patched:
+        load(files | {"other/main.py": CLASS}, "other")
+        patched.setattr(Path, "is_file", refused)
+        assert wrong(load, files) == "main/variables.py: Permission denied"
+
+
 def test_a_wrong_shared_module_is_named_itself(load):
     files = {"main/main.py": "from ..shared import X\n", "shared.py": "X = 1\nY = X.y\n"}
     assert wrong(load, files).startswith("shared.py:2: AttributeError")
     files = {"main/main.py": "from ..shared import X\n", "shared.py": "X = 1\n\nX = = 2\n"}
-    assert wrong(load, files).startswith("shared.py:3: SyntaxError")
+    assert wrong(load, files) == "shared.py:3: SyntaxError: invalid syntax"
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """plc.toml: what it says, and every way in which it can be wrong."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -148,9 +149,18 @@ def test_the_file_may_be_named_instead_of_the_folder(read):
             "plc.exception_program: '../main' is not",
         ),
         ("[plc]\nexception_program = 'main'\n" + MAIN, "programs: two programs are called main"),
-        ("[task_class.9]\nprograms = ['main']", "task_class.9: task classes are 1 to 8"),
-        ("[task_class.0]\nprograms = ['main']", "task_class.0: task classes are 1 to 8"),
-        ("[task_class.fast]\nprograms = ['main']", "task_class.fast: task classes are 1 to 8"),
+        (
+            "[task_class.9]\nprograms = ['main']",
+            "task_class.9: task classes are [task_class.1] to [task_class.8]",
+        ),
+        (
+            "[task_class.0]\nprograms = ['main']",
+            "task_class.0: task classes are [task_class.1] to [task_class.8]",
+        ),
+        (
+            "[task_class.fast]\nprograms = ['main']",
+            "task_class.fast: task classes are [task_class.1] to [task_class.8]",
+        ),
         (CLASS, "task_class.1.programs: at least one program is needed"),
         (CLASS + "programs = []", "task_class.1.programs: at least one program is needed"),
         (CLASS + "programs = 'main'", "task_class.1.programs: 'main' is not a list"),
@@ -210,16 +220,43 @@ def test_a_missing_file_is_named(tmp_path):
         read_project(tmp_path)
 
 
-@pytest.mark.parametrize("make", ["directory", "latin", "file"])
+def test_near_projects_are_named_where_one_is_missing(project, monkeypatch):
+    folder = project({"plc.toml": MAIN, "main/main.py": PROGRAM})
+    for path in (folder / "main", folder / "main" / "main.py", folder / "none" / "at" / "all"):
+        with pytest.raises(ConfigurationError, match=re.escape(f"; did you mean {folder}?")):
+            read_project(path)
+    for path in (folder.parent, folder.parent / "none", folder.parent / "none" / "plc.toml"):
+        with pytest.raises(ConfigurationError) as raised:
+            read_project(path)
+        hint = "" if path.name == "plc.toml" else f"; there are projects in {folder}"
+        assert str(raised.value).endswith(hint or "; a project has one")
+    monkeypatch.chdir(folder / "main")
+    with pytest.raises(ConfigurationError, match=re.escape("plc.toml: there is no such file; did")):
+        read_project(Path())
+
+
+@pytest.mark.parametrize("path", ["a\0b", "x" * 300])
+def test_what_can_be_no_path_is_an_error(path):
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        read_project(Path(path))
+
+
+def test_a_misspelt_key_is_told_before_what_is_missing(read):
+    with pytest.raises(
+        ConfigurationError, match=r"task_clas: unknown key; did you mean task_class"
+    ):
+        read("[task_clas.1]\nprograms = ['main']")
+    with pytest.raises(ConfigurationError, match=r"1\.program: unknown key; did you mean programs"):
+        read("[task_class.1]\nprogram = ['main']")
+
+
+@pytest.mark.parametrize("make", ["directory", "latin"])
 def test_a_file_that_cannot_be_read_is_named(tmp_path, make):
     file = tmp_path / "plc.toml"
     if make == "directory":
         file.mkdir()
-    elif make == "latin":
-        file.write_bytes(b'[plc]\nname = "\xe4"\n')
     else:
-        tmp_path /= "no_folder"
-        tmp_path.write_text("")
+        file.write_bytes(b'[plc]\nname = "\xe4"\n')
     with pytest.raises(ConfigurationError, match=r"plc\.toml: cannot be read"):
         read_project(tmp_path)
 

@@ -5,7 +5,7 @@ import io
 import pytest
 from rich.console import Console
 
-from plcsim.cli.display import LiveTable, print_summary
+from plcsim.cli.display import LiveTable, print_summary, source_line
 from plcsim.project import read_project
 from plcsim.report import report
 from plcsim.status_page import StatusPage
@@ -32,10 +32,11 @@ def summary(make_controller, capsys, monkeypatch):
 
 def test_a_run_that_stopped(summary, task_class, program_of, clock):
     program = program_of(lambda _: clock.spend_ns(2_500_000))
-    head, columns, row = summary(task_class(1, 10, a=program, b=program_of())).splitlines()
+    head, columns, row, names = summary(task_class(1, 10, a=program, b=program_of())).splitlines()
     assert head == "cell  STOPPED  after 100 ms  (virtual clock)"
     assert columns.split()[:5] == ["class", "cycle", "cycles", "missed", "viol."]
-    assert " ".join(row.split()) == "#1 10 ms 10 0 0 2.5 ms / 2.5 ms 0 ns / 0 ns a, b"
+    assert " ".join(row.split()) == "#1 10 ms 10 0 0 2.5 ms / 2.5 ms 0 ns / 0 ns"
+    assert names == "#1: a, b"
 
 
 def test_violations_are_shown_with_their_causes(summary, task_class, program_of, clock):
@@ -59,6 +60,14 @@ def test_a_fault_is_shown_in_one_line_however_long(summary, task_class, program_
     shown = summary(task_class(1, 10, p=program_of(fail)))
     (line,) = [line for line in shown.splitlines() if line.startswith("SERVICE: p CYCLIC:")]
     assert __file__ in line
+    assert shown.count("p CYCLIC:") == 1  # not once more from the logbook
+
+
+def test_the_line_that_failed_is_shown(tmp_path):
+    file = tmp_path / "main.py"
+    file.write_text("first\n        self.cuont = 1\n")
+    assert source_line(f"{file}:2") == "     2 |         self.cuont = 1\n"
+    assert source_line(f"{file}:3") == source_line("/nowhere:1") == source_line("") == ""
 
 
 def test_a_violation_that_led_to_service_names_its_class(summary, task_class, program_of, clock):
@@ -77,7 +86,7 @@ def live(project_of):
     """The live table of a project of one program, and its status page."""
     folder = project_of("")
     page = StatusPage()
-    yield LiveTable(read_project(folder), page), page
+    yield LiveTable(read_project(folder), page, 60_000 * MS), page
     page.close()
 
 
@@ -92,9 +101,10 @@ def test_the_live_table_shows_the_status_page(live, make_controller, task_class,
     page.ticked(12_340 * MS)
     out = io.StringIO()
     Console(file=out, width=80).print(table._picture())
-    head, _, row = out.getvalue().splitlines()
-    assert head.split() == ["cell", "RUN", "12.3", "s"]
-    assert " ".join(row.split()) == "#1 10 ms 4 4 4 11 ms / 11 ms 0 ns / 0 ns main"
+    head, _, row, names = out.getvalue().splitlines()
+    assert " ".join(head.split()) == "cell RUN 12.3 s of 60 s"
+    assert " ".join(row.split()) == "#1 10 ms 4 4 4 11 ms / 11 ms 0 ns / 0 ns"
+    assert names == "#1: main"
 
 
 def test_without_a_terminal_nothing_is_drawn(live, capsys):

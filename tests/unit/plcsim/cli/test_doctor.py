@@ -100,9 +100,12 @@ def test_a_json_file_in_a_folder_that_is_not_there_is_refused_before_measuring(h
 
 
 def test_a_json_file_that_cannot_be_written_is_an_error(host_gives, tmp_path):
-    host_gives(NONE)
-    with pytest.raises(ConfigurationError, match=r"--json .*: Is a directory"):
+    orders = host_gives(NONE)
+    with pytest.raises(ConfigurationError, match=r"--json .*: cannot be written"):
         run("--json", str(tmp_path))
+    assert orders == []  # before the measurement, not after it
+    with pytest.raises(ConfigurationError, match=r"--json /dev/full: No space left"):
+        run("--json", "/dev/full")
 
 
 def test_ctrl_c_ends_it_without_a_trace(host_gives, monkeypatch, capsys):

@@ -1,12 +1,18 @@
 """The command itself: help of every sub-command, exit codes, errors in one line."""
 
 import argparse
+import builtins
+import io
+import subprocess
+import sys
 from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
-from plcsim.cli import main as cli
-from plcsim.cli.main import build_parser, main
+from plcsim.cli import command as cli
+from plcsim.cli.command import build_parser
+from plcsim.cli.main import main
 from plcsim.errors import PlcError
 from st_types.errors import TypeSystemError
 
@@ -58,6 +64,8 @@ def test_wrong_usage_is_exit_code_2(arguments, capsys):
     [
         (PlcError("no such thing"), 1, "plcsim: no such thing\n"),
         (TypeSystemError("no such type"), 1, "plcsim: no such type\n"),
+        (OSError(28, "No space left on device"), 1, "plcsim: [Errno 28] No space left on device\n"),
+        (BrokenPipeError(), 0, ""),
         (KeyboardInterrupt(), 130, ""),
     ],
 )
@@ -79,3 +87,50 @@ def test_a_command_that_cannot_be_imported_costs_only_itself(monkeypatch, capsys
     first, second = capsys.readouterr().err.splitlines()
     assert first.startswith("plcsim: the command fly is not there: No module named")
     assert second.startswith("plcsim: /nowhere/plc.toml: there is no such file")
+
+
+def test_ctrl_c_while_the_modules_are_loaded_shows_nothing(monkeypatch, capsys):
+    load = builtins.__import__
+
+    def interrupted(name, *rest):
+        if name == "plcsim.cli.command":
+            raise KeyboardInterrupt
+        return load(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", interrupted)
+    assert main(["check", "."]) == 130
+    assert capsys.readouterr() == ("", "")
+
+
+def plcsim(*arguments, **options):
+    """Run ``python -m plcsim`` with a closed pipe, a full disk or other letters as output."""
+    command = [sys.executable, "-P", "-m", "plcsim", *arguments]
+    return subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False, **options)
+
+
+@pytest.mark.parametrize("arguments", [["types", "layout", "TON"], ["tags", "list", "tank"]])
+def test_a_full_disk_is_one_line(arguments, tmp_path):
+    main(["new", str(tmp_path / "tank"), "--like", "tank"])
+    with Path("/dev/full").open("w") as full:
+        done = plcsim(*arguments, stdout=full, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (1, "plcsim: [Errno 28] No space left on device\n")
+
+
+@pytest.mark.parametrize("arguments", [["types", "layout", "TON"], ["tags", "list", "tank"]])
+def test_a_reader_that_has_seen_enough_is_no_error(arguments, tmp_path):
+    main(["new", str(tmp_path / "tank"), "--like", "tank"])
+    pipe = subprocess.Popen(["true"], stdin=subprocess.PIPE)
+    pipe.wait()
+    with pipe.stdin:
+        done = plcsim(*arguments, stdout=pipe.stdin, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_letters_that_the_language_has_not_are_shown_as_numbers(monkeypatch):
+    out = io.TextIOWrapper(io.BytesIO(), "ascii")
+    monkeypatch.setattr(sys, "stdout", out)
+    parser = argparse.ArgumentParser()
+    parser.set_defaults(func=lambda _: print("\xe4") or 0)
+    monkeypatch.setattr(cli, "build_parser", lambda: parser)
+    assert main([]) == 0
+    assert out.buffer.getvalue() == b"\\xe4\n"

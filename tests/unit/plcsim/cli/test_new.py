@@ -27,12 +27,23 @@ def test_a_new_project_runs_and_tests_itself(empty_folder, capsys):
     assert capsys.readouterr().out == (
         "Made my_plc from the example blinky. Try:\n"
         "    plcsim run my_plc\n"
-        "    python -m pytest my_plc/tests\n"
+        "    python3 -m pytest my_plc/tests\n"
     )
     assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
     tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "my_plc/tests"]
     done = subprocess.run(tests, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
+
+
+def test_what_to_try_can_be_typed_as_it_is(empty_folder, capsys, monkeypatch):
+    (empty_folder / "mein plc").mkdir()
+    monkeypatch.setattr("plcsim.cli.new.find_spec", lambda _: None)
+    assert main(["new", "mein plc/cell"]) == 0
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        "    plcsim run 'mein plc/cell'",
+        "    python3 -m pip install pytest hypothesis",
+        "    python3 -m pytest 'mein plc/cell/tests'",
+    ]
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
@@ -57,8 +68,9 @@ def test_an_existing_folder_is_left_alone(empty_folder, capsys):
         (["x", "--like", "nothing"], "--like nothing: no such example; there are"),
         (["my plc"], "'my plc' cannot be the name of a project"),
         (["1st"], "'1st' cannot be the name of a project"),
-        ([".."], "'..' cannot be the name of a project"),
-        (["."], "'' cannot be the name of a project"),
+        (["händler"], "'händler' cannot be the name of a project: a letter of A to Z"),
+        ([".."], "..: exists already; nothing was changed"),
+        (["."], ".: exists already; nothing was changed"),
         (["no/where"], "no/where: there is no folder no"),
         (["dangling"], "dangling: cannot be made"),
     ],

@@ -1,7 +1,10 @@
 """``plcsim run``: options, exit codes, report; hard cases are in tests/scan/test_supervisor.py."""
 
 import json
+import os
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -102,6 +105,53 @@ def test_a_wrong_project_is_exit_code_1(project_of, capsys):
 
 
 def test_the_handlers_of_signals_are_given_back(project_of):
-    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.getsignal(number) for number in numbers]
     main(["run", str(project_of(GOOD)), *VIRTUAL, "--quiet"])
-    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
+    assert [signal.getsignal(number) for number in numbers] == before
+
+
+@pytest.mark.parametrize("full", [False, True])
+def test_a_run_that_nobody_reads_keeps_its_report_and_exit_code(project_of, tmp_path, full):
+    report = tmp_path / "report.json"
+    command = [sys.executable, "-P", "-m", "plcsim", "run", str(project_of(FAILS)), *VIRTUAL]
+    reader, broken = os.pipe()
+    os.close(reader)
+    if full:
+        os.close(broken)
+        broken = os.open("/dev/full", os.O_WRONLY)
+    done = subprocess.run([*command, "--report", report], stderr=broken, check=False)
+    os.close(broken)
+    assert done.returncode == 3
+    assert json.loads(report.read_text())["state"] == "SERVICE"
+
+
+EXITS = """
+    from pathlib import Path
+    from plcsim import Program
+
+    class Main(Program):
+        def init(self) -> None:
+            print("RUN", flush=True)
+
+        def exit(self) -> None:
+            Path(__file__).with_name("exited").touch()
+"""
+
+
+@pytest.mark.parametrize("ignored", [False, True])
+def test_the_end_of_the_terminal_stops_the_run_unless_under_nohup(project_of, tmp_path, ignored):
+    folder, report = project_of(EXITS), tmp_path / "report.json"
+    command = [sys.executable, "-P", "-m", "plcsim", "run", str(folder), "--report", str(report)]
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL)
+    with subprocess.Popen([*command, "--quiet"], stdout=subprocess.PIPE) as running:
+        signal.signal(signal.SIGHUP, before)
+        assert running.stdout.readline() == b"RUN\n"
+        running.send_signal(signal.SIGHUP)
+        if ignored:
+            with pytest.raises(subprocess.TimeoutExpired):
+                running.wait(0.3)
+            running.terminate()
+        assert running.wait(20) == 0
+    assert (folder / "main" / "exited").exists()
+    assert json.loads(report.read_text())["state"] == "STOPPED"

@@ -54,6 +54,7 @@ def running(folder: Path, program: type[Program]) -> int:
     ImageWriter(fd, plc, project="cell", services={})
     plc.boot()
     plc.run(cycles=7)
+    (folder / "plc.toml").touch()
     announce(folder, Run(os.getpid(), fd, fd))
     return fd
 
@@ -85,12 +86,27 @@ def test_all_variables_are_shown(project: Path, capsys: pytest.CaptureFixture[st
 def test_named_variables_are_shown_in_their_order(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["watch", str(project), "cell.axes[2]", "CELL.COUNT"]) == 0
+    assert main(["watch", str(project / "plc.toml"), "cell.axes[2]", "CELL.COUNT"]) == 0
     assert [line[0] for line in shown(capsys)[1:]] == [
         "cell.axes[2].speed",
         "cell.axes[2].ready",
         "CELL.COUNT",
     ]
+
+
+def test_text_is_shown_as_it_is_however_narrow(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Marked(Program):
+        a_name_that_is_longer_than_the_terminal = var(STRING(30), "[red] and :smile:")
+
+    monkeypatch.setenv("COLUMNS", "20")
+    fd = running(tmp_path, Marked)
+    assert main(["watch", str(tmp_path)]) == 0
+    os.close(fd)
+    row = capsys.readouterr().out.splitlines()[1]
+    assert "cell.a_name_that_is_longer_than_the_terminal" in row
+    assert "'[red] and :smile:'  STRING[30]" in row
 
 
 def test_an_unknown_variable_is_named(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -102,6 +118,9 @@ def test_a_project_that_does_not_run_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["watch", str(tmp_path / "none")]) == 1
+    assert "none/plc.toml: there is no such file" in capsys.readouterr().err
+    (tmp_path / "plc.toml").touch()
+    assert main(["watch", str(tmp_path)]) == 1
     assert "is not running; start it with plcsim run" in capsys.readouterr().err
 
 

@@ -1,0 +1,64 @@
+"""The parser of ``plcsim`` and what becomes of the errors of its commands."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+import sys
+from importlib.metadata import entry_points, version
+
+from plcsim.cli import check, doctor, new, report, run, tags, types, watch
+from plcsim.errors import PlcError
+from st_types.errors import TypeSystemError
+
+COMMANDS = "plcsim.commands"
+"""Entry point group: packages above plcsim bring commands of their own."""
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands, those of other packages included."""
+    parser = argparse.ArgumentParser(
+        prog="plcsim",
+        description="Runs PLC programs on Linux the way a B&R controller runs them.",
+        epilog="Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 ended in SERVICE.",
+    )
+    parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
+    subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in (run, check, doctor, new, report, tags, watch, types):
+        command.register(subparsers)
+    for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
+        try:
+            entry.load()(subparsers)
+        except ImportError as err:  # a package that is half installed costs its own command only
+            print(f"plcsim: the command {entry.name} is not there: {err}", file=sys.stderr)
+    return parser
+
+
+def run_command(arguments: list[str] | None) -> int:
+    """Run a command and return its exit code; an error is told in one line."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # LANG=C has no letters beyond ASCII
+    code = 0
+    try:
+        options = build_parser().parse_args(arguments)
+        code = options.func(options)
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except BrokenPipeError:  # the reader has seen enough, as `head` has
+        _drop_output()
+    except (PlcError, TypeSystemError, OSError) as err:
+        print(f"plcsim: {err}", file=sys.stderr)
+        _drop_output()
+        return 1
+    return code
+
+
+def _drop_output() -> None:
+    """Let nothing that could not be written fail again at the end of the process."""
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        sys.stdout.flush()
+        return
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
