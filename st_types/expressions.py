@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from st_types.lexer import TokenKind, kind_of
-from st_types.literals import TYPED_PREFIXES, Constant, LiteralError, parse_literal
+from st_types.literals import MAX_DIGITS, TYPED_PREFIXES, Constant, LiteralError, parse_literal
 from st_types.reader import TokenReader, UnexpectedTokenError
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ class ExpressionParser(TokenReader):
         index = self.index
         if self.texts[index + 1] in _ENDS:
             text = self.texts[index]
-            if text.isdecimal() and text.isascii():
+            if text.isdecimal() and text.isascii() and len(text) <= MAX_DIGITS:
                 self.index = index + 1
                 return Literal(index, text, parse_literal(text))
             if text.isidentifier() and text.isascii() and text.upper() not in _TRUTH_VALUES:

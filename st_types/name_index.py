@@ -66,9 +66,10 @@ class SourceFile:
 def report_duplicates(index: NameIndex, kind: str) -> None:
     """Record what is declared twice: an error in one file, a warning in two files of a folder."""
     for entries in getattr(index, kind).values():
-        for place, entry in enumerate(entries[1:], 1):
-            first = next((e for e in entries[:place] if e.owner.folder == entry.owner.folder), None)
-            if first is not None:
+        first_of_folder: dict[tuple[str, ...], Entry] = {}
+        for entry in entries:
+            first = first_of_folder.setdefault(entry.owner.folder, entry)
+            if first is not entry:
                 _report_duplicate(first, entry)
 
 

@@ -106,7 +106,7 @@ class RosDeclarations(NamedTuple):
     constants: VariableBlock
 
 
-_FIELD = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)?)(?:\[(\d*)\])?\s+([A-Za-z]\w*)", re.ASCII)
+_FIELD = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)?)(?:\[(\d{0,20})\])?\s+([A-Za-z]\w*)", re.ASCII)
 _CONSTANT = re.compile(r"([a-z]\w*)\s+([A-Za-z]\w*)\s*=\s*(.*)", re.ASCII)
 
 

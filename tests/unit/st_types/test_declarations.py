@@ -120,6 +120,14 @@ def test_places() -> None:
         ),
         ("TYPE A : INT := \u00fc; B : INT := \u0663; END_TYPE", ["1:17: error", "1:31: error"]),
         ("TYPE A : (x, (* y *); END_TYPE", ["1:21: error: expected a name of an enumeration"]),
+        *(
+            (text.replace("?", "9" * 500), [f"1:{text.index('?') + 1}: error: a number of 500"])
+            for text in (
+                "TYPE A : ARRAY[0..?] OF INT; END_TYPE",
+                "TYPE A : STRING[?]; END_TYPE",
+                "VAR a : INT := ?; b : INT := 1; END_VAR",
+            )
+        ),
     ],
 )
 def test_errors(text: str, errors: list[str]) -> None:

@@ -28,6 +28,7 @@ DEFINITIONS = {
     ("x/Loop", "msg"): "Other o\n",
     ("x/Other", "msg"): "Loop[] loops\n",
     ("x/Broken", "msg"): "int32 a\nint32 b c\n",
+    ("x/Endless", "msg"): f"int32[{'9' * 5000}] a\n",
     ("x/Missing", "msg"): "y/Nothing n\n",
 }
 
@@ -142,6 +143,7 @@ def test_services(service: str, names: dict[str, list[str]]) -> None:
     [
         ("x/Loop", r"x/Loop contains itself: x/Loop -> x/Other -> x/Loop"),
         ("x/Broken", r"x/Broken, line 2: 'int32 b c' is no field and no constant"),
+        ("x/Endless", r"x/Endless, line 1: 'int32\[9+\] a' is no field and no constant"),
         ("x/Missing", "x/Missing: no message is called y/Nothing"),
         ("x/Absent", "no message and no service is called x/Absent"),
         ("JointState", "'JointState' is no type name; pkg/Type was expected"),
