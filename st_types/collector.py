@@ -23,4 +23,16 @@ def collector_paused() -> Iterator[None]:
         yield
     finally:
         if was_enabled:
+            _age()
             gc.enable()
+
+
+def _age() -> None:
+    """Move all objects to the oldest generation, or the next collection would walk the new ones.
+
+    To freeze and unfreeze them does that without looking at any. What somebody else has frozen
+    must stay so.
+    """
+    if not gc.get_freeze_count():
+        gc.freeze()
+        gc.unfreeze()

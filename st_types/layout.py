@@ -32,8 +32,8 @@ def lay_out(types: Iterable[DataType[object]]) -> Layout:
     end = 0
     alignment = 1
     for data_type in types:
-        start = align_up(end, data_type.alignment)
-        offsets.append(start)
-        end = start + data_type.size
         alignment = max(alignment, data_type.alignment)
+        end += -end % data_type.alignment
+        offsets.append(end)
+        end += data_type.size
     return Layout(tuple(offsets), max(1, align_up(end, alignment)), alignment)
