@@ -32,6 +32,7 @@ from st_types.views import (
     DataBlock,
     Struct,
     var,
+    var_in_out,
     var_input,
     var_output,
 )
@@ -68,6 +69,7 @@ __all__ = [
     "TypeSystemError",
     "ValueRangeError",
     "var",
+    "var_in_out",
     "var_input",
     "var_output",
 ]

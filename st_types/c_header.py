@@ -26,9 +26,10 @@ from st_types.derived import (
     StructType,
     SubrangeType,
     WStringType,
+    is_digital,
     resolve_alias,
 )
-from st_types.elementary import BOOL, DataType, ElementaryType
+from st_types.elementary import DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -72,7 +73,12 @@ C_KEYWORDS = frozenset(
 )
 """Words of C and C++, and macros of gcc, that cannot be names."""
 
-_SECTIONS = {Section.INPUT: "VAR_INPUT", Section.OUTPUT: "VAR_OUTPUT", Section.INTERNAL: "VAR"}
+_SECTIONS = {
+    Section.INPUT: "VAR_INPUT",
+    Section.OUTPUT: "VAR_OUTPUT",
+    Section.IN_OUT: "VAR_IN_OUT",
+    Section.INTERNAL: "VAR",
+}
 
 
 def c_header(table: TypeTable, name: str) -> str:
@@ -283,7 +289,9 @@ def _offset(pair: tuple[int, Member]) -> int:
 
 
 def _group(member: Member) -> str:
-    kind = "digital" if member.data_type is BOOL else "analog"
+    kind = "digital" if is_digital(member.data_type) else "analog"
+    if member.section is Section.IN_OUT:
+        kind = "analog and digital"  # references to either kind
     return f"{_SECTIONS[member.section]} ({kind})"
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from st_types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
 from st_types.errors import DeclarationError
-from st_types.layout import lay_out
+from st_types.layout import Layout, lay_out
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -24,7 +24,9 @@ class Section(Enum):
 
     INPUT = 0
     OUTPUT = 1
-    INTERNAL = 2
+    IN_OUT = 2
+    """A reference to the caller's variable."""
+    INTERNAL = 3
 
 
 class Member(NamedTuple):
@@ -111,10 +113,8 @@ class StructType(DataType[V_co]):
 
     def __init__(self, name: str, members: Sequence[Member]) -> None:
         self.members = tuple(members)
-        order = self._order()
-        layout = lay_out(self.members[i].data_type for i in order)
-        offsets = dict(zip(order, layout.offsets, strict=True))
-        self.offsets = tuple(offsets[i] for i in range(len(self.members)))
+        layout = self._laid_out()
+        self.offsets = layout.offsets
         if layout.size > MAX_SIZE:
             raise DeclarationError(f"{name}: {layout.size} bytes are too many.")
         super().__init__(name, layout.size, layout.alignment)
@@ -123,8 +123,9 @@ class StructType(DataType[V_co]):
             if self._places.setdefault(member.name.upper(), place) != place:
                 raise DeclarationError(f"{name}: two members are called {member.name}.")
 
-    def _order(self) -> Sequence[int]:
-        return range(len(self.members))
+    def _laid_out(self) -> Layout:
+        """Return the layout, its offsets in the order of declaration."""
+        return lay_out([member.data_type for member in self.members])
 
     def find(self, name: str) -> tuple[Member, int]:
         """Return the member ``name`` (case does not matter) and its offset in bytes.
@@ -141,26 +142,29 @@ class DataBlockType(StructType[V_co]):
 
     __slots__ = ()
 
-    def _order(self) -> Sequence[int]:
-        return data_block_order(self.members)
+    def _laid_out(self) -> Layout:
+        order = data_block_order(self.members)
+        layout = lay_out([self.members[i].data_type for i in order])
+        offsets = dict(zip(order, layout.offsets, strict=True))
+        return layout._replace(offsets=tuple(offsets[i] for i in range(len(order))))
 
 
 def data_block_order(members: Sequence[Member]) -> tuple[int, ...]:
     """Return the indices of ``members`` in the order of the generated C struct.
 
-    Analog inputs, analog outputs, analog internals, then digital (BOOL, ARRAY OF BOOL) inputs,
-    outputs, internals; the order of declaration within each group (read off generated headers such
-    as SG4/AsTCP.h, where ``enable`` comes last).
+    Analog inputs, analog outputs, references of VAR_IN_OUT, analog internals, then digital (BOOL,
+    ARRAY OF BOOL) inputs, outputs, internals; the order of declaration within each group (read off
+    generated headers such as SG4/AsTCP.h, where ``enable`` comes last).
     """
     return tuple(
         sorted(
             range(len(members)),
-            key=lambda i: (_is_digital(members[i].data_type), members[i].section.value),
+            key=lambda i: (is_digital(members[i].data_type), members[i].section.value),
         )
     )
 
 
-def _is_digital(data_type: DataType[object]) -> bool:
+def is_digital(data_type: DataType[object]) -> bool:
     """Whether a type is BOOL, under another name or in an ARRAY too."""
     while isinstance(data_type, AliasType | ArrayType):
         data_type = data_type.target if isinstance(data_type, AliasType) else data_type.element

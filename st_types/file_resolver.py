@@ -58,10 +58,13 @@ GENERIC_TYPES = frozenset(
 )
 """Types of parameters that take several types; they have no layout."""
 
-_DATA_BLOCK_SECTIONS = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR")
-"""In the order of the generated C struct, where a VAR_IN_OUT is a pointer."""
-
-_SECTIONS = {"VAR_INPUT": Section.INPUT, "VAR_OUTPUT": Section.OUTPUT}
+_SECTIONS = {
+    "VAR_INPUT": Section.INPUT,
+    "VAR_OUTPUT": Section.OUTPUT,
+    "VAR_IN_OUT": Section.IN_OUT,
+    "VAR": Section.INTERNAL,
+}
+"""Sections of a data block; VAR_TEMP and VAR_EXTERNAL take no place in it."""
 
 T = TypeVar("T")
 
@@ -112,11 +115,11 @@ class FileResolver(ConstantResolver):
             node: the specification.
             name: of the declaration, for types without a name of their own.
         """
+        if type(node) is NamedType and node.name in _SIMPLE:
+            return _SIMPLE[node.name]
         return _BUILDERS[type(node)](self, node, name)
 
     def _named_type(self, node: NamedType, _name: str = "") -> DataType[object] | None:
-        if node.name in _SIMPLE:
-            return _SIMPLE[node.name]
         if node.name in self._entries:
             entry = self._entries[node.name]
         elif (spelling := node.name.upper()) in _SIMPLE:
@@ -176,9 +179,12 @@ class FileResolver(ConstantResolver):
             return None
         return first, last
 
-    def _reference(self, node: ReferenceSpecification, _name: str = "") -> ReferenceType:
-        reference = ReferenceType(None, f"REFERENCE TO {print_specification(node.target)}")
-        self.table.resolve_later(reference, self, node.target)
+    def _reference(self, node: ReferenceSpecification, _name: str) -> ReferenceType:
+        return self._reference_to(node.target)
+
+    def _reference_to(self, target: TypeSpecification) -> ReferenceType:
+        reference = ReferenceType(None, f"REFERENCE TO {print_specification(target)}")
+        self.table.resolve_later(reference, self, target)
         return reference
 
     def _subrange(self, node: SubrangeSpecification, name: str) -> DataType[object] | None:
@@ -236,16 +242,9 @@ class FileResolver(ConstantResolver):
     ) -> list[Member] | None:
         members: list[Member] = []
         for declaration in declarations:
-            specification = declaration.specification
-            data_type: DataType[object] | None
-            if type(specification) is NamedType:
-                data_type = _SIMPLE.get(specification.name) or self._named_type(specification)
-            else:
-                data_type = self.data_type(specification, f"{name}_{declaration.name}")
+            data_type = self.data_type(declaration.specification, f"{name}_{declaration.name}")
             if data_type is not None:
-                initial = None
-                if declaration.initial is not None:
-                    initial = self.initial(declaration, data_type)
+                initial = self.initial(declaration, data_type)
                 members.append(Member(declaration.name, data_type, initial, section))
         if self._report_duplicates(declarations, name):
             return None
@@ -264,12 +263,7 @@ class FileResolver(ConstantResolver):
 
     def _function_block(self, node: FunctionBlockDeclaration) -> DataType[object] | None:
         outer, self.local = self.local, self._local_constants(node.blocks)
-        parts = [
-            self._block_members(block, node.name)
-            for section in (*_DATA_BLOCK_SECTIONS, "")
-            for block in node.blocks
-            if _place_in_data_block(block) == section
-        ]
+        parts = [self._block_members(block, node.name) for block in node.blocks]
         self.local = outer
         every = [declaration for block in node.blocks for declaration in block.declarations]
         self._report_duplicates(every, node.name)
@@ -279,16 +273,18 @@ class FileResolver(ConstantResolver):
         return self._made(node, lambda: DataBlockType(node.name, members))
 
     def _block_members(self, block: VariableBlock, name: str) -> list[Member] | None:
-        """Return the members that a block of variables adds to a data block."""
-        place = _place_in_data_block(block)
-        if place == "VAR_IN_OUT":
+        """Return the members that a block of variables adds to a data block, None after an error.
+
+        A VAR_IN_OUT is a reference there. Constants take no place.
+        """
+        section = _SECTIONS.get(block.section)
+        if section is Section.IN_OUT:
             return [
-                Member(d.name, self._reference(ReferenceSpecification(d.at, d.specification)))
+                Member(d.name, self._reference_to(d.specification), None, section)
                 for d in block.declarations
             ]
-        section = _SECTIONS.get(block.section, Section.INTERNAL)
-        members = self._members(block.declarations, section, name)
-        return members if place else []
+        members = self._members(block.declarations, section or Section.INTERNAL, name)
+        return [] if section is None or "CONSTANT" in block.qualifiers else members
 
     def _local_constants(self, blocks: Sequence[VariableBlock]) -> dict[str, Constant | None]:
         outer = self.local
@@ -330,18 +326,8 @@ class FileResolver(ConstantResolver):
             data_type, initial = entry.data_type, entry.value
         else:
             data_type = self.data_type(node.specification, node.name)
-            initial = None if node.initial is None else self.initial(node, data_type)
+            initial = self.initial(node, data_type)
         return Variable(node.name, data_type, initial, block, node, self.owner.file)
-
-
-def _place_in_data_block(block: VariableBlock) -> str:
-    """Return the section of a data block that holds these variables, empty if none does.
-
-    Constants take no place in it, nor do VAR_TEMP and VAR_EXTERNAL.
-    """
-    if "CONSTANT" in block.qualifiers or block.section not in _DATA_BLOCK_SECTIONS:
-        return ""
-    return block.section
 
 
 _BUILDERS: dict[type, Callable[[FileResolver, Any, str], DataType[object] | None]] = {

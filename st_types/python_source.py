@@ -26,7 +26,7 @@ from st_types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.elementary import DataType, ElementaryType
+from st_types.elementary import ELEMENTARY, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -34,7 +34,21 @@ if TYPE_CHECKING:
     from st_types.resolve import TypeTable
     from st_types.variables import Variable
 
-_MAKERS = {Section.INPUT: "var_input", Section.OUTPUT: "var_output", Section.INTERNAL: "var"}
+_MAKERS = {
+    Section.INPUT: "var_input",
+    Section.OUTPUT: "var_output",
+    Section.IN_OUT: "var_in_out",
+    Section.INTERNAL: "var",
+}
+_IMPORTED = frozenset(
+    [
+        *("ARRAY", "ENUM", "STRING", "WSTRING", "DataBlock", "Struct", *_MAKERS.values()),
+        *("AliasType", "EnumerationType", "ReferenceType", "SubrangeType", *ELEMENTARY),
+        *("Final", "IntEnum", "locals"),
+    ]
+)
+"""Names that the module itself uses; a declaration of such a name gets another one."""
+
 _RESERVED = frozenset([*dir(IntEnum), *keyword.kwlist, "name", "value", "mro"])
 """Names that an IntEnum cannot give to its members."""
 
@@ -77,7 +91,7 @@ class _Module:
     def __init__(self, table: TypeTable) -> None:
         self._table = table
         self._names: dict[DataType[object], str] = {}
-        self._taken: set[str] = set(keyword.kwlist) | {"ARRAY", "ENUM", "STRING", "WSTRING", "var"}
+        self._taken: set[str] = set(keyword.kwlist) | _IMPORTED
         self.imports: set[tuple[str, str]] = set()
 
     def blocks(self) -> Iterator[str]:

@@ -56,15 +56,3 @@ def open_comment(trivia: str) -> int | None:
     text = pieces[-1].group()
     mark = "*)" if text[0] == "(" else "*/"
     return None if len(text) >= 4 and text.endswith(mark) else pieces[-1].start()
-
-
-def comment_text(comment: str) -> str:
-    """Return what a comment says, without its marks and the blanks around."""
-    return (
-        comment.removeprefix("//")
-        .removeprefix("(*")
-        .removeprefix("/*")
-        .removesuffix("*)")
-        .removesuffix("*/")
-        .strip(" \t\r\n*")
-    )

@@ -28,13 +28,14 @@ from st_types.derived import (
     DataBlockType,
     EnumerationType,
     Member,
+    ReferenceType,
     Section,
     StringType,
     StructType,
     WStringType,
     resolve_alias,
 )
-from st_types.elementary import DataType
+from st_types.elementary import UDINT, DataType
 from st_types.errors import DeclarationError, ValueRangeError
 from st_types.slots import Slot, slot_of
 from st_types.values import encode
@@ -108,6 +109,21 @@ def var_output(data_type: DataType[V], initial: object = None) -> V: ...
 def var_output(data_type: object, initial: object = None) -> object:
     """Declare an output (VAR_OUTPUT) of a function block; arguments as for `var`."""
     return _declare(data_type, initial, Section.OUTPUT)
+
+
+def var_in_out(reference: DataType[int]) -> int:
+    """Declare a VAR_IN_OUT of a function block: the caller assigns the address of its variable.
+
+    Args:
+        reference: a `st_types.derived.ReferenceType`, or UDINT for an address of any type.
+
+    Raises:
+        DeclarationError: it is another type.
+    """
+    if reference is not UDINT and not isinstance(reference, ReferenceType):
+        raise DeclarationError(f"{reference} is no address; a reference or UDINT was expected.")
+    declared: int = _declare(reference, None, Section.IN_OUT)
+    return declared
 
 
 def STRING(length: int) -> StringType:  # noqa: N802  # the IEC keyword

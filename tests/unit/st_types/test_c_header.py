@@ -129,7 +129,8 @@ def test_constants_have_their_values(folder: Path) -> None:
 def test_the_shape_of_a_data_block() -> None:
     file = parse_text(
         "FUNCTION_BLOCK F VAR_INPUT enable : BOOL; n : UINT; END_VAR VAR_OUTPUT done : BOOL; "
-        "END_VAR VAR text : STRING[3]; END_VAR END_FUNCTION_BLOCK"
+        "END_VAR VAR text : STRING[3]; bits : ARRAY[0..7] OF BOOL; END_VAR "
+        "VAR_IN_OUT count : INT; go : BOOL; END_VAR END_FUNCTION_BLOCK"
     )
     lines = list(Header(resolve([file])).lines())
     assert lines == [
@@ -137,12 +138,17 @@ def test_the_shape_of_a_data_block() -> None:
         "typedef struct F {",
         "\t/* VAR_INPUT (analog) */",
         "\tunsigned short n;",
+        "\t/* VAR_IN_OUT (analog and digital) */",
+        "\tsigned short *count;",
+        "\tplcbit *go;",
         "\t/* VAR (analog) */",
         "\tplcstring text[4];",
         "\t/* VAR_INPUT (digital) */",
         "\tplcbit enable;",
         "\t/* VAR_OUTPUT (digital) */",
         "\tplcbit done;",
+        "\t/* VAR (digital) */",
+        "\tplcbit bits[8];",
         "} F_typ;",
         "",
         "/* Prototypes */",

@@ -24,7 +24,7 @@ from st_types.layout import align_up, lay_out
 
 from .random_types import structs_with
 
-IN, OUT, VAR = Section.INPUT, Section.OUTPUT, Section.INTERNAL
+IN, OUT, IN_OUT, VAR = Section
 
 INTERNALS = "i_state UINT, i_result UINT, i_tmp UDINT"
 
@@ -170,12 +170,12 @@ def test_bools_arrays_of_them_and_their_aliases_go_to_the_end_of_a_data_block():
 
 
 @given(st.lists(st.tuples(st.sampled_from([BOOL, INT, UDINT]), st.sampled_from(Section))))
-def test_data_block_order_is_six_groups_in_order_of_declaration(declared):
+def test_data_block_order_is_groups_in_order_of_declaration(declared):
     members = [Member(f"m{i}", t, None, section) for i, (t, section) in enumerate(declared)]
     groups = [
         [i for i, (t, s) in enumerate(declared) if (t is BOOL) is digital and s is section]
         for digital in (False, True)
-        for section in (IN, OUT, VAR)
+        for section in (IN, OUT, IN_OUT, VAR)
     ]
     assert list(data_block_order(members)) == [i for group in groups for i in group]
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import st_types
 from st_types.declarations import parse_text
-from st_types.derived import StructType, resolve_alias
+from st_types.derived import Section, StructType, resolve_alias
 from st_types.python_source import python_source
 from st_types.resolve import TypeTable, resolve
 from st_types.values import initial_image
@@ -91,9 +91,35 @@ def test_a_member_does_not_hide_what_members_below_it_need() -> None:
 
 
 def test_names_that_python_cannot_have() -> None:
-    module = check(table_of("TYPE Final : STRUCT x : INT; END_STRUCT; class : INT; END_TYPE"))
-    assert module.Final().x == 0
+    module = check(table_of("TYPE class : INT; END_TYPE"))
     assert module.class_.name == "class"
+
+
+@pytest.mark.parametrize("name", ["DataBlock", "IntEnum", "ReferenceType", "Final", "var_input"])
+def test_names_that_the_module_needs_itself(name: str) -> None:
+    table = table_of(
+        f"TYPE {name} : STRUCT x : INT := 7; END_STRUCT; Mode : (off, on); END_TYPE "
+        "VAR CONSTANT K : INT := 1; END_VAR FUNCTION_BLOCK F VAR_INPUT i : INT; END_VAR "
+        f"VAR r : REFERENCE TO INT; s : {name}; END_VAR END_FUNCTION_BLOCK"
+    )
+    module = module_of(python_source(table, "Test"))
+    assert getattr(module, f"{name}_")().x == module.F().s.x == 7
+
+
+def test_a_var_in_out_is_an_address() -> None:
+    module = check(
+        table_of(
+            "FUNCTION_BLOCK F VAR n : UINT; END_VAR VAR_IN_OUT io : INT; b : BOOL; END_VAR "
+            "VAR_INPUT e : BOOL; END_VAR END_FUNCTION_BLOCK"
+        )
+    )
+    assert {m.name: m.section for m in type_of(module.F).members} == {
+        "n": Section.INTERNAL,
+        "io": Section.IN_OUT,
+        "b": Section.IN_OUT,
+        "e": Section.INPUT,
+    }
+    assert bytes(module.F(io=4096, b=4098, n=3, e=True)).hex() == "001000000210000003000100"
 
 
 def test_the_docstring_is_one_line() -> None:

@@ -1,7 +1,6 @@
 import pytest
 
 from st_types.trivia import (
-    comment_text,
     comments_before,
     comments_behind,
     open_comment,
@@ -40,11 +39,3 @@ def test_pragmas_outside_comments() -> None:
 )
 def test_open_comments(trivia: str, place: int | None) -> None:
     assert open_comment(trivia) == place
-
-
-@pytest.mark.parametrize(
-    ("comment", "text"),
-    [("(*speed in m/s*)", "speed in m/s"), ("// x ", "x"), ("/* y */", "y"), ("(***)", "")],
-)
-def test_comment_text(comment: str, text: str) -> None:
-    assert comment_text(comment) == text

@@ -28,6 +28,7 @@ from st_types import (
     Struct,
     ValueRangeError,
     var,
+    var_in_out,
     var_input,
     var_output,
 )
@@ -319,6 +320,18 @@ def test_a_data_block_has_sections_and_the_order_of_the_c_struct():
         Section.INTERNAL,
     ]
     assert bytes(Block(enable=True, state=9)) == b"\4\0\0\0\x09\0\0\0\1\0\0\0"
+
+
+def test_a_var_in_out_stands_before_the_internals_and_takes_an_address_only():
+    class Block(DataBlock):
+        state = var(UDINT)
+        axis = var_in_out(ReferenceType(type_of(Axis)))
+        anything = var_in_out(UDINT)
+
+    assert [m.section for m in type_of(Block).members[1:]] == [Section.IN_OUT, Section.IN_OUT]
+    assert bytes(Block(axis=1, anything=2, state=3)).hex() == "010000000200000003000000"
+    with pytest.raises(DeclarationError, match="BOOL is no address; a reference or UDINT"):
+        var_in_out(BOOL)
 
 
 def test_type_of_a_class_a_view_and_a_type():
