@@ -1,36 +1,43 @@
 """The bridge without code: tags to topics and topics to tags, as [ros] in plc.toml says.
 
-A tag of an elementary or string type goes with a message of one field, such as std_msgs/Float64. A
-STRUCT goes with a message member by field, by name and at every level; fields without a member keep
-their defaults, members without a field stay as they are. Messages come in in LATCH and go out in
-PUBLISH, so a program sees its inputs stand still.
-
-A STRING is Latin-1 and a ROS string is UTF-8; each is converted to the other. A ROS string that is
-not UTF-8 is put into a STRING byte for byte.
+Messages come in in LATCH and go out in PUBLISH, so a program sees its inputs stand still; how
+values and messages fit is in `crosnode.conversion`. What the bridge's node has to tell goes into
+the logbook, for no program drains its queue.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections import Counter
+from typing import TYPE_CHECKING, Any, Final
 
 from crosnode.budget import Budget
+from crosnode.conversion import tag_conversion
 from crosnode.errors import MessageValueError
 from crosnode.link import QUIET_TURNS
-from crosnode.messages import Duration, Time
-from crosnode.messages.codec import attribute_name
-from crosnode.messages.text import bytes_of, is_utf8
+from crosnode.node import StatusKind
 from crosnode.node.period import Period
 from crosnode.project import create_node, surroundings
 from plcsim.errors import ConfigurationError, TagError
 from plcsim.logbook import Severity
-from st_types.derived import StructType
+from st_types.errors import ValueRangeError
+from st_types.values import decode, encode
 
 if TYPE_CHECKING:
-    from crosnode.messages import Message, MessageType
-    from crosnode.node import CrosNode, Publisher, Subscriber
+    from crosnode.messages import Message
+    from crosnode.node import CrosNode, Publisher, Status, Subscriber
     from crosnode.settings import Publication, Subscription
     from plcsim.controller import Controller
-    from plcsim.tag import Tag
+
+NEWS: Final = {
+    StatusKind.MASTER_FOUND: Severity.INFORMATION,
+    StatusKind.MASTER_LOST: Severity.WARNING,
+    StatusKind.REGISTRATION_REFUSED: Severity.WARNING,
+    StatusKind.SHUTDOWN: Severity.WARNING,
+}
+REPEATED_NEWS: Final = frozenset(
+    (StatusKind.BAD_MESSAGE, StatusKind.NAME_TAKEN, StatusKind.PEER_REFUSED)
+)
+"""What a peer could fill the logbook with: warned of at the first, second, fourth, eighth..."""
 
 
 class Bridge:
@@ -50,6 +57,7 @@ class Bridge:
         settings = found.settings
         self.node: CrosNode = create_node(controller.context, settings.node)
         self.refused = 0
+        self._repeated: Counter[StatusKind] = Counter()
         self._controller = controller
         self._out = [Outgoing(controller, self.node, entry) for entry in settings.publish]
         self._in = [Incoming(controller, self.node, entry) for entry in settings.subscribe]
@@ -57,6 +65,8 @@ class Bridge:
     def latch(self) -> None:
         """Do the node's step, then give tags the newest messages."""
         self.node.do_events_loop()
+        if (status := self.node.pop_status()) is not None:
+            self._log_news(status)
         for incoming in self._in:
             self._checked(incoming.name, incoming.take)
 
@@ -72,15 +82,31 @@ class Bridge:
             node.core.loop.step(self._controller.context.release_ns, Budget(node.options.step))
         node.destroy()
 
+    def _log_news(self, status: Status) -> None:
+        kind, name, text = status
+        line = f"{kind.name.lower().replace('_', ' ')} {name}: {text}".rstrip(": ")
+        if kind in NEWS:
+            self._controller.log(NEWS[kind], "ros", line)
+        elif kind in REPEATED_NEWS:
+            self._repeated[kind] += 1
+            if is_power_of_two(self._repeated[kind]):
+                line += f" ({self._repeated[kind]} so far)"
+                self._controller.log(Severity.WARNING, "ros", line)
+
     def _checked(self, name: str, act: Any) -> None:
         """Count and log what does not fit; the scan goes on."""
         try:
             act()
         except (TagError, MessageValueError) as error:
             self.refused += 1
-            if self.refused & (self.refused - 1) == 0:  # the first, second, fourth, eighth...
+            if is_power_of_two(self.refused):
                 text = f"{name}: {error} ({self.refused} refused so far)"
                 self._controller.log(Severity.WARNING, "ros", text)
+
+
+def is_power_of_two(number: int) -> bool:
+    """Return whether a count above 0 is the first, second, fourth, eighth..."""
+    return number & (number - 1) == 0
 
 
 class Outgoing:
@@ -99,10 +125,17 @@ class Outgoing:
         self._publisher: Publisher = node.register_publisher(
             entry.topic, entry.type_name, latching=entry.on_change
         )
-        check_pair(self._tag, self._publisher.message_type)
+        found = self._publisher.message_type
+        data_type = self._tag.data_type
+        self._conversion = tag_conversion(node.types, found, data_type, self._tag.path)
         self._period = Period(entry.every_ns) if entry.every_ns else None
         self._on_change = entry.on_change
         self._last: object = None
+        self._body = b""
+        try:  # nothing at all fits where 0 does not
+            found.encode(self._conversion.to_field(decode(data_type, bytes(data_type.size))))
+        except MessageValueError as error:
+            raise ConfigurationError(f"ros: tag {self._tag.path}: {error}") from None
 
     def send(self, release_ns: int) -> None:
         """Send the tag where it is time, and where it changed if that is asked for."""
@@ -112,9 +145,14 @@ class Outgoing:
         if self._on_change and value == self._last:
             return
         self._last = value
-        message = self._publisher.new()
-        fill_message(message, self._publisher.message_type, value)
-        self._publisher.send(message)
+        message = self._conversion.to_field(value)
+        if not self._on_change:
+            self._publisher.send(message)
+            return
+        body = bytes(self._publisher.message_type.encode(message))
+        if body != self._body:  # NaN is another value than itself, and yet no change
+            self._body = body
+            self._publisher.send(message)
 
 
 class Incoming:
@@ -127,81 +165,18 @@ class Incoming:
         self._subscriber: Subscriber = node.register_subscriber(
             entry.topic, entry.type_name, queue_size=1
         )
-        check_pair(self._tag, self._subscriber.message_type)
+        found = self._subscriber.message_type
+        self._conversion = tag_conversion(node.types, found, self._tag.data_type, self._tag.path)
+        try:
+            encode(self._tag.data_type, self._value_of(found.new()))
+        except ValueRangeError as error:
+            raise ConfigurationError(f"ros: tag {self._tag.path}: {found.name}: {error}") from None
 
     def take(self) -> None:
         """Write the newest message into the tag."""
         message = self._subscriber.pop()
         if message is not None:
-            before = self._tags.read(self._tag)
-            value = tag_value(message, self._subscriber.message_type, before)
-            self._tags.write(self._tag, value)
+            self._tags.write(self._tag, self._value_of(message))
 
-
-def check_pair(tag: Tag, message_type: MessageType) -> None:
-    """Check that a tag and a message type have something in common.
-
-    Raises:
-        ConfigurationError: an elementary tag with a message of other than one field, or a STRUCT
-            without any member that is a field.
-    """
-    names = {attribute_name(field.name) for field in message_type.fields}
-    if not isinstance(tag.data_type, StructType):
-        if len(names) != 1:
-            raise ConfigurationError(
-                f"ros: tag {tag.path} is one value, {message_type.name} has {len(names)} fields"
-            )
-    elif not names & {member.name for member in tag.data_type.members}:
-        raise ConfigurationError(
-            f"ros: no member of {tag.path} is a field of {message_type.name}: {', '.join(names)}"
-        )
-
-
-def fill_message(message: Message, message_type: MessageType, value: object) -> None:
-    """Write a tag's plain value into a message."""
-    if isinstance(value, dict):
-        _fill(message, value)
-    else:
-        (field,) = message_type.fields
-        setattr(message, attribute_name(field.name), value)
-
-
-def _fill(message: Any, values: dict[str, Any]) -> None:
-    for name, value in values.items():
-        if not hasattr(message, name):
-            continue
-        inner = getattr(message, name)
-        if isinstance(value, dict):
-            _fill(inner, value)
-        else:
-            setattr(message, name, value)
-
-
-def tag_value(message: Message, message_type: MessageType, before: object) -> object:
-    """Return a tag's plain value from a message; members that are no field stay as ``before``."""
-    if isinstance(before, dict):
-        return _value(message, before)
-    (field,) = message_type.fields
-    return _plain(getattr(message, attribute_name(field.name)), before)
-
-
-def _value(message: Any, before: dict[str, Any]) -> dict[str, Any]:
-    return {
-        name: _plain(getattr(message, name), value) if hasattr(message, name) else value
-        for name, value in before.items()
-    }
-
-
-def _plain(value: Any, before: object) -> object:
-    """Return a field's value as its member takes it; a long array is cut, a short one filled up."""
-    if isinstance(before, dict):
-        return _value(value, before)
-    if isinstance(before, (list, tuple)):
-        found = list(value)[: len(before)]
-        plain = [_plain(each, old) for each, old in zip(found, before, strict=False)]
-        return [*plain, *before[len(plain) :]]
-    if isinstance(value, (Time, Duration)):
-        return value.to_ns()
-    if isinstance(value, str):
-        return value if is_utf8(value) else bytes_of(value).decode("latin-1")
-    return value.item() if hasattr(value, "item") else value
+    def _value_of(self, message: Message) -> object:
+        return self._conversion.to_tag(message, self._tags.read(self._tag))

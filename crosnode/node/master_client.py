@@ -93,6 +93,7 @@ class MasterClient:
         self._is_dirty = False
         self._settled_ns: int | None = None
         self._was_lost = False
+        self._is_missed = False
 
     @property
     def is_settling(self) -> bool:
@@ -200,6 +201,7 @@ class MasterClient:
         self._pause_ns = FIRST_RETRY_NS
         if not self.is_found:
             self.is_found = True
+            self._is_missed = False
             if self._was_lost:
                 self._settled_ns = self._now_ns + SETTLE_NS
             self._ping_ns = self._now_ns + PING_NS
@@ -213,6 +215,9 @@ class MasterClient:
             self._tell(StatusKind.MASTER_LOST, self.uri, reason)
         elif self._now_ns < self._retry_ns:
             return  # another call of the same attempt failed
+        elif not self._is_missed:
+            self._tell(StatusKind.MASTER_LOST, self.uri, reason)
+        self._is_missed = True
         self.is_found = False
         self._retry_ns = self._now_ns + self._pause_ns
         self._pause_ns = min(2 * self._pause_ns, LONGEST_RETRY_NS)

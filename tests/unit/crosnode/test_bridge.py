@@ -1,15 +1,15 @@
 """Tags to topics and back: values, times, changes, and what does not fit."""
 
+import math
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from crosnode.bridge import tag_value
+from crosnode.bridge import is_power_of_two
 from crosnode.extension import EXTENSION
 from crosnode.master_server import MasterOptions, MasterServer
-from crosnode.messages import MessageTypes
 from crosnode.names import node_settings
 from crosnode.node import CrosNode
 from plcsim.clock import VirtualClock
@@ -168,23 +168,59 @@ def test_a_string_goes_out_as_utf8() -> None:
     assert subscriber.pop_raw() == b"\x05\0\0\0a\xc3\xa9\xc2\x80"
 
 
-def test_arrays_are_cut_or_filled_up() -> None:
-    joint_state = MessageTypes().message("sensor_msgs/JointState")
-    long, short = joint_state.new(position=[1.0, 2.0, 3.0, 4.0]), joint_state.new(position=[5.0])
-    before = {"position": [0.0, 0.0, 9.0]}
-    assert tag_value(long, joint_state, before) == {"position": [1.0, 2.0, 3.0]}
-    assert tag_value(short, joint_state, before) == {"position": [5.0, 0.0, 9.0]}
+def test_a_number_that_is_none_is_sent_once() -> None:
+    """NaN differs from itself: it would be sent in each cycle."""
+    rig = Rig(publish={"/level": entry("plant.level", "std_msgs/Float64", on_change=True)})
+    subscriber = rig.peer.register_subscriber("/level", "std_msgs/Float64", queue_size=100)
+    rig.run(200)
+    for value in (math.nan, 1.0):
+        rig.set("plant.level", value)
+        rig.run(50)
+    assert repr(data_of(subscriber)) == "[0.0, nan, 1.0]"
 
 
 @pytest.mark.parametrize(
-    ("tag", "type_name"),
-    [("plant.level", "geometry_msgs/Twist"), ("plant.speeds", "std_msgs/Float64")],
+    ("direction", "tag", "type_name", "text"),
+    [
+        ("publish", "plant.level", "geometry_msgs/Twist", "is one value"),
+        ("publish", "plant.speeds", "std_msgs/Float64", "does not go with float64"),
+        ("publish", "plant.level", "std_msgs/Int16", "std_msgs/Int16.data: expected an integer"),
+        ("subscribe", "plant.count", "std_msgs/Float64", "std_msgs/Float64: 0.0 is not a INT"),
+        ("subscribe", "plant.text", "std_msgs/Bool", "does not go with bool"),
+    ],
 )
-def test_a_pair_with_nothing_in_common_is_an_error_before_the_first_cycle(
-    tag: str, type_name: str
+def test_a_pair_that_never_fits_is_an_error_before_the_first_cycle(
+    direction: str, tag: str, type_name: str, text: str
 ) -> None:
-    with pytest.raises(ConfigurationError, match="ros: "):
-        Rig(publish={"/x": entry(tag, type_name)})
+    with pytest.raises(ConfigurationError, match=f"ros: .*{tag}.*{text}"):
+        Rig(**{direction: {"/x": entry(tag, type_name)}})
+
+
+def lines(rig: Rig) -> list[str]:
+    return [entry.text for entry in rig.plc.logbook if entry.source == "ros"]
+
+
+def test_the_logbook_says_whether_the_master_is_there() -> None:
+    rig = Rig(publish={"/on": entry("plant.on", "std_msgs/Bool")})
+    rig.run(200)
+    assert lines(rig)[-1] == "master found http://127.0.0.1:11311/"
+    uri = "http://nowhere:11311/"
+    away = Rig(publish={"/on": entry("plant.on", "std_msgs/Bool")}, master=uri).run(2000)
+    (line,) = lines(away)
+    assert line.startswith(f"master lost {uri}: host 'nowhere' is not known; add it")
+
+
+def test_the_logbook_says_which_peers_do_not_fit_but_not_each_time() -> None:
+    rig = Rig(subscribe={"/n": entry("plant.count", "std_msgs/Int16")})
+    rig.peer.register_publisher("/n", "std_msgs/Int64", latching=True)
+    rig.run(5000)
+    told = [line for line in lines(rig) if line.startswith("peer refused /n: md5sum ")]
+    assert len(told) >= 2
+    assert [line.rpartition("(")[2] for line in told[:2]] == ["1 so far)", "2 so far)"]
+
+
+def test_counts_that_are_told() -> None:
+    assert [n for n in range(1, 40) if is_power_of_two(n)] == [1, 2, 4, 8, 16, 32]
 
 
 def test_unknown_tags_and_types_are_errors_before_the_first_cycle() -> None:

@@ -139,3 +139,17 @@ def test_an_unknown_host_of_the_master_is_told() -> None:
     known = world.node("m", OTHER_IP, environment={"ROS_MASTER_URI": "http://robot:11311"},
                        hosts={"robot": MASTER_IP})  # fmt: skip
     world.until(lambda: known.is_registered)
+
+
+def test_a_master_that_is_not_there_is_told_once_until_it_comes() -> None:
+    world = World(master=False)
+    node = world.node("n")
+    world.run(5_000)
+    (lost,) = news(node, StatusKind.MASTER_LOST)
+    assert lost.name == world.master_uri
+    world.restart_master()
+    world.until(lambda: node.is_registered)
+    assert len(news(node, StatusKind.MASTER_FOUND)) == 1
+    world.kill_master()
+    world.run(5_000)
+    assert len(news(node, StatusKind.MASTER_LOST)) == 1
