@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import sys
@@ -17,7 +18,7 @@ LARGEST: Final = 10 * 1024 * 1024
 
 
 class AuditLog:
-    """The file; where it cannot be written, that is said once and the service goes on.
+    """The file; while it cannot be written, the service goes on and counts what is missing.
 
     Args:
         file: to append to, "" for no log.
@@ -29,25 +30,32 @@ class AuditLog:
         self._largest = largest
         self._fd = -1
         self._size = 0
+        self._lost = 0
+        self._is_told = False
         if self._file is not None:
-            self._try_open(self._file)
+            try:
+                self._open(self._file)
+            except OSError as err:
+                self._say(err)
 
-    def _try_open(self, file: Path) -> None:
-        try:
-            file.parent.mkdir(parents=True, exist_ok=True)
-            flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC
-            self._fd = os.open(file, flags, 0o640)
-            self._size = os.fstat(self._fd).st_size
-        except OSError as err:
-            self._give_up(err)
+    def _open(self, file: Path) -> None:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC
+        self._fd = os.open(file, flags, 0o640)
+        self._size = os.fstat(self._fd).st_size
 
-    def _give_up(self, err: OSError) -> None:
-        self.close()
-        self._file = None
-        sys.stderr.write(f"modbus: the audit log cannot be written any more: {err}\n")
+    def _say(self, err: OSError) -> None:
+        """Print the fault, once until it is over."""
+        if self._is_told:
+            return
+        self._is_told = True
+        sys.stderr.write(f"modbus: the audit log cannot be written: {err}\n")
 
     def write(self, peer: str, role: str, record: WriteRecord) -> None:
-        """Append a line: UTC time, peer, its role, unit, PDU as hexadecimal, exception code."""
+        """Append a line: UTC time, peer, its role, unit, PDU as hexadecimal, exception code.
+
+        After lines that could not be written, the next one has their number as ``lost``.
+        """
         if self._file is None:
             return
         line = {
@@ -59,18 +67,29 @@ class AuditLog:
             "pdu": record.pdu.hex(),
             "exception": record.result,
         }
-        data = json.dumps(line).encode() + b"\n"
+        if self._lost:
+            line["lost"] = self._lost
         try:
-            if self._size + len(data) > self._largest:
-                self._start_anew(self._file)
-            self._size += os.write(self._fd, data)
+            self._append(self._file, json.dumps(line).encode() + b"\n")
         except OSError as err:
-            self._give_up(err)
+            self.close()
+            self._say(err)
+            self._lost += 1
+        else:
+            self._lost, self._is_told = 0, False
 
-    def _start_anew(self, file: Path) -> None:
-        file.replace(file.with_name(file.name + ".1"))
-        self.close()
-        self._try_open(file)
+    def _append(self, file: Path, data: bytes) -> None:
+        """Write a line, whole or not at all."""
+        if self._fd < 0:
+            self._open(file)
+        if self._size + len(data) > self._largest:
+            file.replace(file.with_name(file.name + ".1"))
+            self.close()
+            self._open(file)
+        if os.write(self._fd, data) < len(data):  # the disk was full in the middle of it
+            os.ftruncate(self._fd, self._size)
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        self._size += len(data)
 
     def close(self) -> None:
         """Close the file."""

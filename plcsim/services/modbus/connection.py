@@ -159,9 +159,11 @@ class Connection:
         return not self._blocked
 
     def _start(self, frame: _Frame, now_ns: int) -> bytes:
+        result: bytes | Waiting
         if self._limits.unit_ids and frame.unit not in self._limits.unit_ids:
-            return _framed(frame, encode_exception(frame.pdu[0], Code.GATEWAY_TARGET_FAILED))
-        result = self._handler.handle(frame.pdu)
+            result = encode_exception(frame.pdu[0], Code.GATEWAY_TARGET_FAILED)
+        else:
+            result = self._handler.handle(frame.pdu)
         if isinstance(result, Waiting):
             self._writes.append(_Write(frame, result, now_ns + self._limits.write_timeout_ns))
             return b""

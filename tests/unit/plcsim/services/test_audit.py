@@ -1,8 +1,10 @@
 import json
+import os
 from pathlib import Path
 
 import pytest
 
+from plcsim.services.modbus import audit
 from plcsim.services.modbus.audit import AuditLog
 from plcsim.services.modbus.connection import WriteRecord
 
@@ -66,3 +68,32 @@ def test_a_full_disk_does_not_stop_the_service(capsys: pytest.CaptureFixture[str
         log.write("p", "", RECORD)
         log.write("p", "", RECORD)
     assert capsys.readouterr().err.count("No space left") == 1
+
+
+def test_after_the_disk_was_full_the_log_goes_on_and_says_what_is_missing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "audit.jsonl"
+    file.symlink_to("/dev/full")
+    with AuditLog(str(file)) as log:
+        for _ in range(3):
+            log.write("p", "", RECORD)
+        file.unlink()
+        for _ in range(2):
+            log.write("p", "", RECORD)
+        lines = [json.loads(line) for line in file.read_text().splitlines()]
+        assert [line.get("lost") for line in lines] == [3, None]
+    assert capsys.readouterr().err.count("cannot be written") == 1
+
+
+def test_half_a_line_is_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "audit.jsonl"
+    write = os.write
+    with AuditLog(str(file)) as log:
+        log.write("p", "", RECORD)
+        monkeypatch.setattr(audit.os, "write", lambda fd, data: write(fd, data[:20]))
+        log.write("p", "", RECORD)
+        monkeypatch.setattr(audit.os, "write", write)
+        log.write("p", "", RECORD)
+    lines = [json.loads(line) for line in file.read_text().splitlines()]
+    assert [line.get("lost") for line in lines] == [None, 1]

@@ -11,6 +11,7 @@ from plcsim.services.modbus.connection import (
     Limits,
     WriteRecord,
 )
+from plcsim.services.modbus.handler import Handler, Rights
 
 from .site import MS, World, frame, frames
 
@@ -182,7 +183,7 @@ def test_a_full_ring_is_busy() -> None:
     for peer in peers:
         peer.receive(b"".join(frame(write(i), i) for i in range(16)))
         answers += peer.step(0)
-    for _ in range(60):
+    for _ in range(250):
         world.plc.run(cycles=1)
         for peer in peers:
             answers += peer.step(0)
@@ -219,3 +220,17 @@ def test_the_last_request_is_remembered_but_not_half_of_one() -> None:
     peer.receive(b"\0\1\0")
     peer.step(6 * 10**12)
     assert peer.last_request_ns == 5 * 10**12
+
+
+def test_a_write_to_a_unit_that_is_not_served_is_audited_and_answered_in_its_turn() -> None:
+    world = World(limits=Limits(unit_ids=frozenset({1})))
+    records: list[WriteRecord] = []
+    handler = Handler(world.server.device, Rights())
+    limits = Limits(unit_ids=frozenset({1}))
+    peer = Connection(handler, world.server.device, limits, 0, records.append)
+    peer.receive(frame(write(1), 1) + frame(write(2), 2, unit=9) + frame(write(3), 3))
+    assert peer.step(0) == b""
+    world.plc.run(cycles=1)
+    answers = frames(peer.step(0))
+    assert [(t, pdu.hex()[:4]) for t, _, pdu in answers] == [(1, "0600"), (2, "860b"), (3, "0600")]
+    assert sorted((r.unit, r.result) for r in records) == [(1, 0), (1, 0), (9, 11)]
