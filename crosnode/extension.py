@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.bridge import Bridge
 from crosnode.errors import CrosnodeError
+from crosnode.master_server import DEFAULT_PORT
 from crosnode.messages import MessageTypes
-from crosnode.project import OPTIONS, EmbeddedMaster, Surroundings
+from crosnode.project import MASTER_IP, OPTIONS, EmbeddedMaster, Surroundings
 from crosnode.settings import RosSettings, read_settings
+from crosnode.uri import make_uri
 from plcsim.errors import ConfigurationError
 from plcsim.extension import Attachment
 
@@ -42,6 +44,18 @@ class RosExtension:
             except CrosnodeError as error:
                 raise table.error(f"{entry.topic}.type", str(error)) from None
         return settings
+
+    def on_virtual_network(self, settings: RosSettings, ip: str) -> RosSettings:
+        """Return the settings of a controller under test: addresses of that network, no ROS_*.
+
+        The embedded master is at the controller's address, any other at ``MASTER_IP``.
+        """
+        host, port = (
+            (ip, settings.master_port) if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
+        )
+        return settings._replace(
+            master_uri=make_uri("http", host, port), host=ip, bind_ip="", environment={}
+        )
 
     def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
         """Leave the settings for programs; step the master and the bridge with the scan."""

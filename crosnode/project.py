@@ -7,6 +7,7 @@ without a table [ros] the ROS_* environment counts.
 from __future__ import annotations
 
 import os
+from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
 from crosnode.master_server import MasterOptions, MasterServer
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 OPTIONS: Final = "ros"
 
+MASTER_IP: Final = "192.168.0.1"
+"""Where tests have the master, unless it is embedded (`crosnode.testing.Ros`)."""
+
 
 class Surroundings(NamedTuple):
     """What the extension knows of the controller.
@@ -31,11 +35,13 @@ class Surroundings(NamedTuple):
         settings: table [ros].
         epoch_ns: added to a release gives nanoseconds since 1970.
         clock_ns: measures steps.
+        beside: steps the other hosts of a test, which answer nothing while no cycle ends.
     """
 
     settings: RosSettings
     epoch_ns: int
     clock_ns: Callable[[], int]
+    beside: Callable[[], None] | None = None
 
 
 def surroundings(context: Context) -> Surroundings | None:
@@ -106,12 +112,23 @@ def create_node(
         return CrosNode(context, settings, context.library(SharedTypes), options)
     ros = found.settings
     options = options._replace(
-        bind_ip=ros.bind_ip, hosts=ros.hosts, epoch_ns=found.epoch_ns, clock_ns=found.clock_ns
+        bind_ip=ros.bind_ip,
+        hosts=ros.hosts,
+        epoch_ns=found.epoch_ns,
+        clock_ns=found.clock_ns,
+        beside=partial(step_beside, context),
     )
-    if ros.is_embedded:
-        options = options._replace(beside=lambda: context.library(EmbeddedMaster).step())
     settings = _settings(ros, name, arguments, namespace)
     return CrosNode(context, settings, context.library(SharedTypes), options)
+
+
+def step_beside(context: Context) -> None:
+    """Step what must answer a node that waits in EXIT: the embedded master, hosts of a test."""
+    found = surroundings(context)
+    if found and found.settings.is_embedded:
+        context.library(EmbeddedMaster).step()
+    if found and found.beside:
+        found.beside()
 
 
 def _settings(
@@ -119,5 +136,6 @@ def _settings(
 ) -> NodeSettings:
     """Return the node's settings; [ros] goes before the environment."""
     given = [*ros.arguments, *arguments]
-    found = node_settings(name, given, {"ROS_NAMESPACE": ros.namespace or namespace})
+    environment = {"ROS_NAMESPACE": ros.namespace} if ros.namespace else ros.environment
+    found = node_settings(name, given, environment, namespace=namespace)
     return found._replace(master_uri=ros.master_uri, host=ros.host)

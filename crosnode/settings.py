@@ -55,7 +55,7 @@ class RosSettings(NamedTuple):
         master_port: of the embedded master.
         host: name or number under which nodes are reached.
         bind_ip: own interface to listen on, "" for all.
-        namespace: of nodes.
+        namespace: of nodes, "" where the table names none.
         arguments: remapping arguments.
         packages: folders of message packages, searched first.
         hosts: addresses of host names.
@@ -113,7 +113,7 @@ def read_settings(
         master_port=port,
         host=host,
         bind_ip=table.take("bind", str, ""),
-        namespace=table.take("namespace", str, own.names.namespace),
+        namespace=_namespace(table),
         arguments=arguments,
         packages=_packages(table, folder, environment),
         hosts=hosts,
@@ -122,6 +122,11 @@ def read_settings(
         subscribe=tuple(_subscription(*entry) for entry in _entries(table, folder, "subscribe")),
         environment=environment,
     )
+
+
+def _namespace(table: Table) -> str:
+    namespace = table.take("namespace", str, "")
+    return _name(table, "namespace", namespace) if namespace else ""
 
 
 def _checked(table: Table, key: str, check: Callable[[], object]) -> None:

@@ -1,6 +1,29 @@
-"""Hostile peers, for tests of whatever listens in a ROS 1 system; never imported at run time."""
+"""For tests of ROS 1 systems, never imported at run time.
 
-from crosnode.testing.attacker import Attacker, Door
-from crosnode.testing.hostile import HostilePeer, HostilePeers, Speaks
+The pytest plugin (`crosnode.testing.plugin`) brings the fixture ``ros``, a `Ros`: the network
+around a controller under test. Hostile peers attack whatever listens in such a system.
+"""
 
-__all__ = ["Attacker", "Door", "HostilePeer", "HostilePeers", "Speaks"]
+from typing import TYPE_CHECKING
+
+from plcsim.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from crosnode.testing.attacker import Attacker, Door
+    from crosnode.testing.hostile import HostilePeer, HostilePeers, Speaks
+    from crosnode.testing.ros import Ros, SystemState
+
+__all__ = ["Attacker", "Door", "HostilePeer", "HostilePeers", "Ros", "Speaks", "SystemState"]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "Attacker": "crosnode.testing.attacker",
+        "Door": "crosnode.testing.attacker",
+        "HostilePeer": "crosnode.testing.hostile",
+        "HostilePeers": "crosnode.testing.hostile",
+        "Ros": "crosnode.testing.ros",
+        "Speaks": "crosnode.testing.hostile",
+        "SystemState": "crosnode.testing.ros",
+    },
+)

@@ -35,7 +35,7 @@ VALUES: Final[tuple[Any, ...]] = (
     "",
     [[], {}],
 )
-MULTICALLS: Final = (2, 50, 1000, 1001)
+MULTICALLS: Final = (2, 50, 200, 1000)
 LENGTHS: Final = (0, 1, 5, 2**31 - 1, 2**31, 2**32 - 1)
 
 

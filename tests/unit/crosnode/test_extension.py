@@ -77,3 +77,19 @@ def test_without_topics_there_is_no_bridge() -> None:
     plc.run(cycles=50)
     state = plc.context.library(EmbeddedMaster).master.get_system_state("/x")
     assert "plc_bridge" not in str(state)
+
+
+def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() -> None:
+    values = {"master": "http://robot:5/", "host": "robot", "bind": "10.0.0.1", "namespace": "/x"}
+    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
+    moved = EXTENSION.on_virtual_network(settings, "192.168.0.10")
+    assert moved.master_uri == "http://192.168.0.1:11311/"
+    assert (moved.host, moved.bind_ip, moved.namespace) == ("192.168.0.10", "", "/x")
+    assert moved.environment == {}
+
+
+def test_on_a_virtual_network_the_embedded_master_keeps_its_port() -> None:
+    values = {"master": "embedded", "master_port": 12345}
+    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
+    moved = EXTENSION.on_virtual_network(settings, "192.168.0.10")
+    assert moved.master_uri == "http://192.168.0.10:12345/"

@@ -25,7 +25,7 @@ def test_defaults_are_those_of_ros() -> None:
     settings = read({})
     assert settings.master_uri == "http://localhost:11311/"
     assert settings.host == "127.0.0.1"
-    assert settings.namespace == "/"
+    assert settings.namespace == ""
     assert not settings.is_embedded
     assert settings.hosts == {"plant": "10.0.0.9"}
 
@@ -34,7 +34,7 @@ def test_the_environment_counts_and_the_table_goes_before_it() -> None:
     environment = {"ROS_MASTER_URI": "http://a:1", "ROS_IP": "10.0.0.1", "ROS_NAMESPACE": "cell"}
     assert read({}, environment)[:1] == ("http://a:1",)
     assert read({}, environment).host == "10.0.0.1"
-    assert read({}, environment).namespace == "/cell"
+    assert read({}, environment).namespace == ""  # that of the environment is the node's business
     settings = read({"master": "http://b:2", "host": "plc", "namespace": "/x"}, environment)
     assert (settings.master_uri, settings.host, settings.namespace) == ("http://b:2", "plc", "/x")
 
@@ -71,6 +71,7 @@ def test_packages_hosts_and_the_bridge(tmp_path: Path) -> None:
         ({"packages": ["nowhere"]}, "ros.packages.*no such folder"),
         ({"hosts": {"x": "y"}}, "ros.hosts.x.*IPv4"),
         ({"node": "a b"}, "ros.node"),
+        ({"namespace": "a b"}, "ros.namespace"),
         ({"arguments": ["a b:=c"]}, "ros.arguments"),
         ({"publish": {"/a": {"type": "std_msgs/Bool"}}}, "ros.publish./a.tag: is missing"),
         ({"publish": {"a b": {"tag": "x", "type": "y"}}}, "ros.publish.a b"),
