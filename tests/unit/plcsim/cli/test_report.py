@@ -104,3 +104,11 @@ def test_wrong_files_are_named(tmp_path, content, text):
 def test_a_missing_report(tmp_path, capsys):
     assert main(["report", "compare", str(tmp_path / "x"), str(tmp_path)]) == 1
     assert "x: cannot be read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("share", ["-1", "much", "nan", "101"])
+def test_a_wrong_share_is_wrong_usage(capsys, share):
+    with pytest.raises(SystemExit) as ended:
+        main(["report", "compare", "a", "b", f"--smallest={share}"])
+    assert ended.value.code == 2
+    assert f"'{share}' is no share such as 0.1" in capsys.readouterr().err

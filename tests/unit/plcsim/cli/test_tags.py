@@ -58,6 +58,11 @@ def test_automatic_addresses_are_locked_by_command(
     assert capsys.readouterr().out == f"{project.name}: 2 tags (co 1, hr 1)\n"
 
 
+def test_the_project_may_be_named_by_its_file(project: Path) -> None:
+    assert main(["tags", "lock", str(automatic(project) / "plc.toml")]) == 0
+    assert (project / "tags.lock").exists()
+
+
 def test_there_is_nothing_to_lock_without_automatic_addresses(
     project: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -73,7 +78,7 @@ def test_list_prints_a_line_for_each_tag(project: Path, capsys: pytest.CaptureFi
 
 def test_export_prints_or_writes_a_file(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = project / "out.json"
-    assert main(["tags", "export", str(project), "--format", "json", "--output", str(file)]) == 0
+    assert main(["tags", "export", str(project), "--format", "json", "-o", str(file)]) == 0
     assert capsys.readouterr().out == ""
     assert json.loads(file.read_text())["tags"][0]["modicon6"] == "400006"
     assert main(["tags", "export", str(project)]) == 0
