@@ -323,7 +323,7 @@ def _run_part(part: str, folder: Path, client: Path, options: argparse.Namespace
 
 
 def _options() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])  # type: ignore[union-attr]
+    parser = argparse.ArgumentParser(description="Modbus TCP under load, and the scan beside it.")
     parser.add_argument("--only", type=_parts, default="abcde", metavar="PARTS", help="such as be")
     parser.add_argument("--seconds", type=float, default=3.0, help="of each load of (a), of (c)")
     parser.add_argument("--scan-seconds", type=float, default=60.0, help="of each load of (b)")
