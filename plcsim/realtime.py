@@ -118,7 +118,7 @@ def _stay_awake(granted: list[str], refused: list[str]) -> None:
     """Keep the processors out of deep sleep for as long as this process lives (Linux PM QoS)."""
     device = Path("/dev/cpu_dma_latency")
     try:
-        fd = os.open(device, os.O_WRONLY | os.O_CLOEXEC)
+        fd = os.open(device, os.O_WRONLY | os.O_CLOEXEC)  # held until the process ends
         os.write(fd, (0).to_bytes(4, "little"))
         granted.append("no deep sleep")
     except OSError as err:
