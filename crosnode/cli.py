@@ -14,22 +14,30 @@ if TYPE_CHECKING:
     import argparse
 
 COMMANDS: Final = "crosnode.type_commands"
+EPILOG: Final = "Exit codes: 0 done, 1 a type or a message is wrong, 2 wrong usage."
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``ros`` and its commands; each sets ``func``, which gives the exit status."""
-    ros = subparsers.add_parser("ros", help="ROS 1 message and service types")
-    commands = ros.add_subparsers(required=True, metavar="COMMAND")
+    text = "ROS 1 message and service types"
+    ros = subparsers.add_parser("ros", help=text, description=f"{text}.", epilog=EPILOG)
+    commands = ros.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add(commands, "show", "print constants and fields", type=_ONE)
     _add(commands, "md5", "print lines of type and md5sum", types=_MANY)
     _add(commands, "encode", "print a message as hexadecimal", type=_ONE, json=_JSON)
     _add(commands, "decode", "print a message as JSON", type=_ONE, hex=_HEX)
 
 
-_ONE = {"metavar": "TYPE", "help": "pkg/Name; for half of a service pkg/NameRequest or …Response"}
+_ONE = {
+    "metavar": "TYPE",
+    "help": "pkg/Name; for half of a service pkg/NameRequest or pkg/NameResponse",
+}
 _MANY = _ONE | {"nargs": "+", "help": "message or service types, pkg/Name"}
 _JSON = {"metavar": "JSON", "help": "an object of fields, others get defaults; '-' reads stdin"}
-_HEX = {"metavar": "HEX", "help": "hexadecimal digits, blanks between; '-' reads stdin"}
+_HEX = {
+    "metavar": "HEX",
+    "help": "hexadecimal digits, in quotes where blanks stand between; '-' reads stdin",
+}
 
 
 def _add(
