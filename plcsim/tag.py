@@ -84,35 +84,31 @@ class TagTable:
         self._memory.write(tag.address, data)
 
     def __iter__(self) -> Iterator[Tag]:
-        """Iterate over all tags of elementary, enumeration and string types."""
+        """Iterate over all tags of elementary, enumeration and string types.
+
+        Of an ARRAY only the first element's are named.
+        """
         for task in self._tasks.values():
             start = address_of(task.variables)
-            yield from _leaves(task.name, type_of(task.variables), start)
-
-
-def _leaves(path: str, data_type: DataType[Any], address: int) -> Iterator[Tag]:
-    """Iterate over the tags below one variable; of an ARRAY only the first element's are named."""
-    data_type = resolve_alias(data_type)
-    if isinstance(data_type, StructType):
-        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-            yield from _leaves(f"{path}.{member.name}", member.data_type, address + offset)
-    elif isinstance(data_type, ArrayType):
-        first = ",".join(str(low) for low, _ in data_type.bounds)
-        yield from _leaves(f"{path}[{first}]", data_type.element, address)
-    else:
-        yield Tag(path, data_type, address)
+            yield from leaves(task.name, type_of(task.variables), start, elements=False)
 
 
 def leaves(
-    path: str, data_type: DataType[Any], address: int, *, blocks: bool = True
+    path: str,
+    data_type: DataType[Any],
+    address: int,
+    *,
+    blocks: bool = True,
+    elements: bool = True,
 ) -> Iterator[Tag]:
-    """Iterate over the tags below one variable, every element of an ARRAY included.
+    """Iterate over the tags below one variable.
 
     Args:
         path: of the variable.
         data_type: its type.
         address: PLC address of its first byte.
         blocks: go into the data blocks of function blocks as well.
+        elements: go into every element of an ARRAY; otherwise into the first one.
     """
     data_type = resolve_alias(data_type)
     if isinstance(data_type, StructType):
@@ -120,12 +116,13 @@ def leaves(
             return
         for member, offset in zip(data_type.members, data_type.offsets, strict=True):
             inner = f"{path}.{member.name}"
-            yield from leaves(inner, member.data_type, address + offset, blocks=blocks)
+            at = address + offset
+            yield from leaves(inner, member.data_type, at, blocks=blocks, elements=elements)
     elif isinstance(data_type, ArrayType):
-        ranges = (range(low, high + 1) for low, high in data_type.bounds)
+        ranges = (range(low, (high if elements else low) + 1) for low, high in data_type.bounds)
         for place, index in enumerate(itertools.product(*ranges)):
             inner = f"{path}[{','.join(map(str, index))}]"
-            element = address + place * data_type.element.size
-            yield from leaves(inner, data_type.element, element, blocks=blocks)
+            at = address + place * data_type.element.size
+            yield from leaves(inner, data_type.element, at, blocks=blocks, elements=elements)
     else:
         yield Tag(path, data_type, address)
