@@ -10,4 +10,4 @@ apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends \
 command -v npm >/dev/null || apt-get -o DPkg::Lock::Timeout=300 install -y -qq \
   --no-install-recommends nodejs npm >/dev/null
 # no install scripts: the serial port's native part is not needed for TCP
-cd peers && npm install --no-audit --no-fund --ignore-scripts --no-package-lock --silent
+cd peers && npm install --no-audit --no-fund --ignore-scripts --no-package-lock --loglevel=error
