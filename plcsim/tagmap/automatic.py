@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from plcsim.tag import Tag, leaves
-from plcsim.tagmap.csv_file import read_rows, write_rows
+from plcsim.tagmap.csv_file import read_file, write_rows
 from plcsim.tagmap.errors import TagMapError
-from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Point, Row
+from plcsim.tagmap.point import ADDRESSES, KINDS, MOST_WRITTEN, REGISTERS, Area, Point, Row
 from plcsim.tagmap.resolve import code_of
 from st_types.derived import StringType, resolve_alias
 from st_types.views import address_of, type_of
@@ -43,14 +43,16 @@ def locked_rows(folder: Path) -> list[Row]:
     """
     file = folder / LOCK_FILE
     try:
-        return [_unnumbered(row) for row in read_rows(file.read_text("utf-8"), file)]
+        return [_locked(row, file) for row in read_file(file)]
     except FileNotFoundError:
         return []
-    except (OSError, UnicodeDecodeError) as err:
-        raise TagMapError(f"{file}: cannot be read: {err}") from None
 
 
-def _unnumbered(row: Row) -> Row:
+def _locked(row: Row, file: Path) -> Row:
+    kind = KINDS.get(row.type)
+    if kind is None or (kind == "s" and not row.length):
+        missing = "length" if kind else "type"
+        raise TagMapError(f"{file}:{row.line}: {row.tag}: has no {missing}; the file is damaged")
     return Row(row.tag, row.area, row.offset, type=row.type, length=row.length)
 
 
@@ -111,7 +113,9 @@ def _wanted(tag: Tag) -> tuple[Area, str, int] | None:
     if code == "?":
         return Area.COILS, "bool", 0
     data_type = resolve_alias(tag.data_type)
-    length = min(125, -(-data_type.length // 2)) if isinstance(data_type, StringType) else 0
+    length = 0
+    if isinstance(data_type, StringType):
+        length = min(MOST_WRITTEN, -(-data_type.length // 2))
     return Area.HOLDING_REGISTERS, _TYPES[_WIDER.get(code, code)], length
 
 

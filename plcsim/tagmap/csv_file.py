@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import difflib
 import io
@@ -13,7 +14,7 @@ from plcsim.tagmap.errors import TagMapError
 from plcsim.tagmap.point import ACCESSES, ADDRESSES, KINDS, ORDERS, Area, Row
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
     from pathlib import Path
     from typing import Any
 
@@ -25,12 +26,46 @@ REQUIRED: Final = ("tag", "area", "offset")
 
 _ATTRIBUTES = {"min": "minimum", "max": "maximum"}
 _NUMBER = re.compile(r"[+-]?[0-9]+")
+_REALS = ("scale", "offset_eu", "min", "max")
+_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+([eE][+-]?[0-9]+)?")
+
+
+DELIMITERS: Final = ",;\t"
+"""A spreadsheet writes what its language takes for a list: semicolons in German, for example."""
+
+
+def read_file(file: Path) -> list[Row]:
+    """Return the rows of a file, see `read_rows`.
+
+    UTF-8 is expected; what is none was written by a spreadsheet on Windows, in code page 1252.
+
+    Raises:
+        TagMapError: the file cannot be read, or a field is wrong.
+        FileNotFoundError: there is no such file.
+    """
+    try:
+        data = file.read_bytes()
+        if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise TagMapError(f"{file}: is UTF-16; save it as CSV UTF-8")
+        return read_rows(_decoded(data), file)
+    except FileNotFoundError:
+        raise
+    except (OSError, UnicodeDecodeError) as err:
+        raise TagMapError(f"{file}: cannot be read: {err}") from None
+
+
+def _decoded(data: bytes) -> str:
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("cp1252")
 
 
 def read_rows(text: str, file: Path) -> list[Row]:
     """Return the rows of a map.
 
-    Empty lines and lines that start with ``#`` are skipped; the first other line names the columns.
+    Empty lines and lines that start with ``#`` are skipped; the first other line names the columns,
+    separated by commas, semicolons or tabs. Where it is not commas, numbers may have one.
 
     Args:
         text: contents of the file.
@@ -39,22 +74,50 @@ def read_rows(text: str, file: Path) -> list[Row]:
     Raises:
         TagMapError: a field is wrong; file, line and column are named.
     """
-    reader = csv.reader(io.StringIO(text.removeprefix("\ufeff")), strict=True)
+    lines = io.StringIO(text.removeprefix("\ufeff"), newline=None)
+    delimiter = _delimiter(text)
+    reader = csv.reader(lines, delimiter=delimiter, strict=True)
     header: list[str] | None = None
     rows: list[Row] = []
     try:
-        for fields in reader:
-            if not any(f.strip() for f in fields) or fields[0].lstrip().startswith("#"):
+        for line in reader:
+            fields = [field.strip() for field in line]
+            if not any(fields) or _is_remark(fields[0]):
                 continue
             if header is None:
-                header = _header([f.strip() for f in fields], file, reader.line_num)
+                header = _header(fields, file, reader.line_num)
             else:
-                rows.append(_row(header, [f.strip() for f in fields], file, reader.line_num))
+                if delimiter != ",":
+                    fields = _with_points(header, fields)
+                rows.append(_row(header, fields, file, reader.line_num))
     except csv.Error as err:
         raise TagMapError(f"{file}:{reader.line_num}: {err}") from None
     if header is None:
         raise TagMapError(f"{file}: holds no line that names the columns")
     return rows
+
+
+def _delimiter(text: str) -> str:
+    """Return what separates the columns in the line that names them."""
+    for line in text.removeprefix("\ufeff").splitlines():
+        plain = line.strip(f' "{DELIMITERS}')
+        if plain and not _is_remark(plain):
+            return max(DELIMITERS, key=line.count)
+    return ","
+
+
+def _is_remark(start: str) -> bool:
+    """Return True for comments, and for the line with which Excel marks its files."""
+    return start.startswith("#") or start.lower().startswith("sep=")
+
+
+def _with_points(header: Sequence[str], fields: Sequence[str]) -> list[str]:
+    """Return fields with numbers such as ``0,1`` written with a point."""
+    reals = [i for i, name in enumerate(header) if name in _REALS]
+    return [
+        field.replace(",", ".") if i in reals and _DECIMAL_COMMA.fullmatch(field) else field
+        for i, field in enumerate(fields)
+    ]
 
 
 def _header(names: list[str], file: Path, line: int) -> list[str]:

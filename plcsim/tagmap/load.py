@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.tagmap.automatic import LOCK_FILE, all_tags, give_addresses, locked_rows
-from plcsim.tagmap.csv_file import read_rows
+from plcsim.tagmap.csv_file import read_file
 from plcsim.tagmap.errors import TagMapError
 from plcsim.tagmap.resolve import resolve
 
@@ -60,6 +60,6 @@ def _file_rows(settings: ModbusSettings) -> list[Row]:
         return []
     file = Path(settings.tags)
     try:
-        return read_rows(file.read_text("utf-8"), file)
-    except (OSError, UnicodeDecodeError) as err:
+        return read_file(file)
+    except FileNotFoundError as err:
         raise TagMapError(f"{file}: cannot be read: {err}") from None

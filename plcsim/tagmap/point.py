@@ -49,6 +49,9 @@ KINDS: Final[dict[str, str]] = {
 """Types of the map with the format character of their value."""
 
 REGISTERS: Final = {"h": 1, "H": 1, "?": 1, "i": 2, "I": 2, "f": 2, "q": 4, "Q": 4, "d": 4}
+MOST_READ, MOST_WRITTEN = 125, 123
+"""Registers of one request (MODBUS Application Protocol V1.1b3, 6.3, 6.12)."""
+
 ORDERS: Final = ("ABCD", "CDAB", "BADC", "DCBA")
 """Order of the bytes on the wire; for 64 bits CDAB means the low word first throughout."""
 

@@ -110,7 +110,7 @@ class Reads:
             return
         last = address + count - 1
         mapped = self._ranges[area]
-        if address not in mapped or last not in mapped:
+        if address not in mapped or last not in mapped or _touches_block(area, address, last):
             raise IllegalAddress(f"{area.value} {address}..{last} is outside the map")
         used = self._by_address[area]
         if self._strict and any(a not in used for a in range(address, last + 1)):
@@ -190,6 +190,12 @@ def _in_block(area: Area, address: int, count: int) -> bool:
     end = status_block.FIRST + status_block.COUNT
     inside = address >= status_block.FIRST and address + count <= end
     return area is Area.INPUT_REGISTERS and inside
+
+
+def _touches_block(area: Area, address: int, last: int) -> bool:
+    """Return True for a range that lies in the status block in part; it would read as 0 there."""
+    end = status_block.FIRST + status_block.COUNT
+    return area is Area.INPUT_REGISTERS and address < end and last >= status_block.FIRST
 
 
 def _gathered(plan: _Plan, data: bytes) -> bytes:

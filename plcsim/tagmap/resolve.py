@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Final
 from plcsim.errors import TagError
 from plcsim.tagmap import status_block
 from plcsim.tagmap.errors import TagMapError
-from plcsim.tagmap.point import ADDRESSES, KINDS, REGISTERS, Area, Point, Row
+from plcsim.tagmap.point import (
+    ADDRESSES,
+    KINDS,
+    MOST_READ,
+    MOST_WRITTEN,
+    REGISTERS,
+    Area,
+    Point,
+    Row,
+)
 from st_types.derived import (
     EnumerationType,
     ReferenceType,
@@ -24,6 +33,9 @@ if TYPE_CHECKING:
 
     from plcsim.tag import Tag
     from st_types.elementary import DataType
+
+_Taken = dict[tuple[Area, int], list[tuple[int, Row]]]
+"""The bits of each register that rows cover, as masks."""
 
 _DEFAULT_KINDS: Final = {"b": "h", "B": "H"}
 _SIZES: Final = {"?": 1, "b": 1, "h": 2, "i": 4, "q": 8, "f": 4, "d": 8}
@@ -59,7 +71,7 @@ def resolve(rows: Iterable[Row], find: Callable[[str], Tag], file: Path, order: 
     Raises:
         TagMapError: a row does not fit its variable, or two rows overlap; the lines are named.
     """
-    taken: dict[tuple[Area, int, int], Row] = {}
+    taken: _Taken = {}
     points = []
     for row in rows:
         try:
@@ -77,8 +89,8 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
     if code is None:
         raise ValueError(f"a variable of type {tag.data_type} cannot lie in registers")
     kind = KINDS[row.type] if row.type else _DEFAULT_KINDS.get(code, code)
-    _check_kind(row, code, kind)
     low, high = _limits(row, tag.data_type)
+    _check_kind(row, code, kind, low)
     point = Point(
         tag=tag.path,
         area=row.area.value,
@@ -101,7 +113,7 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
     return point
 
 
-def _check_kind(row: Row, code: str, kind: str) -> None:
+def _check_kind(row: Row, code: str, kind: str, low: float | None) -> None:
     """Raise ValueError where values of the variable would be cut on the wire."""
     if (kind == "s") != (code == "s"):
         raise ValueError("a STRING needs the type string, and nothing else has it")
@@ -120,6 +132,9 @@ def _check_kind(row: Row, code: str, kind: str) -> None:
         raise ValueError("a REAL or LREAL on an integer type needs a scale")
     if _SIZES[kind.lower()] < _SIZES[code.lower()]:
         raise ValueError("the type is narrower than the variable; give a wider one or a scale")
+    is_negative = code.islower() and (low is None or low < 0)
+    if is_negative and kind.isupper() and _SIZES[kind.lower()] > _SIZES[code]:
+        raise ValueError("the type has no negative values, but the variable has; drop the u")
 
 
 def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | None]:
@@ -139,7 +154,10 @@ def _registers(row: Row, kind: str, data_type: DataType[Any]) -> int:
         if row.length not in (0, REGISTERS[kind]):
             raise ValueError(f"length is for strings; this type has {REGISTERS[kind]} registers")
         return REGISTERS[kind]
-    return row.length or min(125, -(-(data_type.size - 1) // 2))
+    most = MOST_WRITTEN if _access(row) != "ro" else MOST_READ
+    if row.length > most:
+        raise ValueError(f"no request writes more than {most} registers; give a shorter length")
+    return row.length or min(most, -(-(data_type.size - 1) // 2))
 
 
 def _access(row: Row) -> str:
@@ -160,15 +178,16 @@ def _check_place(row: Row, point: Point) -> None:
         raise ValueError("partial is for tags without scale and limits, of the variable's own type")
 
 
-def _take(row: Row, point: Point, taken: dict[tuple[Area, int, int], Row]) -> None:
+def _take(row: Row, point: Point, taken: _Taken) -> None:
     """Note the bits of every register that a row covers; a bit of two rows is an overlap."""
-    bits = range(16) if point.bit < 0 else (point.bit,)
+    bits = 0xFFFF if point.bit < 0 else 1 << point.bit
     for register in range(point.offset, point.offset + point.registers):
-        for bit in bits:
-            other = taken.setdefault((row.area, register, bit), row)
-            if other is not row and not (row.alias or other.alias):
+        claims = taken.setdefault((row.area, register), [])
+        for claimed, other in claims:
+            if bits & claimed and not (row.alias or other.alias):
                 where = f"line {other.line}" if other.line else "the lock file"
                 raise ValueError(
                     f"overlaps {other.tag} ({where}) at {row.area.value} {register}; "
                     "give one of them alias 1 if that is meant"
                 )
+        claims.append((bits, row))

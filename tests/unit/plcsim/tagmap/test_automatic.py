@@ -89,7 +89,7 @@ def test_the_lock_file_keeps_the_rows(tmp_path: Path) -> None:
 
 
 def test_a_damaged_lock_file_is_named(tmp_path: Path) -> None:
-    (tmp_path / LOCK_FILE).write_bytes(b"\xff")
+    (tmp_path / LOCK_FILE).write_bytes(b"\x81")
     with pytest.raises(TagMapError, match=r"tags\.lock: cannot be read"):
         locked_rows(tmp_path)
     (tmp_path / LOCK_FILE).write_text("tag,area,offset\np.a,hr,x\n")
@@ -104,3 +104,27 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 
 def test_a_type_no_register_can_hold_is_left_out() -> None:
     assert give_addresses([Tag("p.w", WSTRING(3), 4096)], (), ()) == ([], [])
+
+
+@pytest.mark.parametrize(
+    ("row", "error"),
+    [
+        ("p.a,hr,1,,", "2: p.a: has no type"),
+        ("p.a,hr,1,string,", "2: p.a: has no length"),
+        ("<<<<<<< HEAD", "2: area is missing"),
+        ("p.a,hr,x,int16,", "2: offset: 'x'"),
+    ],
+)
+def test_a_lock_file_that_somebody_has_edited_is_named_with_its_line(
+    tmp_path: Path, row: str, error: str
+) -> None:
+    (tmp_path / LOCK_FILE).write_text(f"tag,area,offset,type,length\n{row}\n")
+    with pytest.raises(TagMapError, match=rf"tags\.lock:{error}"):
+        give_addresses([], (), locked_rows(tmp_path))
+
+
+def test_a_string_gets_no_more_registers_than_a_request_can_write() -> None:
+    (row,), _ = give_addresses([Tag("p.text", STRING(300), 4096)], (), ())
+    assert row.length == 123
+    (point,) = resolve([row], lambda path: Tag(path, STRING(300), 4096), Path("f"), "ABCD")
+    assert point.registers == 123

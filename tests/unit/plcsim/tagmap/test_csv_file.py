@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.tagmap import Area, Row, TagMapError
-from plcsim.tagmap.csv_file import COLUMNS, read_rows, write_rows
+from plcsim.tagmap.csv_file import COLUMNS, read_file, read_rows, write_rows
 from plcsim.tagmap.point import ACCESSES, KINDS, ORDERS
 
 FILE = Path("tags.csv")
@@ -109,3 +109,38 @@ def test_what_is_wrong_is_named_with_its_line(text: str, error: str) -> None:
 
 def test_all_columns_are_written() -> None:
     assert write_rows([]).strip().split(",") == list(COLUMNS)
+
+
+EXCEL = """# Ofen, Linie 3;;;;;
+tag;area;offset;scale;max;description
+p.a;hr;7;0,1;1,5e3;"Temperatur; in °C, 1,5 genau"
+;;;;;
+p.b;hr;8;-2,25;;
+"""
+EXCEL_ROWS = [
+    Row("p.a", Area.HOLDING_REGISTERS, 7, scale=0.1, maximum=1500.0,
+        description="Temperatur; in °C, 1,5 genau", line=3),
+    Row("p.b", Area.HOLDING_REGISTERS, 8, scale=-2.25, line=5),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252"])
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+def test_what_a_german_spreadsheet_saves_is_read(
+    tmp_path: Path, encoding: str, newline: str
+) -> None:
+    file = tmp_path / "tags.csv"
+    file.write_bytes(EXCEL.replace("\n", newline).encode(encoding))
+    assert read_file(file) == EXCEL_ROWS
+
+
+def test_tabs_and_the_mark_of_excel_are_understood() -> None:
+    expected = [Row("p.a", Area.COILS, 1, line=3)]
+    for delimiter in ",;\t":
+        text = f"sep={delimiter}\ntag,area,offset\np.a,co,1\n".replace(",", delimiter)
+        assert read_rows(text, FILE) == expected
+
+
+def test_a_comma_in_a_number_is_refused_where_commas_separate() -> None:
+    assert "'1,000' is not a number" in str(error_of('tag,area,offset,scale\np,hr,1,"1,000"'))
+    assert "'1,5' is not a number" in str(error_of("tag;area;offset\np;hr;1,5"))

@@ -23,7 +23,11 @@ def test_a_file_is_the_whole_map(tmp_path: Path) -> None:
 
 def test_a_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     file = tmp_path / "tags.csv"
-    file.write_bytes(b"\xff\xfe\x00")
+    for data, error in ((b"\x81", "cannot be read"), (b"\xff\xfet\0", "is UTF-16; save it as")):
+        file.write_bytes(data)
+        with pytest.raises(TagMapError, match=rf"tags\.csv: {error}"):
+            load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.tasks)
+    file.unlink()
     with pytest.raises(TagMapError, match=r"tags\.csv: cannot be read"):
         load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.tasks)
 

@@ -166,3 +166,12 @@ def aliases() -> Iterator[Point]:
 def test_of_two_tags_at_one_address_the_later_row_is_read() -> None:
     reads = Reads(list(aliases()), lambda address, _size: address)
     assert read(reads, HR, 0, 2) == "f8a4fb2e"
+
+
+def test_registers_of_the_status_block_never_read_as_holes() -> None:
+    reads = reads_of("p.number,ir,64999", "p.count,ir,65021")
+    for address, count in ((64999, 2), (65020, 2), (64999, 23), (65000, 22)):
+        with pytest.raises(IllegalAddress):
+            reads.check(IR, address, count)
+    for address, count in ((64999, 1), (65000, 21), (65021, 1)):
+        reads.check(IR, address, count)

@@ -63,6 +63,8 @@ def test_the_order_of_the_file_holds_where_the_row_gives_none() -> None:
         (["p.number,hr,0,,string"], "a STRING needs the type string"),
         (["p.long,hr,0,,int16"], "narrower than the variable"),
         (["p.real,hr,0,,int32"], "needs a scale"),
+        (["p.number,hr,0,,uint32"], "no negative values"),
+        (["p.text,hr,0,,,124"], "no request writes more than 123 registers"),
         (["p.flag,hr,0,,,,,,2"], "scale, offset_eu, min and max are for numbers"),
         (["p.number,hr,0,,,,,,,,5,4"], "min is above max"),
         (["p.number,hr,0,,,2"], "length is for strings"),
@@ -92,6 +94,8 @@ def test_a_row_that_does_not_fit_is_named_with_its_line(lines: list[str], error:
         ["p.flag,co,0", "p.other,di,0", "p.number,ir,0", "p.count,hr,0"],
         ["p.number,ir,64999", "p.count,ir,65021"],
         ["p.number,hr,65535"],
+        ["p.number,hr,0,,uint16", "p.percent,hr,1,,uint32"],
+        ["p.text,ir,0,,,125", "p.text,hr,0,,,123"],
     ],
 )
 def test_rows_that_share_no_bit_or_say_so_are_right(lines: list[str]) -> None:
