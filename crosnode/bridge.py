@@ -8,25 +8,32 @@ the logbook, for no program drains its queue.
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from crosnode.budget import Budget
 from crosnode.conversion import tag_conversion
-from crosnode.errors import MessageValueError
+from crosnode.errors import CrosnodeError, MessageValueError
 from crosnode.link import QUIET_TURNS
 from crosnode.node import StatusKind
 from crosnode.node.period import Period
+from crosnode.node.publisher import printable
 from crosnode.project import create_node, surroundings
 from plcsim.errors import ConfigurationError, TagError
 from plcsim.logbook import Severity
+from plcsim.project import FILE_NAME
 from st_types.errors import ValueRangeError
 from st_types.values import decode, encode
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from crosnode.messages import Message
     from crosnode.node import CrosNode, Publisher, Status, Subscriber
     from crosnode.settings import Publication, Subscription
     from plcsim.controller import Controller
+
+T = TypeVar("T")
+E = TypeVar("E", "Publication", "Subscription")
 
 NEWS: Final = {
     StatusKind.MASTER_FOUND: Severity.INFORMATION,
@@ -46,6 +53,9 @@ class Bridge:
     Args:
         controller: whose tags are bridged.
 
+    Raises:
+        ConfigurationError: an entry that cannot work.
+
     Attributes:
         node: the node.
         refused: messages that a tag, and values that a message, could not take.
@@ -59,8 +69,15 @@ class Bridge:
         self.refused = 0
         self._repeated: Counter[StatusKind] = Counter()
         self._controller = controller
-        self._out = [Outgoing(controller, self.node, entry) for entry in settings.publish]
-        self._in = [Incoming(controller, self.node, entry) for entry in settings.subscribe]
+        self._out = [self._made(Outgoing, "publish", entry) for entry in settings.publish]
+        self._in = [self._made(Incoming, "subscribe", entry) for entry in settings.subscribe]
+
+    def _made(self, cls: Callable[[Controller, CrosNode, E], T], key: str, entry: E) -> T:
+        try:
+            return cls(self._controller, self.node, entry)
+        except (ConfigurationError, CrosnodeError, TagError) as error:
+            text = f"{FILE_NAME}: ros.{key}.{entry.topic}: {error}"
+            raise ConfigurationError(text) from None
 
     def latch(self) -> None:
         """Do the node's step, then give tags the newest messages."""
@@ -84,7 +101,7 @@ class Bridge:
 
     def _log_news(self, status: Status) -> None:
         kind, name, text = status
-        line = f"{kind.name.lower().replace('_', ' ')} {name}: {text}".rstrip(": ")
+        line = printable(f"{kind.name.lower().replace('_', ' ')} {name}: {text}".rstrip(": "))
         if kind in NEWS:
             self._controller.log(NEWS[kind], "ros", line)
         elif kind in REPEATED_NEWS:
@@ -135,7 +152,7 @@ class Outgoing:
         try:  # nothing at all fits where 0 does not
             found.encode(self._conversion.to_field(decode(data_type, bytes(data_type.size))))
         except MessageValueError as error:
-            raise ConfigurationError(f"ros: tag {self._tag.path}: {error}") from None
+            raise ConfigurationError(f"tag {self._tag.path}: {error}") from None
 
     def send(self, release_ns: int) -> None:
         """Send the tag where it is time, and where it changed if that is asked for."""
@@ -170,7 +187,7 @@ class Incoming:
         try:
             encode(self._tag.data_type, self._value_of(found.new()))
         except ValueRangeError as error:
-            raise ConfigurationError(f"ros: tag {self._tag.path}: {found.name}: {error}") from None
+            raise ConfigurationError(f"tag {self._tag.path}: {found.name}: {error}") from None
 
     def take(self) -> None:
         """Write the newest message into the tag."""

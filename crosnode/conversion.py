@@ -78,7 +78,7 @@ def tag_conversion(
         return _structure(types, message_type.definition, data_type, path)
     if len(fields) != 1:
         raise ConfigurationError(
-            f"ros: tag {path} is one value, {message_type.name} has {len(fields)} fields"
+            f"tag {path} is one value, {message_type.name} has {len(fields)} fields"
         )
     (field,) = fields
     inner = _field(types, field, data_type, path)
@@ -105,7 +105,7 @@ def _structure(
     }
     if not parts:
         raise ConfigurationError(
-            f"ros: no member of {path} is a field of {definition.name}: {', '.join(fields)}"
+            f"no member of {path} is a field of {definition.name}: {', '.join(fields)}"
         )
     new = types.message_class(definition.name)
     return Conversion(
@@ -217,4 +217,4 @@ def _seconds(
 
 
 def _misfit(path: str, data_type: DataType[Any], declared: str) -> ConfigurationError:
-    return ConfigurationError(f"ros: tag {path} is {data_type}, which does not go with {declared}")
+    return ConfigurationError(f"tag {path} is {data_type}, which does not go with {declared}")

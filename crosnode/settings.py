@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from crosnode.errors import CrosnodeError
 from crosnode.hosts import parse_hosts
 from crosnode.master_server import DEFAULT_PORT
-from crosnode.names import check_name, node_settings
+from crosnode.names import check_base_name, check_name, node_settings, parse_arguments
 from crosnode.uri import make_uri, parse_uri
 from plcsim.network.protocol import is_ipv4
 from plcsim.project import FILE_NAME
@@ -100,8 +100,11 @@ def read_settings(
         own = node_settings("x", arguments, environment, host="127.0.0.1")
     except CrosnodeError as error:
         raise table.error("arguments", str(error)) from None
+    if "name" in parse_arguments(arguments).special:
+        raise table.error("arguments", "__name would give all nodes of the project one name")
     host = table.take("host", str, own.host)
     port = table.number("master_port", DEFAULT_PORT, 1, 65_535)
+    _checked(table, "host", lambda: parse_uri(make_uri("http", host, port), "http"))
     master = table.take("master", str, own.master_uri)
     is_embedded = master == EMBEDDED
     if not is_embedded:
@@ -112,12 +115,12 @@ def read_settings(
         is_embedded=is_embedded,
         master_port=port,
         host=host,
-        bind_ip=table.take("bind", str, ""),
+        bind_ip=_bind_ip(table),
         namespace=_namespace(table),
         arguments=arguments,
         packages=_packages(table, folder, environment),
         hosts=hosts,
-        node=_name(table, "node", table.take("node", str, "plc_bridge")),
+        node=_node(table),
         publish=tuple(_publication(*entry) for entry in _entries(table, folder, "publish")),
         subscribe=tuple(_subscription(*entry) for entry in _entries(table, folder, "subscribe")),
         environment=environment,
@@ -126,7 +129,21 @@ def read_settings(
 
 def _namespace(table: Table) -> str:
     namespace = table.take("namespace", str, "")
-    return _name(table, "namespace", namespace) if namespace else ""
+    _checked(table, "namespace", lambda: node_settings("x", namespace=namespace))
+    return namespace
+
+
+def _node(table: Table) -> str:
+    node = table.take("node", str, "plc_bridge")
+    _checked(table, "node", lambda: check_base_name(node))
+    return node
+
+
+def _bind_ip(table: Table) -> str:
+    ip = table.take("bind", str, "")
+    if ip and not is_ipv4(ip):
+        raise table.error("bind", f"{ip!r} is not an IPv4 address")
+    return ip
 
 
 def _checked(table: Table, key: str, check: Callable[[], object]) -> None:

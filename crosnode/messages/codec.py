@@ -172,7 +172,7 @@ class Codec:
                     raise
                 return cast("Message", self._store.deserialize_ros1(EscapedBytes(raw), name))
         except (SerdeError, struct.error, ValueError) as error:
-            raise DecodeError(f"{name}: {error}") from error
+            raise DecodeError(f"{name}: {error.__cause__ or error}") from error
 
     def _register(self, definition: Definition, cls: type[Message | Time | Duration]) -> None:
         name = definition.name

@@ -11,7 +11,7 @@ from crosnode.bridge import is_power_of_two
 from crosnode.extension import EXTENSION
 from crosnode.master_server import MasterOptions, MasterServer
 from crosnode.names import node_settings
-from crosnode.node import CrosNode
+from crosnode.node import CrosNode, StatusKind
 from plcsim.clock import VirtualClock
 from plcsim.context import Context
 from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
@@ -192,7 +192,7 @@ def test_a_number_that_is_none_is_sent_once() -> None:
 def test_a_pair_that_never_fits_is_an_error_before_the_first_cycle(
     direction: str, tag: str, type_name: str, text: str
 ) -> None:
-    with pytest.raises(ConfigurationError, match=f"ros: .*{tag}.*{text}"):
+    with pytest.raises(ConfigurationError, match=f"plc.toml: ros.{direction}./x: .*{tag}.*{text}"):
         Rig(**{direction: {"/x": entry(tag, type_name)}})
 
 
@@ -210,6 +210,14 @@ def test_the_logbook_says_whether_the_master_is_there() -> None:
     assert line.startswith(f"master lost {uri}: host 'nowhere' is not known; add it")
 
 
+def test_what_a_peer_says_is_one_line_of_the_logbook() -> None:
+    rig = Rig(publish={"/on": entry("plant.on", "std_msgs/Bool")}).run(200)
+    bridge = next(s for s in rig.plc.context.libraries() if type(s).__name__ == "Bridge")
+    bridge.node.core.tell(StatusKind.PEER_REFUSED, "/on", "a\nb\x1b[2J")
+    rig.run(50)
+    assert lines(rig)[-1] == "peer refused /on: a?b?[2J (1 so far)"
+
+
 def test_the_logbook_says_which_peers_do_not_fit_but_not_each_time() -> None:
     rig = Rig(subscribe={"/n": entry("plant.count", "std_msgs/Int16")})
     rig.peer.register_publisher("/n", "std_msgs/Int64", latching=True)
@@ -224,9 +232,9 @@ def test_counts_that_are_told() -> None:
 
 
 def test_unknown_tags_and_types_are_errors_before_the_first_cycle() -> None:
-    with pytest.raises(Exception, match=r"plant\.nothing"):
+    with pytest.raises(ConfigurationError, match=r"plc.toml: ros.publish./x: .*plant\.nothing"):
         Rig(publish={"/x": entry("plant.nothing", "std_msgs/Bool")})
-    with pytest.raises(ConfigurationError, match="no_msgs/Such"):
+    with pytest.raises(ConfigurationError, match=r"plc.toml: ros./x.type: .*no_msgs/Such"):
         Rig(publish={"/x": entry("plant.on", "no_msgs/Such")})
 
 
