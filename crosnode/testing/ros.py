@@ -37,9 +37,6 @@ __tracebackhide__ = True
 FIRST_IP: Final = 101
 """Last part of the address of the first node; the following ones count up."""
 
-MEMORY: Final = 1 << 20
-"""Bytes of PLC memory of a host: for its AsTCP blocks and their buffers."""
-
 QUEUE: Final = 1000
 """Messages that wait for the test; in a program it is ten, but a test looks only now and then."""
 
@@ -186,12 +183,12 @@ class Ros:
         return node
 
     def _new_host(self, ip: str) -> _Host:
-        host = _Host(ip, Context(Memory(MEMORY), self._plc.network.host(ip)))
+        host = _Host(ip, Context(Memory(), self._plc.network.host(ip)))
         host.context.release_ns = self._plc.clock.now_ns()
         self._hosts.append(host)
         return host
 
-    def message(self, type_name: str, **values: object) -> Message:
+    def message(self, type_name: str, /, **values: object) -> Message:
         """Return a message, as part of another one: ``points=[ros.message(...), ...]``."""
         return self._types.message(type_name).new(**values)
 
@@ -204,12 +201,13 @@ class Ros:
         """
         return self.tester.register_subscriber(topic, type_name, queue_size=QUEUE)
 
-    def publish(self, topic: str, type_name: str, **values: object) -> None:
+    def publish(self, topic: str, type_name: str, /, **values: object) -> None:
         """Send a message as ``rostopic pub`` does; its fields are ``values``, else defaults.
 
         For the first one of a topic the controller runs until somebody subscribes.
 
         Raises:
+            TypeError: there is no such field.
             MessageValueError: a field cannot hold its value.
             ExpectationFailed: nobody subscribes in time (see `Plc.until`).
         """
@@ -221,7 +219,7 @@ class Ros:
         self._until(f"a subscriber of {topic}", lambda: publisher.subscribers)
         publisher.send(message)
 
-    def call(self, service: str, type_name: str, **values: object) -> Message:
+    def call(self, service: str, type_name: str, /, **values: object) -> Message:
         """Call a service as ``rosservice call`` does; the controller runs until the reply.
 
         Args:
@@ -233,16 +231,20 @@ class Ros:
             The response.
 
         Raises:
+            TypeError: there is no such field.
+            MessageValueError: a field cannot hold its value.
             ExpectationFailed: there is no provider or no reply in time, or the call fails; then
                 with the reason that the provider gives.
         """
         caller = self.tester.register_service_caller(service, type_name)
-        request = caller.new(**values)
         name = caller.service
-        self._until(f"a provider of {name}", lambda: name in self.system_state().services)
-        caller.call(request)
-        self._until(f"a reply of {name}", lambda: caller.replies)
-        self.tester.unregister(caller)
+        try:
+            request = caller.new(**values)
+            self._until(f"a provider of {name}", lambda: name in self.system_state().services)
+            caller.call(request)
+            self._until(f"a reply of {name}", lambda: caller.replies)
+        finally:
+            self.tester.unregister(caller)
         reply = caller.pop()
         assert reply is not None
         if reply.response is None:

@@ -1,9 +1,12 @@
 """The fixture ros in runs of pytest, in projects elsewhere on disk."""
 
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+import numpy as np  # noqa: F401  # can be loaded once per process, and pytester forgets modules
 
 pytest_plugins = ["pytester"]
 
@@ -16,9 +19,25 @@ def test_a_copy_of_an_example_passes_its_tests_whatever_the_environment(pytester
     monkeypatch.setenv("ROS_IP", "10.9.9.8")
     monkeypatch.setenv("ROS_NAMESPACE", "/elsewhere")
     shutil.copytree(PROGRAMS / "talker", pytester.path / "my_own")
-    result = pytester.runpytest_inprocess(*QUICK, "my_own/tests")
+    result = pytester.runpytest_inprocess(*QUICK, "-k", "word or exit", "my_own/tests")
     assert result.ret == 0
-    assert set(result.parseoutcomes()) == {"passed"}
+    assert set(result.parseoutcomes()) == {"passed", "deselected"}
+
+
+TUTORIAL = PROGRAMS.parent / "docs" / "testing.md"
+EXAMPLE = re.compile(r"^```python\n# (\w+)\n(.*?)^```", re.DOTALL | re.MULTILINE)
+
+
+def test_the_tests_in_the_tutorial_pass(pytester):
+    examples = EXAMPLE.findall(TUTORIAL.read_text())
+    assert [name for name, _ in examples] == ["listener", "tank"]
+    for name, text in examples:
+        shutil.copytree(PROGRAMS / name, pytester.path / name)
+        (pytester.path / name / "tests" / "test_tutorial.py").write_text(text)
+    files = pytester.path.glob("*/tests/test_tutorial.py")
+    pytester.runpytest_inprocess(*QUICK, "--import-mode=importlib", *files).assert_outcomes(
+        passed=4
+    )
 
 
 def test_a_run_without_the_fixture_imports_nothing_of_crosnode():

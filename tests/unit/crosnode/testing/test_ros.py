@@ -11,7 +11,6 @@ from plcsim.testing.target import program_target, project_target
 from st_types import BOOL, STRING, UDINT, var
 
 TEXT = "std_msgs/String"
-ADD = "rospy_tutorials/AddTwoInts"
 MAIN = """
 from crosnode.project import create_node
 from plcsim import Program
@@ -108,6 +107,13 @@ def test_a_service_is_called_and_its_failure_told(ros):
         ros.call("/empty", SET_BOOL, data=False)
 
 
+def test_fields_may_have_any_name(ros):
+    state = ros.message("rosgraph_msgs/TopicStatistics", topic="/out", node_pub="/cell")
+    assert (state.topic, state.node_pub) == ("/out", "/cell")
+    with pytest.raises(TypeError, match="unexpected keyword argument 'topic'"):
+        ros.publish("/in", TEXT, topic="/out")
+
+
 def test_calls_leave_nothing_behind(ros):
     for _ in range(3):
         ros.call("/empty", SET_BOOL, data=True)
@@ -121,6 +127,7 @@ def test_who_does_not_come_is_named(plc, ros):
     waited = r"waited 250 ms for a provider of /nothing"
     with pytest.raises(ExpectationFailed, match=waited), plc.assert_within("250ms"):
         ros.call("/nothing", SET_BOOL)
+    assert ros.tester.callers == []
 
 
 def test_the_state_of_the_system_is_what_the_master_knows(plc, ros):
