@@ -20,6 +20,7 @@ from plcsim.errors import PlcError
 from plcsim.extension import ServiceOrder
 from plcsim.services.modbus.audit import AuditLog
 from plcsim.services.modbus.device import Device, Identity
+from plcsim.services.modbus.listener import place
 from plcsim.services.modbus.server import Server
 from plcsim.shared_image import ImageReader
 from plcsim.status_page import StatusPage
@@ -77,7 +78,8 @@ async def _serve(order: ServiceOrder) -> int:
         await server.start(order.wake_fd)
         if not order.quiet:
             sys.stderr.write(
-                f"modbus: serving {len(device.points)} tags on {settings.host}:{server.port}"
+                f"modbus: serving {len(device.points)} tags on "
+                f"{place(settings.host, server.port)}"
                 f"{' with TLS' if settings.tls else ''}\n"
             )
         await stopped.wait()

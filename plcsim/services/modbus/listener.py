@@ -31,6 +31,12 @@ HANDSHAKE_S: Final = 10.0
 """A peer has this long to finish the handshake of TLS."""
 
 
+def place(host: str, port: int) -> str:
+    """Return an address as people write it; an IPv4 peer of an IPv6 socket as IPv4."""
+    host = host.removeprefix("::ffff:")
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
+
+
 class Listener:
     """Takes peers until it is closed.
 
@@ -89,7 +95,7 @@ class Listener:
                 client.close()
                 continue
             client.settimeout(0)
-            entering = self._enter(client, protocol, f"{address[0]}:{address[1]}")
+            entering = self._enter(client, protocol, place(*address[:2]))
             self.entering[protocol] = asyncio.get_running_loop().create_task(entering)
 
     async def _enter(self, client: socket.socket, protocol: asyncio.Protocol, name: str) -> None:

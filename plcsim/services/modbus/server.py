@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from plcsim.errors import ConfigurationError
 from plcsim.services.modbus.connection import Connection, Limits, WriteRecord
 from plcsim.services.modbus.handler import Handler, Rights
-from plcsim.services.modbus.listener import Listener
+from plcsim.services.modbus.listener import Listener, place
 from plcsim.services.modbus.tls import rights_of, role_of
 
 if TYPE_CHECKING:
@@ -83,7 +83,9 @@ class Server:
         try:
             self._listener = Listener(host, port, self.settings.tls, self._admit, self.faulty)
         except OSError as err:
-            raise ConfigurationError(f"modbus: cannot listen on {host}:{port}: {err}") from None
+            raise ConfigurationError(
+                f"modbus: cannot listen on {place(host, port)}: {err}"
+            ) from None
         loop.set_exception_handler(self._report)
         self.port = self._listener.port
         if wake_fd >= 0:
@@ -137,7 +139,7 @@ class Server:
         return sum(protocol not in self.peers for protocol in entering)
 
     def _admit(self, host: str, port: int) -> _Peer | None:
-        return _Peer(self, f"{host}:{port}") if self.admits(host) else None
+        return _Peer(self, place(host, port)) if self.admits(host) else None
 
     def rights_of(self, role: str) -> Rights:
         """Return what a peer may do."""
@@ -173,6 +175,7 @@ class _Peer(asyncio.Protocol):
         self._is_blocked = False
         self._is_paused = False
         self._is_scheduled = False
+        self._is_ending = False
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Get ready for requests."""
@@ -197,6 +200,15 @@ class _Peer(asyncio.Protocol):
         """Execute what has come."""
         self.connection.receive(data)
         self.pump()
+
+    def eof_received(self) -> bool:
+        """Keep a peer that sends no more until it has its answers; TLS knows no such state."""
+        self._is_ending = self._server.settings.tls is None
+        return self._is_ending and self._is_busy
+
+    @property
+    def _is_busy(self) -> bool:
+        return self.connection.is_waiting or self.connection.has_more
 
     def pause_writing(self) -> None:
         """Let requests wait while the peer does not read its answers."""
@@ -223,6 +235,9 @@ class _Peer(asyncio.Protocol):
             if connection.has_more and not self._is_scheduled:
                 self._is_scheduled = True
                 asyncio.get_running_loop().call_soon(self._pump_rest)
+        if self._is_ending and not self._is_busy:
+            self._transport.close()
+            return
         self._throttle()
 
     def _pump_rest(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable
 import pytest
 
 from plcsim.services.modbus import listener
-from plcsim.services.modbus.listener import Listener
+from plcsim.services.modbus.listener import Listener, place
 
 
 class Greeter(asyncio.Protocol):
@@ -94,3 +94,15 @@ def test_without_descriptors_nobody_gets_in_until_there_are_some_again(
     assert asked == ["127.0.0.1"]
     assert 2 <= len(failures) <= 8
     assert "Too many open files" in failures[0]
+
+
+@pytest.mark.parametrize(
+    ("host", "written"),
+    [
+        ("10.0.0.1", "10.0.0.1:502"),
+        ("fe80::1", "[fe80::1]:502"),
+        ("::ffff:10.0.0.1", "10.0.0.1:502"),
+    ],
+)
+def test_addresses_are_written_as_people_write_them(host: str, written: str) -> None:
+    assert place(host, 502) == written

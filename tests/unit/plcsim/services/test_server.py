@@ -100,6 +100,21 @@ def test_writes_are_answered_and_audited(world: World, tmp_path: Path) -> None:
     assert line["peer"].startswith("127.0.0.1:")
 
 
+def test_a_peer_that_sends_no_more_still_gets_all_its_answers(world: World) -> None:
+    write = frame(bytes.fromhex("06 000a 0009"))
+
+    async def client(server: Server) -> None:
+        reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+        writer.write(write + READ * 500)
+        writer.write_eof()
+        assert await asyncio.wait_for(reader.read(), 5) == write + ANSWER * 500
+        writer.close()
+        while server.peers:
+            await asyncio.sleep(0.001)
+
+    serve(world, client)
+
+
 def test_what_is_not_modbus_is_closed_and_the_server_goes_on(world: World) -> None:
     async def client(server: Server) -> None:
         assert await exchange(server, b"GET / HTTP/1.1\r\n\r\n", 1) == b""
