@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 METHOD: Final = "system.multicall"
-MAX_CALLS: Final = 1000
+MAX_CALLS: Final = 200
 
-MAX_VALUES: Final = 20_000
+MAX_VALUES: Final = 1_000
 """Values in all answers together: a short document could ask for any number of long ones."""
 
 REPLY_TOO_LARGE: Final = -32500
