@@ -34,6 +34,8 @@ class Wish(Enum):
     CALLING = auto()
     REGISTERED = auto()
     REFUSED = auto()
+    STALE = auto()
+    """No longer wanted, but the master may know it: taken back when it is found again."""
     LEAVING = auto()
     GONE = auto()
 
@@ -49,6 +51,7 @@ class Registration:
         on_value: called with the value of the master's answer.
         state: where it stands.
         is_late: registered after the others, where many are.
+        is_known: whether a master may know it.
     """
 
     name: str
@@ -57,6 +60,7 @@ class Registration:
     on_value: Callable[[Value], None] | None = None
     state: Wish = field(default=Wish.PENDING)
     is_late: bool = False
+    is_known: bool = False
 
 
 class MasterClient:
@@ -94,6 +98,7 @@ class MasterClient:
         self._settled_ns: int | None = None
         self._was_lost = False
         self._is_missed = False
+        self._is_closing = False
 
     @property
     def is_settling(self) -> bool:
@@ -116,21 +121,29 @@ class MasterClient:
         self._is_dirty = True
 
     def remove(self, registration: Registration) -> None:
-        """Take a registration back."""
-        if registration.state in (Wish.LEAVING, Wish.GONE):
+        """Take a registration back, now or when the master is found again."""
+        if registration.state in (Wish.STALE, Wish.LEAVING, Wish.GONE):
             return
         is_known = registration.state is Wish.REGISTERED and self.is_found
         if is_known or registration.state is Wish.CALLING:
-            registration.state = Wish.LEAVING
-            method, params = registration.unregister
-            self.call(method, params, lambda _: self._gone(registration))
+            self._unregister(registration)
+        elif self._may_be_known(registration):
+            registration.state = Wish.STALE
         else:
             self._gone(registration)
 
+    def _may_be_known(self, registration: Registration) -> bool:
+        is_pending = registration.state is Wish.PENDING
+        return is_pending and registration.is_known and not self._is_closing
+
     def remove_all(self) -> None:
-        """Take all registrations back."""
+        """Take all registrations back; a master that is away is not waited for."""
+        self._is_closing = True
         for registration in list(self._registrations):
-            self.remove(registration)
+            if registration.state is Wish.STALE:
+                self._gone(registration)
+            else:
+                self.remove(registration)
 
     def call(
         self, method: str, params: list[Value], on_end: Callable[[ApiCall], None] | None = None
@@ -152,12 +165,15 @@ class MasterClient:
             for registration in sorted(self._registrations, key=lambda each: each.is_late):
                 if registration.state is Wish.PENDING:
                     self._register(registration)
+                elif registration.state is Wish.STALE:
+                    self._unregister(registration)
         elif now_ns >= self._ping_ns and not self._pinging and self._registrations:
             self._pinging = True
             self.call("lookupNode", [self._name], self._pinged)
 
     def _register(self, registration: Registration) -> None:
         registration.state = Wish.CALLING
+        registration.is_known = True
         method, params = registration.register
         self.call(method, params, lambda call: self._registered(registration, call))
 
@@ -177,6 +193,18 @@ class MasterClient:
         self._tell(StatusKind.REGISTERED, registration.name, call.method)
         if registration.on_value:
             registration.on_value(call.value)
+
+    def _unregister(self, registration: Registration) -> None:
+        registration.state = Wish.LEAVING
+        method, params = registration.unregister
+        self.call(method, params, lambda call: self._unregistered(registration, call))
+
+    def _unregistered(self, registration: Registration, call: ApiCall) -> None:
+        if call.was_answered or self._is_closing:
+            self._gone(registration)
+            return
+        registration.state = Wish.STALE
+        self._lost(call.error)
 
     def _gone(self, registration: Registration) -> None:
         registration.state = Wish.GONE

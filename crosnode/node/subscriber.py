@@ -30,8 +30,11 @@ if TYPE_CHECKING:
 
 FIRST_RETRY_NS: Final = 100_000_000
 LONGEST_RETRY_NS: Final = 5_000_000_000
-MAX_PUBLISHERS: Final = 1_000
-"""Publishers of one topic that are connected to; what a master names beyond is left."""
+MAX_PUBLISHERS: Final = 200
+"""Publishers of one topic that are connected to; what a master names beyond is left.
+
+Each has its part in every step, and a controller has fewer sockets by default.
+"""
 
 
 class Packet(NamedTuple):
@@ -114,8 +117,8 @@ class Subscriber:
 
     def update(self, uris: Value) -> None:
         """Connect to the publishers at ``uris`` and part from all others, in time."""
-        wanted = [uri for uri in uris if isinstance(uri, str)] if isinstance(uris, list) else []
-        wanted = list(dict.fromkeys(wanted))[:MAX_PUBLISHERS]
+        named = [uri for uri in uris if isinstance(uri, str)] if isinstance(uris, list) else []
+        wanted = dict.fromkeys(list(dict.fromkeys(named))[:MAX_PUBLISHERS])
         self._unlisted = [uri for uri in self.peers if uri not in wanted]
         for uri in wanted:
             if uri not in self.peers:

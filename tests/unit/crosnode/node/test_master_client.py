@@ -1,9 +1,10 @@
 """The node and its master on bad days: absent, restarted, restarted with the same pid, refusing."""
 
 from crosnode.node import StatusKind
+from crosnode.node.master_client import Wish
 from plcsim.network import Outcome
 
-from .world import MASTER_IP, OTHER_IP, STRING, World, drain, news, words
+from .world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, drain, news, words
 
 
 def test_a_node_waits_for_a_master_that_comes_later() -> None:
@@ -153,3 +154,61 @@ def test_a_master_that_is_not_there_is_told_once_until_it_comes() -> None:
     world.kill_master()
     world.run(5_000)
     assert len(news(node, StatusKind.MASTER_LOST)) == 1
+
+
+def published(world: World) -> list[str]:
+    assert world.master
+    return [topic for topic, _ in world.master.master.get_system_state("/x")[2][0]]
+
+
+def test_what_is_taken_back_while_the_master_is_away_is_taken_back_later() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/x", STRING)
+    world.until(lambda: node.is_registered)
+    world.faults.reset(PLC_IP, MASTER_IP)
+    world.run(3)
+    node.unregister(publisher)
+    assert "/x" in published(world)
+    world.until(lambda: "/x" not in published(world))
+    assert len(news(node, StatusKind.UNREGISTERED)) == 1
+
+
+def test_a_topic_taken_back_and_published_again_while_the_master_is_away() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/x", STRING)
+    world.until(lambda: node.is_registered)
+    world.kill_master()
+    world.run(300)
+    node.unregister(publisher)
+    node.register_publisher("/x", "std_msgs/Bool")
+    world.run(300)
+    world.restart_master()
+    world.until(lambda: node.is_registered and world.master and "/x" in published(world))
+    world.run(100)
+    assert world.master
+    assert ["/x", "std_msgs/Bool"] in world.master.master.get_topic_types("/x")[2]
+
+
+def test_a_node_that_closes_does_not_wait_for_a_master_that_is_away() -> None:
+    world = World()
+    node = world.node("n")
+    publisher = node.register_publisher("/x", STRING)
+    world.until(lambda: node.is_registered)
+    world.kill_master()
+    world.run(10)
+    node.unregister(publisher)
+    node.close()
+    world.until(lambda: node.is_closed, 100)
+
+
+def test_what_the_master_refused_is_gone_at_once() -> None:
+    world = World()
+    node = world.node("n")
+    subscriber = node.register_subscriber("/x", STRING)
+    world.until(lambda: node.is_registered)
+    subscriber.registration.state = Wish.REFUSED
+    node.unregister(subscriber)
+    assert subscriber.registration.state is Wish.GONE
+    assert node.is_registered

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crosnode.node import CrosNode, StatusKind, Subscriber
+from crosnode.node.subscriber import MAX_PUBLISHERS
 from crosnode.tcpros.header import encode_header
 from plcsim.network import Outcome, Socket
 
@@ -233,7 +234,7 @@ def test_what_the_master_names_is_bounded_and_checked() -> None:
     world.run(200)
     assert subscriber.publishers == 0
     subscriber.update([f"http://1.2.3.4:{port}/" for port in range(1, 3000)])
-    assert len(subscriber.peers) == 1000
+    assert len(subscriber.peers) == MAX_PUBLISHERS
 
 
 @settings(max_examples=30, deadline=None)
