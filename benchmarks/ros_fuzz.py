@@ -37,8 +37,8 @@ FLOOD_S = 1.0
 STEP_S = 0.001
 
 MOST_GROWTH_KIB = 32 * 1024
-"""A master keeps 16 MiB of parameters and 20000 registrations at most, a connection what it has read
-of one document or message. The attack is too short to fill that: more than this would be a leak."""
+"""A master keeps 16 MiB of parameters and 20000 registrations at most, a connection what it has
+read of one document or message. The attack is too short to fill that: more would be a leak."""
 
 RECOVERY_S = 15.0
 """A silent peer keeps its connection for 10 s at most; after that a port must answer."""
