@@ -107,11 +107,11 @@ def from_registers(point: Point, data: bytes) -> bytes:
 
 def _checked(point: Point, value: float) -> bytes:
     """Return the bytes of a value from the wire, scaled, within limits, as the variable's type."""
-    if not math.isfinite(value):
-        raise IllegalValue(f"{point.tag}: {value} is not a finite number")
     if point.is_scaled:
         value = value * point.scale + point.offset_eu
-    elif point.is_plain and point.code not in "fd":  # signed or unsigned as the variable is
+    if not math.isfinite(value):
+        raise IllegalValue(f"{point.tag}: {value} is not a finite number")
+    if point.is_plain and point.code not in "fd":  # signed or unsigned as the variable is
         (value,) = struct.unpack("<" + point.code, struct.pack("<" + point.kind, value))
     if (point.minimum is not None and value < point.minimum) or (
         point.maximum is not None and value > point.maximum

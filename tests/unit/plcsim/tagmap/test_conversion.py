@@ -163,3 +163,42 @@ def test_a_value_the_variable_cannot_hold_is_refused(kind: str, code: str, value
 def test_a_float64_too_large_for_a_real_is_refused() -> None:
     with pytest.raises(IllegalValue, match="does not fit"):
         from_registers(point("d", "f"), struct.pack(">d", 1e300))
+
+
+@given(
+    st.sampled_from("hHiIqQfd"),
+    st.sampled_from("bBhHiIqQfd"),
+    st.binary(min_size=8, max_size=8),
+    st.floats(allow_nan=False, allow_infinity=False).filter(bool),
+    st.floats(allow_nan=False, allow_infinity=False),
+)
+def test_whatever_is_written_with_a_scale_is_refused_or_a_finite_value(
+    kind: str, code: str, wire: bytes, scale: float, offset: float
+) -> None:
+    scaled = point(kind, code, scale=scale, offset_eu=offset)
+    data = wire[: 2 * scaled.registers]
+    try:
+        found = from_registers(scaled, data)
+    except IllegalValue:
+        return
+    assert math.isfinite(struct.unpack("<" + code, found)[0])
+
+
+@given(
+    st.sampled_from("hHiIqQfd"),
+    st.sampled_from("bBhHiIqQfd"),
+    st.binary(min_size=8, max_size=8),
+    st.floats(allow_nan=False, allow_infinity=False).filter(bool),
+    st.floats(allow_nan=False, allow_infinity=False),
+)
+def test_whatever_a_variable_holds_can_be_read_with_any_scale(
+    kind: str, code: str, data: bytes, scale: float, offset: float
+) -> None:
+    scaled = point(kind, code, scale=scale, offset_eu=offset)
+    assert len(to_registers(scaled, data[: scaled.size])) == 2 * scaled.registers
+
+
+def test_a_value_that_the_scale_makes_infinite_is_refused() -> None:
+    for code in "hfd":
+        with pytest.raises(IllegalValue, match="inf is not a finite number"):
+            from_registers(point("d", code, scale=1e300), struct.pack(">d", 1e300))
