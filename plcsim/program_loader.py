@@ -9,7 +9,6 @@ in files of those names. The project's folder is a package, so programs may shar
 from __future__ import annotations
 
 import importlib
-import inspect
 import itertools
 import os
 import sys
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.errors import ConfigurationError
 from plcsim.place import describe, place_of
+from plcsim.program_check import check_program
 from plcsim.task import Program, Unit
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class ProgramLoader:
         program = self._program_in(folder, modules)
         units = self._units_in(folder, package)
         whole = type(program.__name__, (program,), units) if units else program
-        _check_units(whole, folder)
+        check_program(whole, folder)
         return whole
 
     def _known(self) -> str:
@@ -127,46 +127,3 @@ class ProgramLoader:
                     raise ConfigurationError(f"{folder / stem}.py: has no function {stem}")
                 units[stem] = function
         return units
-
-
-def _check_units(program: type[Program], folder: Path) -> None:
-    """Find units that would never run, or fail at their first call.
-
-    Raises:
-        ConfigurationError: there is one; its line is named.
-    """
-    for name in (unit.value.lower() for unit in Unit):
-        function = getattr(program, name)
-        if function is getattr(Program, name):
-            _check_misspelt(program, name, folder)
-        if any(is_one(function) for is_one in _NOT_RUN_BY_A_CALL):
-            raise ConfigurationError(
-                f"{_place_of_unit(function, folder)}: {name} neither awaits nor yields: a call of "
-                "it is one whole run"
-            )
-        try:
-            inspect.signature(function).bind(program)
-        except TypeError:
-            raise ConfigurationError(
-                f"{_place_of_unit(function, folder)}: {name} takes self and nothing else"
-            ) from None
-
-
-_NOT_RUN_BY_A_CALL = (
-    inspect.iscoroutinefunction,
-    inspect.isgeneratorfunction,
-    inspect.isasyncgenfunction,
-)
-
-
-def _check_misspelt(program: type[Program], name: str, folder: Path) -> None:
-    """Refuse a unit in other letters, such as ``Cyclic``: Python would not run it."""
-    for other, function in inspect.getmembers(program, inspect.isfunction):
-        if other != name and other.lower() == name:
-            place = _place_of_unit(function, folder)
-            raise ConfigurationError(f"{place}: the unit {other} is spelt {name}")
-
-
-def _place_of_unit(function: object, folder: Path) -> str:
-    code = getattr(inspect.unwrap(function), "__code__", None) if callable(function) else None
-    return f"{code.co_filename}:{code.co_firstlineno}" if code else str(folder)

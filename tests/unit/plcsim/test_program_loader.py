@@ -168,34 +168,6 @@ def test_a_wrong_program_is_named_with_file_and_line(load, source, error):
     assert wrong(load, {"main/main.py": source}).startswith(error)
 
 
-@pytest.mark.parametrize(
-    ("source", "error"),
-    [
-        ("def Cyclic(self): ...", "the unit Cyclic is spelt cyclic"),
-        ("def INIT(self): ...", "the unit INIT is spelt init"),
-        ("def cyclic(): ...", "cyclic takes self and nothing else"),
-        ("def exit(self, code): ...", "exit takes self and nothing else"),
-        ("async def cyclic(self): ...", "cyclic neither awaits nor yields"),
-        ("def cyclic(self): yield", "cyclic neither awaits nor yields"),
-    ],
-)
-def test_a_unit_that_would_not_run_is_an_error(load, source, error):
-    found = wrong(load, {"main/main.py": f"{DECLARED}    {source}\n"})
-    assert found.startswith(f"main/main.py:5: {error}")
-
-
-@pytest.mark.parametrize(
-    "body", ["Exit = var(UINT)", "def init(self): self.Init()\n    def Init(self): ..."]
-)
-def test_other_members_may_be_called_as_they_like(load, body):
-    assert load({"main/main.py": f"{DECLARED}    {body}\n"}).__name__ == "Main"
-
-
-def test_a_unit_in_a_file_of_its_own_is_checked_too(load):
-    files = {"main/variables.py": CLASS, "main/exit.py": "def exit():\n    pass\n"}
-    assert wrong(load, files) == "main/exit.py:1: exit takes self and nothing else"
-
-
 def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
     def refused(path, **_):
         raise PermissionError(13, "Permission denied", str(path))

@@ -23,7 +23,7 @@ FAILS = """
 
     class Main(Program):
         def cyclic(self) -> None:
-            self.nothing = 1
+            int("ten")
 """
 
 VIRTUAL = ["--virtual", "--cycles", "3"]
@@ -49,7 +49,7 @@ def test_quiet_prints_nothing_but_errors(project_of, capsys):
     shown = capsys.readouterr()
     assert shown.out == ""
     place = f"{folder / 'main' / 'main.py'}:6"
-    assert "SERVICE: main CYCLIC: AttributeError: " in shown.err
+    assert "SERVICE: main CYCLIC: ValueError: " in shown.err
     assert f"({place})" in shown.err
 
 
