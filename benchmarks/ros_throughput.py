@@ -33,6 +33,7 @@ from _outcome import (
 )
 from _ros_peer import HOST, make_node
 from node_step import BYTES, STRING, free_port
+from ros_processes import answers
 
 from crosnode.budget import UNPACED
 
@@ -157,6 +158,15 @@ def our_rate(port: int, kind: str, seconds: float) -> float:
     return (count - before) / ((now_ns - start_ns) / 1e9)
 
 
+def await_master(port: int) -> None:
+    """Wait until the master of a pair answers."""
+    end = time.monotonic() + 20
+    while not answers(port):
+        if time.monotonic() > end:
+            raise SystemExit(f"no master at port {port}")
+        time.sleep(0.05)
+
+
 class Measurement:
     """Measures pairs; one for a run.
 
@@ -183,10 +193,10 @@ class Measurement:
         peer = [sys.executable, str(HERE / "_ros_peer.py"), str(port)]
         talk = ["talk", "/in", kind, "0", str(size)] if pair.publisher == "ours" else ["idle", "0"]
         processes: list[subprocess.Popen[Any]] = [subprocess.Popen([*peer, *talk])]
-        time.sleep(1.5)
-        if pair.publisher != "ours":
-            processes.append(self._rivals[pair.publisher].start(port, "talk", kind, size))
         try:
+            await_master(port)
+            if pair.publisher != "ours":
+                processes.append(self._rivals[pair.publisher].start(port, "talk", kind, size))
             if pair.subscriber == "ours":
                 return our_rate(port, kind, self._seconds)
             return self._rivals[pair.subscriber].rate(port, kind, size, self._seconds)
