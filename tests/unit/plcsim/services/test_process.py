@@ -158,6 +158,40 @@ def test_a_killed_service_is_back_within_a_second_and_has_lost_no_acknowledged_w
     assert cycles > 100
 
 
+def answered(client: socket.socket, expected: str) -> bool:
+    """Read until the answer starts as expected."""
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline:
+        if ask(client, bytes.fromhex("03 0000 0001")).hex().startswith(expected):
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def test_a_scan_that_stands_still_is_a_failure_of_the_device_until_it_goes_on(site: Site) -> None:
+    scan = site.supervisor._process.pid
+    with site.connect() as client:
+        os.kill(scan, signal.SIGSTOP)
+        try:
+            assert answered(client, "8304")
+            assert ask(client, bytes.fromhex("06 0000 0001")).hex() == "8604"
+        finally:
+            os.kill(scan, signal.SIGCONT)
+        assert answered(client, "0302")
+        assert ask(client, bytes.fromhex("06 0000 0001")).hex() == "0600000001"
+
+
+def test_a_killed_scan_takes_its_service_with_it(site: Site) -> None:
+    with site.connect() as client:
+        service = site.service_pid()
+        os.kill(site.supervisor._process.pid, signal.SIGKILL)
+        site._thread.join(10)
+        assert site.result["state"] == "SERVICE"
+        site.supervisor.services._services[0].stop()
+        assert not Path(f"/proc/{service}").exists()
+        assert ask(client, bytes.fromhex("03 0000 0001")) == b""
+
+
 def test_a_run_is_found_by_its_folder(site: Site) -> None:
     with site.connect():
         run = find_run(site.project.folder)
