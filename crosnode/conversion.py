@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from crosnode.messages import Duration, Time
 from crosnode.messages.codec import attribute_name
-from crosnode.messages.text import bytes_of, is_utf8
+from crosnode.messages.text import is_utf8, to_latin1
 from plcsim.errors import ConfigurationError
 from st_types.derived import ArrayType, StringType, StructType, WStringType, resolve_alias
 from st_types.elementary import DATE, DATE_AND_TIME, TIME, TIME_OF_DAY, ElementaryType
@@ -183,7 +183,7 @@ def _as_it_is(value: Plain) -> Plain:
 
 
 def _text(value: str) -> str:
-    return value if is_utf8(value) else bytes_of(value).decode("latin-1")
+    return value if is_utf8(value) else to_latin1(value)
 
 
 def _number(value: Any) -> Plain:

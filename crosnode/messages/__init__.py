@@ -3,6 +3,7 @@
 from crosnode.messages.codec import Message
 from crosnode.messages.json_values import from_json, to_json
 from crosnode.messages.registry import MessageType, MessageTypes, ServiceType
+from crosnode.messages.text import to_latin1
 from crosnode.messages.values import Duration, Time
 
 __all__ = [
@@ -14,4 +15,5 @@ __all__ = [
     "Time",
     "from_json",
     "to_json",
+    "to_latin1",
 ]

@@ -60,6 +60,16 @@ def is_utf8(text: str) -> bool:
     return True
 
 
+def to_latin1(text: str) -> str:
+    """Return a text as a STRING can hold it, one byte a character.
+
+    Other characters become ``?``. Of a text that is not UTF-8 each byte becomes a character.
+    """
+    if is_utf8(text):
+        return text.encode("latin-1", "replace").decode("latin-1")
+    return bytes_of(text).decode("latin-1")
+
+
 def escaped(value: Any) -> Any:
     """Return a copy of a message, at all levels, whose texts are ``EscapedText``."""
     if isinstance(value, str):

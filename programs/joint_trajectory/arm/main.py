@@ -6,6 +6,7 @@ not fit is refused whole.
 """
 
 from itertools import pairwise
+from math import isfinite
 
 from crosnode.messages import Message, Time
 from crosnode.node import CrosNode, LogLevel, Publisher, Subscriber
@@ -16,6 +17,8 @@ from st_types import ARRAY, BOOL, LREAL, UDINT, UINT, Struct, var
 JOINTS = 6
 POINTS = 50
 CYCLE_S = 0.01
+FASTEST = 2.0
+"""The greatest override."""
 NAMES = [f"joint_{number}" for number in range(1, JOINTS + 1)]
 
 
@@ -93,13 +96,18 @@ class Arm(Program):
         self.accepted += 1
 
     def move(self) -> None:
-        """Go on along the line between the two points around the present time."""
-        self.time_s += CYCLE_S * self.override
+        """Go on along the line between the two points around the present time.
+
+        An override that makes no sense stops the arm: it comes from another computer.
+        """
+        override = self.override if 0.0 <= self.override <= FASTEST else 0.0
+        self.time_s += CYCLE_S * override
         before_s, before = 0.0, list(self.start)
         for number in range(1, self.trajectory.count + 1):
             point = self.trajectory.points[number]
             if self.time_s < point.time_s:
                 self.go(before, list(point.position), before_s, point.time_s)
+                self.speed *= override
                 return
             before_s, before = point.time_s, list(point.position)
         self.position.assign(before)
@@ -112,7 +120,7 @@ class Arm(Program):
         line = zip(before, after, strict=True)
         self.position.assign([a + (b - a) * share for a, b in line])
         way = max(abs(b - a) for a, b in zip(before, after, strict=True))
-        self.speed = way / (after_s - before_s) * self.override
+        self.speed = way / (after_s - before_s)
 
     def exit(self) -> None:
         """Take the registrations back."""
@@ -127,6 +135,8 @@ def fault_of(command: Message) -> str:
         return f"{len(command.points)} points, 1 to {POINTS} are followed"
     if any(len(point.positions) != JOINTS for point in command.points):
         return f"a point without {JOINTS} positions"
+    if not all(isfinite(value) for point in command.points for value in point.positions):
+        return "a position that is no number"
     times = [point.time_from_start.to_ns() for point in command.points]
     if times[0] <= 0 or any(later <= earlier for earlier, later in pairwise(times)):
         return "the times must rise from above 0"

@@ -4,7 +4,7 @@ The STRUCT is the message's own: JointState.typ was written by ``plcsim types fr
 sensor_msgs/JointState``, and the views in joint_state.py by ``plcsim types python JointState.typ``.
 """
 
-from crosnode.messages import Message
+from crosnode.messages import Message, to_latin1
 from crosnode.node import CrosNode, Subscriber
 from crosnode.project import create_node
 from plcsim import Program
@@ -49,9 +49,11 @@ class Monitor(Program):
         state.header.seq = message.header.seq
         state.header.stamp.sec = message.header.stamp.secs
         state.header.stamp.nsec = message.header.stamp.nsecs
-        state.name.assign(list(message.name)[:JOINTS])
+        names = [to_latin1(name) for name in message.name[:JOINTS]]
+        state.name.assign(names)
+        state.name_length = len(names)
         state.position.assign([float(value) for value in message.position[:JOINTS]])
-        state.name_length = state.position_length = min(len(message.position), JOINTS)
+        state.position_length = min(len(message.position), JOINTS)
         self.heard += 1
 
     def exit(self) -> None:

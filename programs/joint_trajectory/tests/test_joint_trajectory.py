@@ -1,5 +1,7 @@
 """The arm follows what another computer commands; the bridge tells how it goes."""
 
+import math
+
 import pytest
 
 from crosnode.messages import Duration, Message
@@ -60,6 +62,26 @@ def test_the_bridge_takes_the_override(plc: Plc, ros: Ros) -> None:
     plc.assert_within("50ms", {"arm.override": 0.5})
 
 
+@pytest.mark.parametrize("override", [math.nan, math.inf, -1.0, 100.0])
+def test_an_override_that_makes_no_sense_stops_the_arm(plc: Plc, ros: Ros, override: float) -> None:
+    command(ros, (1.0, 1.0))
+    plc.run("500ms")
+    ros.publish("/arm/override", "std_msgs/Float64", data=override)
+    plc.run("50ms")
+    position = list(plc["arm.position"])
+    plc.run("1s")
+    assert plc["arm.position"] == position
+    assert (plc["arm.busy"], plc["arm.speed"]) == (True, 0.0)
+
+
+def test_names_that_no_string_can_hold_do_not_stop_the_monitor(plc: Plc, ros: Ros) -> None:
+    names = ["関節", "j\udcfc", *["x"] * 20]
+    ros.publish("/arm/joint_states", "sensor_msgs/JointState", name=names, position=[1.0])
+    plc.until(lambda: plc["monitor.state.name"][0] == "??")
+    assert plc["monitor.state.name"][1] == "jü"
+    assert (plc["monitor.state.name_length"], plc["monitor.state.position_length"]) == (16, 1)
+
+
 def test_what_does_not_fit_is_refused_whole(plc: Plc, ros: Ros) -> None:
     command(ros, (1.0, 1.0), joints=5)
     plc.assert_within("50ms", {"arm.refused": 1})
@@ -67,5 +89,7 @@ def test_what_does_not_fit_is_refused_whole(plc: Plc, ros: Ros) -> None:
     plc.assert_within("50ms", {"arm.refused": 2})
     command(ros, *[(0.0, 1.0 + n) for n in range(51)])
     plc.assert_within("50ms", {"arm.refused": 3})
+    command(ros, (math.nan, 1.0))
+    plc.assert_within("50ms", {"arm.refused": 4})
     assert plc["arm.accepted"] == 0
     assert plc["arm.trajectory.count"] == 0

@@ -1,5 +1,6 @@
 """A subscriber of prova/hello on /chatter: the last word and a count are tags."""
 
+from crosnode.messages import to_latin1
 from crosnode.node import CrosNode, LogLevel, Subscriber
 from crosnode.project import create_node
 from plcsim import Program
@@ -27,7 +28,7 @@ class Listener(Program):
         """Do one step of the node, then take what has come."""
         self.node.do_events_loop()
         while (message := self.chatter.pop()) is not None:
-            self.word = message.aWord.encode("latin-1", "replace").decode("latin-1")
+            self.word = to_latin1(message.aWord)
             self.heard += 1
             self.node.log(LogLevel.INFO, f"I heard: [{message.aWord}]")
         self.lost = self.chatter.queue.dropped

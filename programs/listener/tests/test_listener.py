@@ -19,6 +19,12 @@ def test_the_listener_hears_and_says_so_on_rosout(plc: Plc, ros: Ros) -> None:
     assert entry.msg == "I heard: [grüß dich €]"
 
 
+def test_a_word_that_is_not_utf8_is_heard(plc: Plc, ros: Ros) -> None:
+    """As a roscpp node sends it whose author saved the file as Latin-1."""
+    ros.publish("/chatter", TYPE, aWord="gr\udcfc\udcdf")
+    plc.assert_within("10ms", {"listener.word": "grüß", "listener.heard": 1})
+
+
 def test_every_word_is_counted(plc: Plc, ros: Ros) -> None:
     for number in range(100):
         ros.publish("/chatter", TYPE, aWord=f"word {number}")

@@ -4,7 +4,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crosnode.messages.text import EscapedBytes, EscapedText, bytes_of, escaped, is_utf8
+from crosnode.messages.text import (
+    EscapedBytes,
+    EscapedText,
+    bytes_of,
+    escaped,
+    is_utf8,
+    to_latin1,
+)
 from crosnode.messages.values import Time
 
 
@@ -26,6 +33,14 @@ def test_a_surrogate_that_stands_for_no_byte_is_refused() -> None:
     for encode in (bytes_of, lambda text: EscapedText(text).encode()):
         with pytest.raises(UnicodeEncodeError):
             encode("\ud800")
+
+
+@pytest.mark.parametrize(
+    ("data", "text"),
+    [(b"gr\xc3\xbc\xc3\x9f", "grüß"), (b"gr\xfc\xdf", "grüß"), ("€ 5".encode(), "? 5"), (b"", "")],
+)
+def test_what_a_string_of_the_controller_holds(data: bytes, text: str) -> None:
+    assert to_latin1(data.decode(errors="surrogateescape")) == text
 
 
 def test_a_copy_is_escaped_and_the_rest_stays() -> None:
