@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.errors import TagError
 from plcsim.tagmap import status_block
+from plcsim.tagmap.conversion import INTEGER_RANGES
 from plcsim.tagmap.errors import TagMapError
 from plcsim.tagmap.point import (
     ADDRESSES,
@@ -38,7 +39,6 @@ _Taken = dict[tuple[Area, int], list[tuple[int, Row]]]
 """The bits of each register that rows cover, as masks."""
 
 _DEFAULT_KINDS: Final = {"b": "h", "B": "H"}
-_SIZES: Final = {"?": 1, "b": 1, "h": 2, "i": 4, "q": 8, "f": 4, "d": 8}
 
 
 def code_of(data_type: DataType[Any]) -> str | None:
@@ -89,8 +89,9 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
     if code is None:
         raise ValueError(f"a variable of type {tag.data_type} cannot lie in registers")
     kind = KINDS[row.type] if row.type else _DEFAULT_KINDS.get(code, code)
+    _check_kind(row, code, kind)
+    _check_range(row, tag.data_type, code, kind)
     low, high = _limits(row, tag.data_type)
-    _check_kind(row, code, kind, low)
     point = Point(
         tag=tag.path,
         area=row.area.value,
@@ -113,8 +114,8 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
     return point
 
 
-def _check_kind(row: Row, code: str, kind: str, low: float | None) -> None:
-    """Raise ValueError where values of the variable would be cut on the wire."""
+def _check_kind(row: Row, code: str, kind: str) -> None:
+    """Raise ValueError where the type on the wire is of another kind than the variable."""
     if (kind == "s") != (code == "s"):
         raise ValueError("a STRING needs the type string, and nothing else has it")
     if not row.area.has_registers and (kind != "?" or code != "?"):
@@ -123,18 +124,40 @@ def _check_kind(row: Row, code: str, kind: str, low: float | None) -> None:
         raise ValueError("only a BOOL in a register has a bit")
     if kind == "?" and code != "?":
         raise ValueError("the type bool is for a BOOL only")
-    scaled = (row.scale, row.offset_eu) != (1.0, 0.0)
-    if (scaled or row.minimum is not None or row.maximum is not None) and code in "?s":
+    is_limited = row.minimum is not None or row.maximum is not None
+    if (_is_scaled(row) or is_limited) and code in "?s":
         raise ValueError("scale, offset_eu, min and max are for numbers")
-    if scaled or kind in "s?fd":
+
+
+def _is_scaled(row: Row) -> bool:
+    return (row.scale, row.offset_eu) != (1.0, 0.0)
+
+
+def _check_range(row: Row, data_type: DataType[Any], code: str, kind: str) -> None:
+    """Raise ValueError where values of the variable would be cut on the wire."""
+    if _is_scaled(row) or kind in "s?fd":
         return
     if code in "fd":
         raise ValueError("a REAL or LREAL on an integer type needs a scale")
-    if _SIZES[kind.lower()] < _SIZES[code.lower()]:
-        raise ValueError("the type is narrower than the variable; give a wider one or a scale")
-    is_negative = code.islower() and (low is None or low < 0)
-    if is_negative and kind.isupper() and _SIZES[kind.lower()] > _SIZES[code]:
-        raise ValueError("the type has no negative values, but the variable has; drop the u")
+    if kind.lower() == code.lower():  # the same bits, signed or not
+        return
+    low, high = _range_of(data_type, code)
+    least, most = INTEGER_RANGES[kind]
+    if low < least or high > most:
+        raise ValueError(
+            f"the type holds {least} to {most}, the variable {low} to {high}; give another type "
+            "or a scale"
+        )
+
+
+def _range_of(data_type: DataType[Any], code: str) -> tuple[int, int]:
+    """Return the smallest and the largest value of a variable of whole numbers."""
+    match resolve_alias(data_type):
+        case SubrangeType(minimum=low, maximum=high):
+            return low, high
+        case EnumerationType(values=values):
+            return min(values.values()), max(values.values())
+    return INTEGER_RANGES[code]
 
 
 def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | None]:

@@ -141,3 +141,10 @@ def test_two_tags_at_one_address_are_both_written() -> None:
         address("p.number"),
         address("p.count"),
     ]
+
+
+def test_an_enumeration_in_one_register_is_written_whole() -> None:
+    writes = writes_of("p.mode,hr,0,,uint16")
+    assert writes.registers(0, b"\0\5") == (Store(address("p.mode"), struct.pack("<i", 5)),)
+    with pytest.raises(IllegalAddress):
+        writes.mask(0, 0, 1)
