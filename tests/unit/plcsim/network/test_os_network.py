@@ -3,6 +3,8 @@ from __future__ import annotations
 import errno
 import os
 import resource
+import subprocess
+import sys
 import time
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,7 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from plcsim.network import Address, OsNetwork, Outcome
-from plcsim.network.os_network import OsSocket
+from plcsim.network.os_network import DESCRIPTORS, OsSocket
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -151,3 +153,13 @@ def test_a_connection_by_loopback_is_refused_after_the_listener_is_gone(
         time.sleep(0.0005)
     assert outcome is Outcome.REFUSED
     client.close()
+
+
+def test_the_table_of_descriptors_does_not_grow_while_connections_come() -> None:
+    wanted = min(DESCRIPTORS, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
+    code = (
+        "import re; from plcsim.network import OsNetwork; OsNetwork();"
+        "print(re.search(r'FDSize:\\s+(\\d+)', open('/proc/self/status').read())[1])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert int(done.stdout) >= wanted
