@@ -28,37 +28,38 @@ BLANKS = r"[\s\xa0\ufeff\x1a]"
 """Blanks: also the no-break space, a byte order mark inside the text and the DOS end of file."""
 
 _TRIVIA = rf"""
-    {BLANKS}*+
-    (?: (?> \(\* [^*]*+ (?: \*(?!\)) [^*]*+ )*+ (?: \*\) | \Z )
-          | // [^\r\n]*+
-          | /\* [^*]*+ (?: \*(?!/) [^*]*+ )*+ (?: \*/ | \Z )
-          | \{{ [^{{}}]*+ \}} )
-        {BLANKS}*+ )*+
+    {BLANKS}*
+    (?: (?: \(\* .*? (?: \*\) | \Z )
+          | // [^\r\n]*
+          | /\* .*? (?: \*/ | \Z )
+          | \{{ [^{{}}]* \}} )
+        {BLANKS}* )*
 """
-# The commonest tokens stand first; an identifier before # is part of a literal.
-_LEXEME = r"""
-    (?> [A-Za-z_] \w*+ (?!\#)
+_STRINGS = r"""' [^'$\r\n]* (?: \$. [^'$\r\n]* )* ' | " [^"$\r\n]* (?: \$. [^"$\r\n]* )* \""""
+# The commonest tokens stand first; an identifier before # is part of a literal. One of the last two
+# always matches, so nothing that was taken is given back. Possessive quantifiers would say so, but
+# Python took them wrongly before 3.11.5, and Debian 12 has 3.11.2 (python/cpython issue 106052).
+_LEXEME = rf"""
+    (?: [A-Za-z_] \w* (?![\w\#])
       | ;
-      | :=?+
-      | (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*+
-      | [A-Za-z_] \w*+
-        (?: \# (?> ' (?: [^'$\r\n] | \$. )*+ '
-                 | " (?: [^"$\r\n] | \$. )*+ "
-                 | [+-]?+ \d++ \# \w++
-                 | [+-]?+ \d (?: \w | \.(?=\d) | (?<=[eE])[+-](?=\d) )*+
-                 | [A-Za-z_] \w*+ ) )?+
+      | :=?
+      | (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*
+      | [A-Za-z_] \w*
+        (?: \# (?: {_STRINGS}
+                 | [+-]? \d+ \# \w+
+                 | [+-]? \d (?: \w | \.(?=\d) | (?<=[eE])[+-](?=\d) )*
+                 | [A-Za-z_] \w* ) )?
       | \.\. | => | <> | <= | >= | \*\*
-      | \d++ \# \w++
-      | \d [\d_]*+ (?: \. (?: \d [\d_]*+ | (?![.\w]) ) )?+ (?: [eE] [+-]?+ \d++ )?+
-      | ' (?: [^'$\r\n] | \$. )*+ '
-      | " (?: [^"$\r\n] | \$. )*+ "
-      | ['"] [^\r\n]*+
-      | % (?: "[^"\r\n]*+" | [\w.*] )++
-      | \# [A-Za-z] [^\r\n]*+
+      | \d+ \# \w+
+      | \d [\d_]* (?: \. (?: \d [\d_]* | (?![.\w]) ) )? (?: [eE] [+-]? \d+ )?
+      | {_STRINGS}
+      | ['"] [^\r\n]*
+      | % (?: "[^"\r\n]*" | [\w.*] )+
+      | \# [A-Za-z] [^\r\n]*
       | . | \Z )
 """
 _CUT = re.compile(f"({_TRIVIA})({_LEXEME})", re.VERBOSE | re.DOTALL | re.ASCII)
-_STRING = re.compile(r"""'(?:[^'$\r\n]|\$.)*+'|"(?:[^"$\r\n]|\$.)*+\"""", re.DOTALL)
+_STRING = re.compile(_STRINGS, re.VERBOSE | re.DOTALL)
 
 
 class TokenKind(Enum):
@@ -148,7 +149,7 @@ class Tokens:
 
 
 _OUTSIDE = re.compile(
-    rf"""\(\* | //[^\r\n]*+ | /\*.*?(?:\*/|\Z) | {_STRING.pattern} | ['"][^\r\n]*+""",
+    rf"""\(\* | //[^\r\n]* | /\*.*?(?:\*/|\Z) | {_STRINGS} | ['"] [^\r\n]*""",
     re.VERBOSE | re.DOTALL,
 )
 _INSIDE = re.compile(r"\(\*|\*\)")

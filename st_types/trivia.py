@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 
 _PIECE = re.compile(
-    r"""(?P<block>\(\*.*?(?:\*\)|\Z)|/\*.*?(?:\*/|\Z)) | (?P<line>//[^\r\n]*+)
-      | (?P<pragma>\{[^{}]*+\}) | (?P<end>\r\n?|\n)""",
+    r"""(?P<block>\(\*.*?(?:\*\)|\Z)|/\*.*?(?:\*/|\Z)) | (?P<line>//[^\r\n]*)
+      | (?P<pragma>\{[^{}]*\}) | (?P<end>\r\n?|\n)""",
     re.VERBOSE | re.DOTALL,
 )
 
