@@ -139,19 +139,23 @@ class Link:
         self._turn += 1
         if self._turn % TIMER_TURNS == 0 and (failed := self.connection.handle_timer(now_ns)):
             self._handle(failed, now_ns)
-        if not self.connection.wants_data:
-            self._take_events(now_ns, budget)
-        if self.connection.wants_data and (
-            self._turn % QUIET_TURNS == 0 or self.owner.expects_data(self)
-        ):
-            self._receive(now_ns, budget)
-            if self._has_more and self.connection.wants_data:
-                self._receive(now_ns, budget)
+        expects_data = self.owner.expects_data(self)
+        if not expects_data or self._outbox.size < AREA_SIZE:  # who does not read is not heard
+            self._read(now_ns, budget, expects_data=expects_data)
         self._send(now_ns, budget)
         if self.connection.state is State.CLOSED and not self.is_over:
             self._finish(now_ns)
         if self.is_over:
             budget.work -= CONNECTION_WORK
+
+    def _read(self, now_ns: int, budget: Budget, *, expects_data: bool) -> None:
+        """Take the events that are there, then what the socket has."""
+        if not self.connection.wants_data:
+            self._take_events(now_ns, budget)
+        if self.connection.wants_data and (expects_data or self._turn % QUIET_TURNS == 0):
+            self._receive(now_ns, budget)
+            if self._has_more and self.connection.wants_data:
+                self._receive(now_ns, budget)
 
     def close(self, reason: str = "") -> None:
         """End the link from this side: what waits is still written, for a while."""

@@ -7,7 +7,7 @@ from crosnode.budget import StepLimits
 from crosnode.tcpros.header import encode_header
 from crosnode.xmlrpc.values import dump_call
 
-from .node.world import OTHER_IP, PLC_IP, STRING, World, words
+from .node.world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, words
 
 
 def test_all_connections_have_their_turn_though_few_fit_into_a_step() -> None:
@@ -84,6 +84,29 @@ def test_a_flood_of_calls_leaves_a_topic_its_turn_and_the_other_way_round() -> N
     answered, beside = flood(4)
     assert beside == alone > 10
     assert answered > 100
+
+
+def test_a_caller_that_does_not_read_its_answers_is_not_heard_any_more() -> None:
+    world = World()
+    node = world.node("n")
+    for number in range(200):
+        node.register_publisher(f"/topic{number}", STRING)
+    world.run(1_000)
+    assert world.master
+    links = world.master._loop.links
+    request = dump_call("getSystemState", ["/x"])
+    head = b"POST / HTTP/1.1\r\nHost: n\r\nContent-Length: %d\r\n\r\n" % len(request)
+    socket = world.dial(MASTER_IP, 11311)
+    for _ in range(100):
+        socket.send(head + request)
+        world.run(1)
+    largest = max(link.waiting for link in links)
+    assert 1 << 16 < largest < 1 << 18
+    answered = 0
+    for _ in range(2_000):
+        world.run(1)
+        answered += socket.recv(65_536).data.count(b"HTTP/1.1 200")
+    assert answered == 100  # they were only late
 
 
 def test_accepts_are_bounded() -> None:
