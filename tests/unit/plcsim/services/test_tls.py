@@ -43,6 +43,12 @@ class Authority:
             .not_valid_before(now - timedelta(days=1))
             .not_valid_after(now + timedelta(days=1))
             .add_extension(x509.BasicConstraints(authority, None), critical=True)
+            # Python 3.13 checks as RFC 5280 asks, which wants key identifiers and usages
+            .add_extension(x509.SubjectKeyIdentifier.from_public_key(key), False)
+            .add_extension(
+                x509.AuthorityKeyIdentifier.from_issuer_public_key(self._key.public_key()), False
+            )
+            .add_extension(usage(authority), critical=True)
         )
         if role is not None:
             oid = x509.ObjectIdentifier(ROLE_OID)
@@ -61,6 +67,20 @@ class Authority:
         )
         file.write_bytes(private + self._sign(subject, key.public_key(), False, role))
         return file
+
+
+def usage(authority: bool) -> object:
+    return x509.KeyUsage(
+        digital_signature=True,
+        key_cert_sign=authority,
+        crl_sign=authority,
+        content_commitment=False,
+        key_encipherment=False,
+        data_encipherment=False,
+        key_agreement=False,
+        encipher_only=False,
+        decipher_only=False,
+    )
 
 
 def utf8(text: str) -> bytes:
