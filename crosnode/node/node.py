@@ -7,9 +7,9 @@ runs ``do_events_loop`` once a cycle, and drains queues. Nothing calls back and 
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
-from crosnode.api_caller import ApiCall, ApiCaller
+from crosnode.api_caller import ApiCall, ApiCaller, CallState
 from crosnode.budget import Budget
 from crosnode.errors import InvalidNameError, NodeError
 from crosnode.event_loop import EventLoop
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from crosnode.names import NodeSettings
     from crosnode.xmlrpc import Value
     from plcsim.context import Context
+
+Role = TypeVar("Role", Publisher, Subscriber, ServiceProvider)
 
 STATUSES: Final = 200
 CLOSING_NS: Final = 3_000_000_000
@@ -263,20 +265,24 @@ class CrosNode:
     def unregister(
         self, role: Publisher | Subscriber | ServiceProvider | ServiceCaller | ParameterSubscription
     ) -> None:
-        """Take a registration back and end its connections; other roles are not touched."""
+        """Take a registration back and end its connections; other roles are not touched.
+
+        A role that was taken back before stays so.
+        """
         if isinstance(role, ServiceCaller):
-            self.callers.remove(role)
+            if role in self.callers:
+                self.callers.remove(role)
             role.close()
             return
         self.core.master.remove(role.registration)
         if isinstance(role, Publisher):
-            del self.publishers[role.topic]
+            _drop(self.publishers, role.topic, role)
         elif isinstance(role, Subscriber):
-            del self.subscribers[role.topic]
-            role.update([])
+            _drop(self.subscribers, role.topic, role)
+            role.close()
         elif isinstance(role, ServiceProvider):
-            del self.providers[role.service]
-        else:
+            _drop(self.providers, role.service, role)
+        elif role in self.params:
             self.params.remove(role)
         for link in self.core.loop.links:
             if role in (
@@ -299,7 +305,7 @@ class CrosNode:
 
     def set_param(self, name: str, value: Value) -> ApiCall:
         """Set a parameter, or a whole namespace by a dict."""
-        return self.core.master.call("setParam", [self._names.resolve(name), value])
+        return self._change_param("setParam", self._names.resolve(name), value)
 
     def has_param(self, name: str) -> ApiCall:
         """Ask whether a parameter is set."""
@@ -307,7 +313,15 @@ class CrosNode:
 
     def delete_param(self, name: str) -> ApiCall:
         """Delete a parameter or a whole namespace."""
-        return self.core.master.call("deleteParam", [self._names.resolve(name)])
+        return self._change_param("deleteParam", self._names.resolve(name))
+
+    def _change_param(self, method: str, name: str, *value: Value) -> ApiCall:
+        def done(call: ApiCall) -> None:
+            if call.state is CallState.DONE:
+                for param in self.params:
+                    param.own_change(name, value[0] if value else {})
+
+        return self.core.master.call(method, [name, *value], done)
 
     def search_param(self, name: str) -> ApiCall:
         """Ask for the name of a parameter, searched from the node's namespace upwards."""
@@ -403,3 +417,9 @@ class CrosNode:
         if not self.is_closed:
             self.is_closed = True
             self.core.loop.close(now_ns)
+
+
+def _drop(roles: dict[str, Role], name: str, role: Role) -> None:
+    """Take a role out, but not another one that has its name by now."""
+    if roles.get(name) is role:
+        del roles[name]

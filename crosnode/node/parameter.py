@@ -70,6 +70,14 @@ class ParameterSubscription:
             self._early.push(ParameterUpdate(name, value))
         self.update(name, value)
 
+    def own_change(self, name: str, value: Value) -> None:
+        """Take what the own node has set at this parameter or below it.
+
+        A master tells this to the other nodes only; of what lies below the name it tells all.
+        """
+        if self.covers(name):
+            self.param_update(name, value)
+
     def covers(self, name: str) -> bool:
         """Whether ``name`` is this parameter or lies below it."""
         below = self.name.rstrip(SEPARATOR) + SEPARATOR
@@ -81,6 +89,8 @@ class ParameterSubscription:
         if name == self.name:
             self.set_all(value)
             return
+        if value == UNSET and not isinstance(self.value, dict):
+            return  # there is nothing below it
         *path, last = name[len(self.name) :].strip(SEPARATOR).split(SEPARATOR)
         place = self.value = dict(self.value) if isinstance(self.value, dict) else {}
         for step in path:

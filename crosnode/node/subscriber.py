@@ -104,11 +104,14 @@ class Subscriber:
     def registered(self, uris: Value) -> None:
         """Take the publishers from the answer to the registration.
 
-        A ``publisherUpdate`` that came before the answer is newer than it: then nothing is taken.
+        Which is newer, the answer or a ``publisherUpdate`` that came before it, nobody can tell:
+        then all that either names are taken, for one that is not there does less harm than one
+        that is missed.
         """
-        if not self._is_overtaken:
-            self.update(uris)
+        if self._is_overtaken and isinstance(uris, list):
+            uris = [*self.peers, *uris]
         self._is_overtaken = False
+        self.update(uris)
 
     def publisher_update(self, uris: Value) -> None:
         """Take the publishers from the master's call."""
@@ -124,6 +127,13 @@ class Subscriber:
             if uri not in self.peers:
                 self.peers[uri] = PublisherLink(self, uri)
         self._part()
+
+    def close(self) -> None:
+        """Part from all publishers."""
+        self._unlisted = []
+        for peer in self.peers.values():
+            peer.leave()
+        self.peers.clear()
 
     def _part(self) -> None:
         """Part from publishers that the master does not name.

@@ -254,3 +254,39 @@ def test_limits_of_the_step_hold() -> None:
     steps = [b - a for a, b in pairwise(seen)]
     assert max(steps) <= 3
     assert words(subscriber.pop) == [str(number) for number in range(100)]
+
+
+def test_a_role_taken_back_twice_stays_taken_back_and_the_one_after_it_stays() -> None:
+    world = World()
+    node = world.node("n")
+    roles = [
+        node.register_publisher("/x", STRING),
+        node.register_subscriber("/x", STRING),
+        node.register_service_provider("/set", "std_srvs/SetBool"),
+        node.register_service_caller("/set", "std_srvs/SetBool"),
+        node.subscribe_param("/p"),
+    ]
+    world.until(lambda: node.is_registered)
+    for role in roles:
+        node.unregister(role)
+    again = node.register_publisher("/x", STRING), node.register_subscriber("/x", STRING)
+    for role in roles:
+        node.unregister(role)
+    world.until(lambda: node.is_registered and again[1].publishers)
+    assert node.publishers["/x"] is again[0]
+    assert node.subscribers["/x"] is again[1]
+
+
+def test_a_subscriber_taken_back_while_the_master_is_new_parts_from_its_publisher() -> None:
+    world = World()
+    talker, listener = world.node("talker"), world.node("listener", OTHER_IP)
+    publisher = talker.register_publisher("/x", STRING)
+    subscriber = listener.register_subscriber("/x", STRING)
+    world.until(lambda: publisher.subscribers)
+    world.kill_master()
+    world.run(100)
+    world.restart_master()
+    world.until(lambda: listener.is_registered)
+    assert listener.core.master.is_settling
+    listener.unregister(subscriber)
+    world.until(lambda: not publisher.subscribers, 100)

@@ -109,3 +109,27 @@ def test_updates_build_the_tree_that_a_dict_would(updates: list[tuple[list[str],
         place[path[-1]] = value
     assert param.value == model
     assert len(param.updates) <= 3
+
+
+def test_what_the_own_node_sets_reaches_its_subscriptions() -> None:
+    world = World()
+    node = world.node("n")
+    leaf, space = node.subscribe_param("/arm/speed"), node.subscribe_param("/arm")
+    world.until(lambda: node.is_registered)
+    world.run(20)
+    node.set_param("/arm/speed", 5)
+    world.run(20)
+    assert (leaf.value, space.value) == (5, {"speed": 5})
+    node.set_param("/arm", {"speed": 7, "name": "left"})
+    world.run(20)
+    assert (leaf.value, space.value) == (7, {"speed": 7, "name": "left"})
+    node.set_param("/arm", 1)
+    world.run(20)
+    assert (leaf.value, space.value) == ({}, 1)
+    node.set_param("/arm/speed", 2)
+    node.delete_param("/arm")
+    world.run(20)
+    assert (leaf.value, space.value) == ({}, {})
+    node.set_param("/armchair", 3)
+    world.run(20)
+    assert (leaf.value, space.value) == ({}, {})

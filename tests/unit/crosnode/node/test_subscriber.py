@@ -110,14 +110,14 @@ def test_attempts_become_rarer() -> None:
     assert 4 <= len({e.source for e in world.net.trace if e.target.ip == PEER_IP}) <= 6
 
 
-def test_an_update_that_overtakes_the_answer_to_the_registration_counts() -> None:
+def test_an_update_that_overtakes_the_answer_to_the_registration_counts_as_well() -> None:
     world = World()
     node = world.node("listener")
     subscriber = node.register_subscriber("/x", STRING)
     world.run(1)
     subscriber.publisher_update(["http://10.0.0.1:5/"])
-    subscriber.registered([])
-    assert list(subscriber.peers) == ["http://10.0.0.1:5/"]
+    subscriber.registered(["http://10.0.0.2:5/"])
+    assert list(subscriber.peers) == ["http://10.0.0.1:5/", "http://10.0.0.2:5/"]
     subscriber.registered([])
     assert subscriber.peers == {}
 
