@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import gc
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+FROZEN_BY_PYTHON: Final = 1_000
+"""Python 3.12 starts with some hundred frozen objects; whoever freezes a program has more."""
 
 
 @contextmanager
@@ -33,6 +36,6 @@ def _age() -> None:
     To freeze and unfreeze them does that without looking at any. What somebody else has frozen
     must stay so.
     """
-    if not gc.get_freeze_count():
+    if gc.get_freeze_count() < FROZEN_BY_PYTHON:
         gc.freeze()
         gc.unfreeze()

@@ -40,11 +40,11 @@ def test_a_function_is_named_by_its_text_and_notes_what_it_reads(cell_plc):
     ("function", "text"),
     [
         (named, "named"),
-        (lambda: 1 + 2, "1 + 2"),
+        (lambda: len([]) + 2, "len([]) + 2"),
         (lambda: len("ä") > 2, 'len("ä") > 2'),
         (
             lambda: (
-                1
+                len([])
                 + 2
             ),
             "the condition at line",
