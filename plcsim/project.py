@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
+from plcsim.duration import parse_duration_ns
 from plcsim.errors import ConfigurationError
 from plcsim.extension import extensions
 from plcsim.library.options import check_options
@@ -34,6 +35,9 @@ DEFAULT_CYCLES_MS = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10
 
 DEFAULT_TOLERANCE_OF_8_NS = 30_000_000_000
 """Class 8 tolerates 30 s, again as in a new Automation Studio project; others their cycle time."""
+
+TOO_LONG_CYCLE_NS = 60_000_000_000
+"""No cycle time is that long. "1m" is a minute, as T#1m is, but here it is a misspelt "1ms"."""
 
 MOST_HINTS = 5
 """Projects that are named where one was not found."""
@@ -196,7 +200,7 @@ def _plc_table(
         folder=folder,
         name=plc.take("name", str, folder.resolve().name),
         tick_ns=tick_ns,
-        memory_size=plc.convert("memory", DEFAULT_SIZE, _memory_size),
+        memory_size=plc.convert("memory", DEFAULT_SIZE, _memory_size, '"16MiB"'),
         watchdog_ns=plc.duration_ns("watchdog", 500_000_000),
         init_timeout_ns=plc.duration_ns("init_timeout", 10_000_000_000),
         realtime=realtime,
@@ -242,7 +246,8 @@ def _task_classes(file: Path, tables: dict[str, Any], tick_ns: int) -> tuple[Tas
 
 
 def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
-    cycle_ns = table.duration_ns("cycle", DEFAULT_CYCLES_MS[number] * 1_000_000)
+    default_ns = DEFAULT_CYCLES_MS[number] * 1_000_000
+    cycle_ns = table.convert("cycle", default_ns, _cycle_ns, '"10ms"')
     if cycle_ns <= 0:
         raise table.error("cycle", "must be above 0")
     if cycle_ns % tick_ns:
@@ -263,6 +268,15 @@ def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
     if not entry.programs:
         raise table.error("programs", "at least one program is needed")
     return entry
+
+
+def _cycle_ns(text: str) -> int:
+    cycle_ns = parse_duration_ns(text)
+    if cycle_ns >= TOO_LONG_CYCLE_NS:
+        minutes = text.strip().removesuffix("m").removesuffix("M").strip()
+        hint = f'; did you mean "{minutes}ms"?' if minutes.isdecimal() else ""
+        raise ValueError(f"{text!r} is a minute or more, too long for a cycle{hint}")
+    return cycle_ns
 
 
 def _policy(text: str) -> Policy:
