@@ -7,12 +7,12 @@ of a program are all there before its first cycle.
 from __future__ import annotations
 
 import ast
-import difflib
 import inspect
 import textwrap
 from typing import TYPE_CHECKING
 
 from plcsim.errors import ConfigurationError
+from plcsim.suggestion import did_you_mean
 from plcsim.task import Program, Unit
 
 if TYPE_CHECKING:
@@ -96,8 +96,7 @@ def _check_names(program: type[Program], function: FunctionType) -> None:
         return
     for node in _attributes_of(tree, tree.args.args[0].arg):
         if not node.attr.startswith("__") and not hasattr(program, node.attr):
-            near = difflib.get_close_matches(node.attr, dir(program), n=1)
-            hint = f"; did you mean {near[0]}?" if near else ""
+            hint = did_you_mean(node.attr, dir(program))
             place = f"{function.__code__.co_filename}:{first + node.lineno - 1}"
             raise ConfigurationError(f"{place}: {program.__name__} has no {node.attr}{hint}")
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import difflib
 import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.errors import TagError
 from plcsim.memory import find
+from plcsim.suggestion import did_you_mean
 from st_types.derived import ArrayType, DataBlockType, StructType, resolve_alias
 from st_types.errors import ValueRangeError
 from st_types.values import encode
 from st_types.views import address_of, type_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from plcsim.memory import Memory
     from plcsim.task import Task
@@ -35,6 +35,32 @@ class Tag(NamedTuple):
     address: int
 
 
+def find_tag(path: str, programs: Mapping[str, Tag]) -> Tag:
+    """Return the tag ``path``; case does not matter.
+
+    Args:
+        path: such as ``"conveyor.motor.speed"``.
+        programs: all variables of each program as one tag, by the program's name in capitals.
+
+    Raises:
+        TagError: there is no such tag; the message offers names that are near.
+    """
+    name, _, rest = path.partition(".")
+    program = programs.get(name.upper())
+    if program is None:
+        raise TagError(f"no program {name!r} for tag {path!r}{_nearest(path, programs)}")
+    try:
+        data_type, offset = find(program.data_type, rest)
+    except KeyError as err:
+        raise TagError(f"no tag {path!r}: {err.args[0]}{_nearest(path, programs)}") from None
+    return Tag(path, data_type, program.address + offset)
+
+
+def _nearest(path: str, programs: Mapping[str, Tag]) -> str:
+    known = (tag.path for p in programs.values() for tag in leaves(*p, elements=False))
+    return did_you_mean(path, known, most=3)
+
+
 class TagTable:
     """All tags of a controller.
 
@@ -45,7 +71,10 @@ class TagTable:
 
     def __init__(self, memory: Memory, tasks: Sequence[Task]) -> None:
         self._memory = memory
-        self._tasks = {task.name.upper(): task for task in tasks}
+        self._programs = {
+            t.name.upper(): Tag(t.name, type_of(t.variables), address_of(t.variables))
+            for t in tasks
+        }
 
     def find(self, path: str) -> Tag:
         """Return the tag ``path``; case does not matter.
@@ -53,19 +82,7 @@ class TagTable:
         Raises:
             TagError: there is no such tag; the message offers names that are near.
         """
-        name, _, rest = path.partition(".")
-        task = self._tasks.get(name.upper())
-        if task is None:
-            raise TagError(f"no program {name!r} for tag {path!r}{self._nearest(path)}")
-        try:
-            data_type, offset = find(type_of(task.variables), rest)
-        except KeyError as err:
-            raise TagError(f"no tag {path!r}: {err.args[0]}{self._nearest(path)}") from None
-        return Tag(path, data_type, address_of(task.variables) + offset)
-
-    def _nearest(self, path: str) -> str:
-        near = difflib.get_close_matches(path, [tag.path for tag in self], n=3)
-        return f"; did you mean {', '.join(near)}?" if near else ""
+        return find_tag(path, self._programs)
 
     def read(self, tag: Tag) -> object:
         """Return the plain value of a tag (see `st_types.values.decode`)."""
@@ -88,9 +105,8 @@ class TagTable:
 
         Of an ARRAY only the first element's are named.
         """
-        for task in self._tasks.values():
-            start = address_of(task.variables)
-            yield from leaves(task.name, type_of(task.variables), start, elements=False)
+        for program in self._programs.values():
+            yield from leaves(*program, elements=False)
 
 
 def leaves(

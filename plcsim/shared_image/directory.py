@@ -11,10 +11,8 @@ import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from plcsim.errors import TagError
-from plcsim.memory import find
 from plcsim.shared_image.errors import ImageError
-from plcsim.tag import Tag
+from plcsim.tag import Tag, find_tag
 from st_types.derived import (
     AliasType,
     ArrayType,
@@ -70,17 +68,12 @@ class Directory:
         """Return the tag ``program.member``; case does not matter.
 
         Raises:
-            TagError: there is no such tag.
+            TagError: there is no such tag; the message offers names that are near.
         """
-        name, _, rest = path.partition(".")
-        for variables in self.variables:
-            if variables.program.upper() == name.upper():
-                try:
-                    data_type, offset = find(variables.data_type, rest)
-                except KeyError as err:
-                    raise TagError(f"no tag {path!r}: {err.args[0]}") from None
-                return Tag(path, data_type, variables.address + offset)
-        raise TagError(f"no program {name!r} for tag {path!r}")
+        programs = {
+            v.program.upper(): Tag(v.program, v.data_type, v.address) for v in self.variables
+        }
+        return find_tag(path, programs)
 
     def place_of(self, address: int, size: int) -> int:
         """Return where the bytes of a variable lie in a snapshot.

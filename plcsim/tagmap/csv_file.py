@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import codecs
 import csv
-import difflib
 import io
 import math
 import re
 from typing import TYPE_CHECKING, Final
 
+from plcsim.suggestion import did_you_mean
 from plcsim.tagmap.errors import TagMapError
 from plcsim.tagmap.point import ACCESSES, ADDRESSES, KINDS, ORDERS, Area, Row
 
@@ -123,9 +123,8 @@ def _with_points(header: Sequence[str], fields: Sequence[str]) -> list[str]:
 def _header(names: list[str], file: Path, line: int) -> list[str]:
     for name in names:
         if name not in COLUMNS:
-            near = difflib.get_close_matches(name, COLUMNS, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(COLUMNS)}"
-            raise TagMapError(f"{file}:{line}: unknown column {name!r}; {hint}")
+            hint = did_you_mean(name, COLUMNS) or f"; known are {', '.join(COLUMNS)}"
+            raise TagMapError(f"{file}:{line}: unknown column {name!r}{hint}")
         if names.count(name) > 1:
             raise TagMapError(f"{file}:{line}: two columns are called {name}")
     for name in REQUIRED:

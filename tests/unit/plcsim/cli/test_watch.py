@@ -111,7 +111,9 @@ def test_text_is_shown_as_it_is_however_narrow(
 
 def test_an_unknown_variable_is_named(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["watch", str(project), "cell.cuont", "--once"]) == 1
-    assert "no tag 'cell.cuont'" in capsys.readouterr().err
+    shown = capsys.readouterr().err
+    assert "no tag 'cell.cuont'" in shown
+    assert "did you mean cell.count" in shown
 
 
 def test_a_project_that_does_not_run_is_named(

@@ -99,6 +99,11 @@ def test_an_unknown_tag_is_named(path: str) -> None:
         directory().find(path)
 
 
+def test_names_near_an_unknown_tag_are_offered_as_the_scan_process_offers_them() -> None:
+    with pytest.raises(TagError, match=r"has no member flg; did you mean prog\.flag"):
+        directory().find("prog.flg")
+
+
 def test_the_place_of_a_variable_is_its_offset_in_the_snapshot() -> None:
     two = Directory("p", 5, [], [(4096, 8), (8192, 16)])
     assert two.place_of(4100, 4) == 4

@@ -1,0 +1,21 @@
+"""What a person may have meant by a name that is not there."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+def did_you_mean(name: str, known: Iterable[str], most: int = 1) -> str:
+    """Return "; did you mean ...?" with the names that are near, the nearest first; "" for none.
+
+    Args:
+        name: that is not there.
+        known: names that are.
+        most: names offered.
+    """
+    near = difflib.get_close_matches(name, list(known), n=most)
+    return f"; did you mean {', '.join(near)}?" if near else ""
