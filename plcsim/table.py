@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING, TypeVar
 
 from plcsim.duration import parse_duration_ns
 from plcsim.errors import ConfigurationError
+from plcsim.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _KIND_NAMES: dict[type, str] = {
-    str: "string",
-    int: "whole number",
+    str: "a string",
+    int: "a whole number",
     bool: "true or false",
-    dict: "table",
-    list: "list",
+    dict: "a table",
+    list: "a list",
 }
 
 
@@ -48,8 +48,14 @@ class Table:
         place = ".".join(part for part in (self._name, key) if part)
         return ConfigurationError(f"{self._file}: {place}: {text}")
 
-    def take(self, key: str, kind: type[T], default: T) -> T:
+    def take(self, key: str, kind: type[T], default: T, example: str = "") -> T:
         """Return the value of ``key``, or the default where there is none.
+
+        Args:
+            key: in this table.
+            kind: of the value.
+            default: where there is none.
+            example: of a value, as in plc.toml; named where the value is of another kind.
 
         Raises:
             ConfigurationError: the value is of another kind.
@@ -57,7 +63,8 @@ class Table:
         self._known.append(key)
         value = self._values.pop(key, default)
         if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-            raise self.error(key, f"{value!r} is not a {_KIND_NAMES[kind]}")
+            such = f" such as {example}" if example else ""
+            raise self.error(key, f"{value!r} is not {_KIND_NAMES[kind]}{such}")
         return value
 
     def number(self, key: str, default: int, minimum: int, maximum: int) -> int:
@@ -71,14 +78,14 @@ class Table:
             raise self.error(key, f"{value} is outside {minimum}..{maximum}")
         return value
 
-    def convert(self, key: str, default: T, convert: Callable[[str], T]) -> T:
-        """Return a string converted, or the default where there is none.
+    def convert(self, key: str, default: T, convert: Callable[[str], T], example: str = "") -> T:
+        """Return a string converted, or the default where there is none; for the rest see `take`.
 
         Raises:
             ConfigurationError: ``convert`` raised ValueError.
         """
         given = key in self._values
-        text = self.take(key, str, "")
+        text = self.take(key, str, "", example)
         try:
             return convert(text) if given else default
         except ValueError as err:
@@ -86,7 +93,7 @@ class Table:
 
     def duration_ns(self, key: str, default_ns: int) -> int:
         """Return a time such as ``"10ms"`` in nanoseconds."""
-        return self.convert(key, default_ns, parse_duration_ns)
+        return self.convert(key, default_ns, parse_duration_ns, '"10ms"')
 
     def strings(self, key: str, default: tuple[str, ...] = ()) -> tuple[str, ...]:
         """Return a list of strings.
@@ -117,6 +124,5 @@ class Table:
         """
         known = [*self._known, *(key for key in more if key not in self._known)]
         for key in self._values:
-            near = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(known)}"
-            raise self.error(key, f"unknown key; {hint}")
+            hint = did_you_mean(key, known) or f"; known are {', '.join(known)}"
+            raise self.error(key, f"unknown key{hint}")

@@ -51,6 +51,25 @@ def test_a_wrong_number_is_named(values: dict[str, object], text: str) -> None:
         table(**values).number("port", 502, 0, 65535)
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (10, r'modbus\.idle: 10 is not a string such as "10ms"$'),
+        ("10", r"modbus\.idle: '10' is not a duration such as \"10ms\""),
+    ],
+)
+def test_a_wrong_time_is_told_what_one_looks_like(value: object, text: str) -> None:
+    with pytest.raises(ConfigurationError, match=text):
+        table(idle=value).duration_ns("idle", 0)
+
+
+def test_a_wrong_kind_is_named_in_english() -> None:
+    with pytest.raises(ConfigurationError, match=r"modbus\.auto: 10 is not true or false$"):
+        table(auto=10).take("auto", bool, default=False)
+    with pytest.raises(ConfigurationError, match=r"modbus\.tls: 10 is not a table$"):
+        table(tls=10).take("tls", dict, {})
+
+
 def test_a_list_holds_strings_only() -> None:
     with pytest.raises(ConfigurationError, match=r"modbus\.allow: 7 is not a string"):
         table(allow=["a", 7]).strings("allow")
@@ -60,6 +79,13 @@ def test_an_unknown_key_gets_a_suggestion() -> None:
     given = table(prot=502)
     given.number("port", 502, 0, 65535)
     with pytest.raises(ConfigurationError, match=r"modbus\.prot: unknown key; did you mean port\?"):
+        given.finish()
+
+
+def test_an_unknown_key_that_is_near_none_gets_them_all() -> None:
+    given = table(x=1)
+    given.number("port", 502, 0, 65535)
+    with pytest.raises(ConfigurationError, match=r"x: unknown key; known are port$"):
         given.finish()
 
 
