@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import builtins
+import contextlib
 import os
 import site
 import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from plcsim.suggestion import did_you_mean
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -45,11 +49,33 @@ def describe(error: BaseException) -> str:
     """Return in one line what an exception means on a controller."""
     if isinstance(error, ZeroDivisionError):
         return "division by zero"
-    text = _text_of(error)
+    text = _text_of(error) + _nearest(error)
     name = type(error).__name__
     if type(error).__module__.startswith(("plcsim", "st_types")):
         return text or name
     return f"{name}: {text}" if text else name
+
+
+def _nearest(error: BaseException) -> str:
+    """Return "; did you mean ...?" for a name that a program misspelt, as Python itself tells it.
+
+    Before 3.12 Python does not say which object it was whose attribute was to be set.
+    """
+    with contextlib.suppress(Exception):  # a program's own class may have a __dir__ that fails
+        match error:
+            case AttributeError(name=str(name), obj=obj) if obj is not None:
+                return did_you_mean(name, (known for known in dir(obj) if known[0] != "_"))
+            case NameError(name=str(name), __traceback__=trace) if trace is not None:
+                return did_you_mean(name, _names_in(trace))
+    return ""
+
+
+def _names_in(trace: TracebackType) -> list[str]:
+    """Return the names that there are where something was raised."""
+    while trace.tb_next is not None:
+        trace = trace.tb_next
+    frame = trace.tb_frame
+    return [*frame.f_locals, *frame.f_globals, *dir(builtins)]
 
 
 def _text_of(error: BaseException) -> str:

@@ -10,6 +10,7 @@ import plcsim
 from plcsim.duration import parse_duration_ns
 from plcsim.errors import PageFault
 from plcsim.place import LONGEST_TEXT, describe, place_of
+from st_types import REAL, Struct, var
 from st_types.errors import ValueRangeError
 
 
@@ -85,6 +86,36 @@ class SilentError(Exception):
 )
 def test_what_an_exception_means(error, text):
     assert describe(error) == text
+
+
+class Axis(Struct):
+    speed = var(REAL)
+
+
+class Closed:
+    def __dir__(self):
+        raise RuntimeError("no names")
+
+
+@pytest.mark.parametrize(
+    ("source", "names", "text"),
+    [
+        ("axis.sped", {"axis": Axis()}, "; did you mean speed?"),
+        ("[].apend(1)", {}, "; did you mean append?"),
+        ("def cyclic(limit):\n  return limt\ncyclic(1)", {}, "; did you mean limit?"),
+        ("lenn([])", {}, "; did you mean len?"),
+        ("axis.zzzzzz", {"axis": Axis()}, "has no attribute 'zzzzzz'"),
+        ("zzzzzz", {}, "name 'zzzzzz' is not defined"),
+        ("closed.sped", {"closed": Closed()}, "'Closed' object has no attribute 'sped'"),
+    ],
+)
+def test_a_misspelt_name_gets_the_one_that_was_meant(source, names, text):
+    assert describe(raised_by(source, "/home/a/main.py", **names)).endswith(text)
+
+
+def test_an_error_about_a_name_that_a_program_made_itself_is_told_as_it_is():
+    assert describe(AttributeError("speed")) == "AttributeError: speed"
+    assert describe(NameError("speed", name="speed")) == "NameError: speed"
 
 
 def test_a_long_text_is_cut():
