@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.table import Table
 
+from plcsim.cli.console import CommandConsole
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller
 from plcsim.duration import format_duration
@@ -44,15 +44,16 @@ def check(options: argparse.Namespace) -> int:
     network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
     controller = Controller(load_setup(project), network=network, clock=clock)
     notes = check_settings(project.extensions, controller)
-    console = Console(highlight=False, markup=False)
+    console = CommandConsole()
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
         table.add_column(column, justify="left" if column == "program" else "right")
     for task_class in controller.classes:
         _add_rows(table, task_class, controller)
     console.print(table)
+    count = len(controller.tasks)
     console.print(
-        f"{project.name}: {len(controller.tasks)} programs, {controller.memory.used} of "
+        f"{project.name}: {count} program{'s' * (count != 1)}, {controller.memory.used} of "
         f"{controller.memory.size} bytes of PLC memory used, tick "
         f"{format_duration(project.tick_ns)}"
     )

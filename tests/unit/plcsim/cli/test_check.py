@@ -50,6 +50,21 @@ def test_classes_programs_and_memory_are_shown(cell, capsys):
     assert re.fullmatch(r"cell: 3 programs, 4132 of 16777216 bytes .*, tick 1 ms", last)
 
 
+def test_a_single_program_is_no_plural_and_no_line_is_cut(project, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "20")
+    name = "a_name_that_is_longer_than_the_terminal"
+    folder = project({"plc.toml": f"""
+        [plc]
+        name = "lonely"
+        [task_class.1]
+        programs = ["{name}"]
+    """, f"{name}/main.py": PROGRAM})  # fmt: skip
+    assert main(["check", str(folder)]) == 0
+    _, row, last = capsys.readouterr().out.splitlines()
+    assert name in row
+    assert re.fullmatch(r"lonely: 1 program, 4108 of 16777216 bytes .*, tick 1 ms", last)
+
+
 @pytest.mark.parametrize("name", ["[/b]", "[red]", "cell[1]"])
 def test_any_name_is_shown_as_it_is(cell, capsys, name):
     plc = cell / "plc.toml"
