@@ -305,8 +305,13 @@ def describe_violation(violation: Violation) -> str:
     }[violation.cause]
     if violation.place:
         text = f"program {violation.program} did not return, ended at {violation.place}"
-    return (
-        f"cycle time violation in cycle {violation.cycle}, cause {violation.cause.value}: {text}; "
+    end = (
         f"ended {format_duration(violation.response_ns)} after its release, "
         f"limit {format_duration(violation.limit_ns)}"
+    )
+    if not violation.response_ns:  # only the watchdog, or Ctrl-C, ends a cycle in no time
+        end = "the time limit was the watchdog's, as no virtual time passes while a program runs"
+    return (
+        f"cycle time violation in cycle {violation.cycle}, cause {violation.cause.value}: {text}; "
+        f"{end}"
     )

@@ -419,6 +419,17 @@ def test_a_violation_as_a_sentence(cause, place, part):
     assert part in describe_violation(violation)
 
 
+def test_a_program_that_is_ended_on_the_virtual_clock_took_none_of_its_time():
+    from plcsim.controller import describe_violation
+
+    violation = Violation(1, "p", 5, Cause.PROGRAM, 0, 0, 0, 0, 10 * MS, "main.py:3")
+    assert describe_violation(violation) == (
+        "cycle time violation in cycle 5, cause program: program p did not return, ended at "
+        "main.py:3; the time limit was the watchdog's, as no virtual time passes while a program "
+        "runs"
+    )
+
+
 def test_the_heartbeat_is_told_what_runs(make_controller, task_class, program_of):
     told = []
 
