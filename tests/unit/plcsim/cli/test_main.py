@@ -108,9 +108,10 @@ def plcsim(*arguments, **options):
     return subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False, **options)
 
 
-@pytest.mark.parametrize(
-    "arguments", [["types", "layout", "TON"], ["tags", "list", "tank"], ["check", "tank"]]
-)
+PRINTING = [["types", "layout", "TON"], ["tags", "list", "tank"], ["check", "tank"]]
+
+
+@pytest.mark.parametrize("arguments", PRINTING)
 def test_a_full_disk_is_one_line(arguments, tmp_path):
     main(["new", str(tmp_path / "tank"), "--like", "tank"])
     with Path("/dev/full").open("w") as full:
@@ -118,9 +119,7 @@ def test_a_full_disk_is_one_line(arguments, tmp_path):
     assert (done.returncode, done.stderr) == (1, "plcsim: [Errno 28] No space left on device\n")
 
 
-@pytest.mark.parametrize(
-    "arguments", [["types", "layout", "TON"], ["tags", "list", "tank"], ["check", "tank"]]
-)
+@pytest.mark.parametrize("arguments", PRINTING)
 def test_a_reader_that_has_seen_enough_is_no_error(arguments, tmp_path):
     main(["new", str(tmp_path / "tank"), "--like", "tank"])
     pipe = subprocess.Popen(["true"], stdin=subprocess.PIPE)
