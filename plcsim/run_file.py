@@ -1,7 +1,8 @@
-"""Where a running project is found: a small file for each, in a folder of the user's own.
+"""Where running projects are found: a small file for each run, in a folder of the user's own.
 
 It names the supervisor and the descriptors of its shared memory, which another process of the same
-user opens through /proc. A file whose supervisor has died is no run.
+user opens through /proc. A file whose supervisor has died is no run; the next run of the same
+project removes it.
 """
 
 from __future__ import annotations
@@ -57,37 +58,67 @@ def _folder() -> Path:
     return folder
 
 
-def _file(project: Path) -> Path:
-    name = hashlib.sha256(os.fsencode(project.resolve())).hexdigest()[:16]
-    return _folder() / f"{name}.json"
+def _prefix(project: Path) -> str:
+    """Return what the names of all run files of a project folder begin with."""
+    return hashlib.sha256(os.fsencode(project.resolve())).hexdigest()[:16]
+
+
+def _file(project: Path, run: Run) -> Path:
+    return _folder() / f"{_prefix(project)}-{run.pid}-{run.image_fd}.json"
 
 
 def announce(project: Path, run: Run) -> None:
-    """Write the run file of a project folder; a later run of the same folder replaces it."""
-    file = _file(project)
-    fresh = file.with_suffix(f".{run.pid}")
+    """Write the run file of a run of a project folder, and remove those of runs that have died."""
+    for file in _files(project):
+        if _read(file) is None:
+            file.unlink(missing_ok=True)
+    file = _file(project, run)
+    fresh = file.with_suffix(".new")
     fresh.write_text(json.dumps(run._asdict()), "utf-8")
     fresh.replace(file)
 
 
 def withdraw(project: Path, run: Run) -> None:
-    """Remove the run file, unless another run has replaced it."""
+    """Remove the run file of a run."""
     with contextlib.suppress(PlcError, OSError):
-        if find_run(project) == run:
-            _file(project).unlink()
+        _file(project, run).unlink()
 
 
-def find_run(project: Path) -> Run:
-    """Return the run of a project folder.
+def _files(project: Path) -> list[Path]:
+    """Return the run files of a project folder, the newest first."""
+    found = []
+    for file in _folder().glob(f"{_prefix(project)}-*.json"):
+        with contextlib.suppress(FileNotFoundError):  # a run that ends removes its own
+            found.append((file.stat().st_mtime_ns, file))
+    return [file for _, file in sorted(found, reverse=True)]
+
+
+def _read(file: Path) -> Run | None:
+    """Return the run of a run file, None where it is damaged or the run has died."""
+    try:
+        values = json.loads(file.read_text("utf-8"))
+        run = Run(values["pid"], values["image_fd"], values["status_fd"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return run if run.is_alive else None
+
+
+def find_runs(project: Path) -> list[Run]:
+    """Return the runs of a project folder, the one that was started last first.
 
     Raises:
         PlcError: it is not running.
     """
-    try:
-        values = json.loads(_file(project).read_text("utf-8"))
-        run = Run(values["pid"], values["image_fd"], values["status_fd"])
-    except (OSError, ValueError, KeyError, TypeError):
-        raise PlcError(f"{project} is not running; start it with plcsim run") from None
-    if not run.is_alive:
-        raise PlcError(f"{project} is not running any more; start it with plcsim run")
-    return run
+    runs = [run for file in _files(project) if (run := _read(file)) is not None]
+    if not runs:
+        raise PlcError(f"{project} is not running; start it with plcsim run")
+    return runs
+
+
+def find_run(project: Path) -> Run:
+    """Return the run of a project folder that was started last.
+
+    Raises:
+        PlcError: it is not running.
+    """
+    return find_runs(project)[0]

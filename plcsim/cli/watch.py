@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ from rich.table import Table
 from plcsim.cli.console import CommandConsole
 from plcsim.errors import ConfigurationError
 from plcsim.project import find_project
-from plcsim.run_file import Run, find_run
+from plcsim.run_file import Run, find_runs
 from plcsim.shared_image import ImageError, ImageNotReady, ImageReader
 from plcsim.tag import Tag, leaves
 from st_types.derived import ArrayType, EnumerationType, StructType
@@ -47,7 +48,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def watch(options: argparse.Namespace) -> int:
     """Show the values."""
-    run = find_run(find_project(options.project).parent)
+    run, *others = find_runs(find_project(options.project).parent)
+    if others:
+        pids = ", ".join(str(other.pid) for other in others)
+        print(
+            f"{len(others) + 1} runs of this project; this is the one that was started last, "
+            f"process {run.pid}; the others are {pids}",
+            file=sys.stderr,
+        )
     fd = run.open(run.image_fd)
     try:
         reader = _open(fd)

@@ -214,7 +214,7 @@ def test_what_is_wrong_is_named_with_file_and_field(read, tmp_path, text, error)
 
 @pytest.mark.parametrize("text", ["20m", " 20 M "])
 def test_minutes_for_a_cycle_are_taken_for_misspelt_milliseconds(read, text):
-    with pytest.raises(ConfigurationError, match='too long for a cycle; did you mean "20ms"[?]$'):
+    with pytest.raises(ConfigurationError, match=r'too long .*; did you mean "20ms"\?$'):
         read(MAIN + f"cycle = '{text}'")
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.errors import PlcError
-from plcsim.run_file import Run, announce, find_run, withdraw
+from plcsim.run_file import Run, announce, find_run, find_runs, withdraw
 
 
 @pytest.fixture(autouse=True)
@@ -36,18 +36,35 @@ def test_a_run_is_found_by_its_folder_and_its_memory_opened(tmp_path: Path) -> N
 
 def test_a_run_whose_process_has_died_is_none(tmp_path: Path) -> None:
     announce(tmp_path, Run(2**22 + 1, 5, 6))
-    with pytest.raises(PlcError, match="not running any more"):
+    with pytest.raises(PlcError, match="is not running; start it"):
         find_run(tmp_path)
     with pytest.raises(PlcError, match="cannot be read"):
         Run(2**22 + 1, 5, 6).open(5)
 
 
-def test_a_later_run_of_the_same_folder_stays(tmp_path: Path) -> None:
+def test_runs_of_the_same_folder_are_found_beside_each_other(
+    tmp_path: Path, runtime_folder: Path
+) -> None:
     first, second = own_run(), own_run()
-    announce(tmp_path, first)
-    announce(tmp_path, second)
-    withdraw(tmp_path, first)
-    assert find_run(tmp_path) == second
+    for time_ns, run in enumerate((first, second)):
+        announce(tmp_path, run)
+        (file,) = runtime_folder.glob(f"*-{run.image_fd}.json")
+        os.utime(file, ns=(time_ns, time_ns))  # however coarse the clock of the file system is
+    announce(tmp_path / "other", own_run())
+    assert find_runs(tmp_path) == [second, first]
+    withdraw(tmp_path, second)
+    assert find_runs(tmp_path) == [first]
+    withdraw(tmp_path, second)
+    assert find_run(tmp_path) == first
+
+
+def test_a_new_run_removes_the_files_of_those_that_were_killed(
+    tmp_path: Path, runtime_folder: Path
+) -> None:
+    announce(tmp_path, Run(2**22 + 1, 5, 6))
+    announce(tmp_path / "other", Run(2**22 + 1, 5, 6))
+    announce(tmp_path, own_run())
+    assert len(list(runtime_folder.iterdir())) == 2
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", json.dumps({"pid": 1})])

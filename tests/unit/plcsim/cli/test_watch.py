@@ -1,4 +1,6 @@
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from enum import IntEnum
 from pathlib import Path
@@ -81,6 +83,24 @@ def test_all_variables_are_shown(project: Path, capsys: pytest.CaptureFixture[st
         ["cell.name", "'cell'", "STRING[9]"],
         ["cell.mode", "ON", "Mode"],
     ]
+
+
+def test_of_several_runs_the_one_started_last_is_shown(
+    project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
+        folder = next(project.glob("plcsim-*"))
+        (first,) = folder.iterdir()
+        announce(project, Run(other.pid, 0, 0))
+        os.utime(first, ns=(2**62, 2**62))
+        assert main(["watch", str(project), "cell.count", "--once"]) == 0
+        other.communicate(b"\n")
+    shown = capsys.readouterr()
+    assert shown.out.split()[-3:] == ["cell.count", "7", "UINT"]
+    assert shown.err == (
+        "2 runs of this project; this is the one that was started last, process "
+        f"{os.getpid()}; the others are {other.pid}\n"
+    )
 
 
 def test_named_variables_are_shown_in_their_order(
