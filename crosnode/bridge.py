@@ -17,10 +17,9 @@ from crosnode.link import QUIET_TURNS
 from crosnode.node import StatusKind
 from crosnode.node.period import Period
 from crosnode.node.publisher import printable
-from crosnode.project import create_node, surroundings
+from crosnode.project import make_node, surroundings
 from plcsim.errors import ConfigurationError, TagError
 from plcsim.logbook import Severity
-from plcsim.project import FILE_NAME
 from st_types.errors import ValueRangeError
 from st_types.values import decode, encode
 
@@ -65,7 +64,8 @@ class Bridge:
         found = surroundings(controller.context)
         assert found is not None
         settings = found.settings
-        self.node: CrosNode = create_node(controller.context, settings.node)
+        self._file = settings.file
+        self.node: CrosNode = make_node(controller.context, settings.node)
         self.refused = 0
         self._repeated: Counter[StatusKind] = Counter()
         self._controller = controller
@@ -76,7 +76,7 @@ class Bridge:
         try:
             return cls(self._controller, self.node, entry)
         except (ConfigurationError, CrosnodeError, TagError) as error:
-            text = f"{FILE_NAME}: ros.{key}.{entry.topic}: {error}"
+            text = f"{self._file}: ros.{key}.{entry.topic}: {error}"
             raise ConfigurationError(text) from None
 
     def latch(self) -> None:

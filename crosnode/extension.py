@@ -9,47 +9,53 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.bridge import Bridge
 from crosnode.errors import CrosnodeError
-from crosnode.master_server import DEFAULT_PORT
+from crosnode.master_watch import MasterWatch
 from crosnode.messages import MessageTypes
-from crosnode.project import MASTER_IP, OPTIONS, EmbeddedMaster, Surroundings
+from crosnode.project import MASTER_IP, OPTIONS, Surroundings
 from crosnode.settings import RosSettings, read_settings
-from crosnode.uri import make_uri
+from crosnode.uri import DEFAULT_PORT, make_uri
 from plcsim.errors import ConfigurationError
 from plcsim.extension import Attachment
 
 if TYPE_CHECKING:
-    from crosnode.settings import Publication, Subscription
     from plcsim.context import Context
     from plcsim.controller import Controller
     from plcsim.table import Table
     from plcsim.task import TaskClass
 
 HOSTS: Final = Path("/etc/hosts")
+LOOK_NS: Final = 500_000_000
+"""Nanoseconds between two looks at whether the programs' nodes have their master."""
+
+CHECK_IP: Final = "192.168.0.10"
 
 
 class RosExtension:
     """`plcsim.extension.Extension` of ROS 1."""
-
-    service = ""
 
     def read(self, table: Table, folder: Path) -> RosSettings:
         """Return the settings; the types of the bridge are looked up."""
         text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
         settings = read_settings(table, folder, dict(os.environ), text)
         types = MessageTypes(settings.packages)
-        entries: tuple[Publication | Subscription, ...] = (*settings.publish, *settings.subscribe)
-        for entry in entries:
-            try:
-                types.message(entry.type_name)
-            except CrosnodeError as error:
-                raise table.error(f"{entry.topic}.type", str(error)) from None
+        for key, entries in (("publish", settings.publish), ("subscribe", settings.subscribe)):
+            for entry in entries:
+                try:
+                    types.message(entry.type_name)
+                except CrosnodeError as error:
+                    text = _service_hint(types, entry.type_name) or str(error)
+                    raise table.error(f"{key}.{entry.topic}.type", text) from None
         return settings
 
-    def on_virtual_network(self, settings: RosSettings, ip: str) -> RosSettings:
-        """Return the settings of a controller under test: addresses of that network, no ROS_*.
+    def in_process(self, settings: RosSettings, ip: str) -> RosSettings:
+        """Return the settings with an embedded master in the scan; see `InProcessExtension`.
 
-        The embedded master is at the controller's address, any other at ``MASTER_IP``.
+        On a virtual network all addresses are those of that network, and no ROS_* counts: an
+        embedded master is at the controller's address, any other at ``MASTER_IP``.
         """
+        settings = settings._replace(is_in_process=True)
+        if not ip:
+            return settings
         host, port = (
             (ip, settings.master_port) if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
         )
@@ -57,41 +63,83 @@ class RosExtension:
             master_uri=make_uri("http", host, port), host=ip, bind_ip="", environment={}
         )
 
+    def service(self, settings: RosSettings) -> str:
+        """Return the module of the embedded master, where it runs in a process of its own."""
+        if settings.is_embedded and not settings.is_in_process:
+            return "crosnode.master_service"
+        return ""
+
     def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
-        """Leave the settings for programs; step the master and the bridge with the scan."""
+        """Leave the settings for programs; step the bridge, and a master in the scan, with it."""
         clock = controller.clock
         epoch_ns = 0 if clock.is_virtual else time.time_ns() - clock.now_ns()
         found = Surroundings(settings, epoch_ns, time.perf_counter_ns)
-        controller.context.options[OPTIONS] = {"surroundings": found}
         first = min(controller.classes, key=lambda each: each.cycle_ns)
-        if settings.is_embedded:
-            controller.image.inputs.append(_MasterStep(controller.context, first))
+        if settings.is_embedded and settings.is_in_process:
+            # not at the top: beside a master in its own process the scan has no use for it
+            from crosnode.in_process_master import InProcessMaster, MasterStep  # noqa: PLC0415
+
+            found = found._replace(master=InProcessMaster)
+            controller.image.inputs.append(MasterStep(controller.context, first))
+        controller.context.options[OPTIONS] = {"surroundings": found}
         if settings.publish or settings.subscribe:
-            step = _BridgeStep(controller, first)
+            step = _BridgeStep(controller, first, settings.file)
             step.bridge()  # its types are compiled before the first cycle
             controller.image.inputs.append(step.latch)
             controller.image.watchers.append(step.publish)
-        return Attachment()
+        controller.image.watchers.append(_WatchStep(controller, first))
+        return Attachment(_for_service(settings))
+
+    def check(self, settings: RosSettings, controller: Controller) -> list[str]:
+        """Check the bridge against the tags, as a run does before its first cycle."""
+        self.attach(self.in_process(settings, CHECK_IP), controller)
+        return []
 
 
-class _MasterStep:
-    """Does the embedded master's step in LATCH of the fastest class."""
+def _for_service(settings: RosSettings) -> dict[str, object]:
+    """Return what `crosnode.master_service` is told."""
+    return {
+        "file": str(settings.file),
+        "host": settings.host,
+        "port": settings.master_port,
+        "bind_ip": settings.bind_ip,
+        "hosts": dict(settings.hosts),
+    }
 
-    def __init__(self, context: Context, task_class: TaskClass) -> None:
-        self._context = context
+
+def _service_hint(types: MessageTypes, name: str) -> str:
+    """Return what is wrong where a service stands in the place of a message, else ""."""
+    try:
+        types.service(name)
+    except CrosnodeError:
+        return ""
+    return f"{name} is a service; topics have messages"
+
+
+class _WatchStep:
+    """Looks now and then whether the nodes of the programs have their master."""
+
+    def __init__(self, controller: Controller, task_class: TaskClass) -> None:
+        self._controller = controller
         self._class = task_class
+        self._next_ns = 0
 
     def __call__(self, task_class: TaskClass) -> None:
-        if task_class is self._class:
-            self._context.library(EmbeddedMaster).step()
+        context = self._controller.context
+        if context.release_ns < self._next_ns or task_class is not self._class:
+            return
+        self._next_ns = context.release_ns + LOOK_NS
+        for severity, text in context.library(MasterWatch).look(context.release_ns):
+            self._controller.log(severity, "ros", text)
 
 
 class _BridgeStep:
     """Does the bridge's step with the fastest class; a restart of the controller makes another."""
 
-    def __init__(self, controller: Controller, task_class: TaskClass) -> None:
+    def __init__(self, controller: Controller, task_class: TaskClass, file: Path) -> None:
         self._controller = controller
         self._class = task_class
+        self._file = file
 
     def bridge(self) -> Bridge:
         """Return the bridge of this start of the controller."""
@@ -101,7 +149,7 @@ class _BridgeStep:
         try:
             return Bridge(self._controller)
         except CrosnodeError as error:
-            raise ConfigurationError(f"ros: {error}") from None
+            raise ConfigurationError(f"{self._file}: ros: {error}") from None
 
     def latch(self, task_class: TaskClass) -> None:
         """Bring messages in."""

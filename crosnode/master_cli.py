@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Final
 
-DEFAULT_PORT: Final = 11311
+from crosnode.uri import DEFAULT_PORT
+
 LONGEST_S: Final = 366 * 86_400
 
 

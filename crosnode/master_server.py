@@ -1,4 +1,4 @@
-"""The embedded master on its port: `crosnode.master.Master` over the bounded step."""
+"""The master on its port: `crosnode.master.Master` over the bounded step."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from crosnode.event_loop import EventLoop
 from crosnode.hosts import HostTable
 from crosnode.master import Master, OutgoingCall
 from crosnode.node.acceptors import SlaveAcceptor
-from crosnode.uri import make_uri
+from crosnode.uri import DEFAULT_PORT, make_uri
 from crosnode.xmlrpc import Call, CallReceived, Fault, Limits, Value, XmlRpcServerConnection
 
 if TYPE_CHECKING:
@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from crosnode.link import Link
     from plcsim.context import Context
 
-DEFAULT_PORT = 11311
+
+def first_parameters(run_id: str) -> dict[str, Value]:
+    """Return what rosmaster and roslaunch set at the start of a master."""
+    return {"/run_id": run_id, "/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
 
 
 class MasterOptions(NamedTuple):

@@ -10,7 +10,7 @@ import os
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple, cast
 
-from crosnode.master_server import MasterOptions, MasterServer
+from crosnode.master_watch import MasterWatch
 from crosnode.messages import MessageTypes
 from crosnode.names import NodeSettings, node_settings
 from crosnode.node import CrosNode, NodeOptions
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from crosnode.budget import StepLimits
+    from crosnode.master_server import MasterServer
     from crosnode.settings import RosSettings
     from plcsim.context import Context
 
@@ -35,12 +36,14 @@ class Surroundings(NamedTuple):
         settings: table [ros].
         epoch_ns: added to a release gives nanoseconds since 1970.
         clock_ns: measures steps.
+        master: the embedded master, where it runs in the scan.
         beside: steps the other hosts of a test, which answer nothing while no cycle ends.
     """
 
     settings: RosSettings
     epoch_ns: int
     clock_ns: Callable[[], int]
+    master: Callable[[Context], MasterServer] | None = None
     beside: Callable[[], None] | None = None
 
 
@@ -59,30 +62,6 @@ class SharedTypes(MessageTypes):
     def __init__(self, context: Context) -> None:
         found = surroundings(context)
         super().__init__(found.settings.packages if found else ())
-
-
-class EmbeddedMaster(MasterServer):
-    """The master inside the scan: ``context.library(EmbeddedMaster)``; a restart makes another.
-
-    Args:
-        context: of a controller whose [ros] says ``master = "embedded"``.
-    """
-
-    def __init__(self, context: Context) -> None:
-        found = surroundings(context)
-        assert found is not None
-        settings = found.settings
-        super().__init__(
-            context,
-            MasterOptions(
-                host=settings.host,
-                port=settings.master_port,
-                bind_ip=settings.bind_ip,
-                pid=os.getpid(),
-                parameters={"/run_id": f"plcsim-{os.getpid()}", "/rosdistro": "noetic\n"},
-                hosts=settings.hosts,
-            ),
-        )
 
 
 def create_node(
@@ -105,6 +84,19 @@ def create_node(
         InvalidNameError: a name is not legal.
         NodeError: no port can be opened.
     """
+    node = make_node(context, name, *arguments, namespace=namespace, step=step)
+    context.library(MasterWatch).add(node)
+    return node
+
+
+def make_node(
+    context: Context,
+    name: str,
+    *arguments: str,
+    namespace: str = "",
+    step: StepLimits | None = None,
+) -> CrosNode:
+    """Make a node that nobody watches; for the rest see ``create_node``."""
     found = surroundings(context)
     options = NodeOptions() if step is None else NodeOptions(step=step)
     if found is None:
@@ -123,10 +115,10 @@ def create_node(
 
 
 def step_beside(context: Context) -> None:
-    """Step what must answer a node that waits in EXIT: the embedded master, hosts of a test."""
+    """Step what must answer a node that waits in EXIT: a master in the scan, hosts of a test."""
     found = surroundings(context)
-    if found and found.settings.is_embedded:
-        context.library(EmbeddedMaster).step()
+    if found and found.master:
+        context.library(found.master).step()
     if found and found.beside:
         found.beside()
 

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.errors import CrosnodeError
 from crosnode.hosts import parse_hosts
-from crosnode.master_server import DEFAULT_PORT
 from crosnode.names import check_base_name, check_name, node_settings, parse_arguments
-from crosnode.uri import make_uri, parse_uri
+from crosnode.uri import DEFAULT_PORT, make_uri, parse_uri
 from plcsim.network.protocol import is_ipv4
 from plcsim.project import FILE_NAME
 from plcsim.table import Table
@@ -50,8 +49,10 @@ class RosSettings(NamedTuple):
     """What [ros] says.
 
     Attributes:
+        file: plc.toml, for errors.
         master_uri: of the master.
-        is_embedded: whether the master runs in the scan.
+        is_embedded: whether the project brings the master.
+        is_in_process: whether an embedded master runs in the scan, and not in a process beside it.
         master_port: of the embedded master.
         host: name or number under which nodes are reached.
         bind_ip: own interface to listen on, "" for all.
@@ -65,8 +66,10 @@ class RosSettings(NamedTuple):
         environment: ROS_* variables of the process.
     """
 
+    file: Path
     master_uri: str
     is_embedded: bool
+    is_in_process: bool
     master_port: int
     host: str
     bind_ip: str
@@ -111,8 +114,10 @@ def read_settings(
         _checked(table, "master", lambda: parse_uri(master, "http"))
     hosts = parse_hosts(hosts_text) | _hosts(table)
     return RosSettings(
+        file=folder / FILE_NAME,
         master_uri=make_uri("http", host, port) if is_embedded else master,
         is_embedded=is_embedded,
+        is_in_process=False,
         master_port=port,
         host=host,
         bind_ip=_bind_ip(table),

@@ -13,6 +13,10 @@ _URI: Final = re.compile(
 )
 
 
+DEFAULT_PORT: Final = 11311
+"""Of a master."""
+
+
 class Address(NamedTuple):
     """A host name or number, IPv6 without brackets, and a port."""
 

@@ -39,20 +39,19 @@ class Attachment(NamedTuple):
 
 
 class Extension(Protocol):
-    """One table of plc.toml and what it stands for.
-
-    Attributes:
-        service: the module that runs as ``python -m MODULE ORDER`` beside the scan, "" for none;
-            ORDER is a `ServiceOrder` as JSON.
-    """
-
-    service: str
+    """One table of plc.toml and what it stands for."""
 
     def read(self, table: Table, folder: Path) -> Any:
         """Return the settings in the table; called for every command that reads the project.
 
         Raises:
             ConfigurationError: something is wrong; file and field are named (`Table.error`).
+        """
+
+    def service(self, settings: Any) -> str:
+        """Return the module that runs as ``python -m MODULE ORDER`` beside the scan, "" for none.
+
+        ORDER is a `ServiceOrder` as JSON.
         """
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
@@ -67,13 +66,18 @@ class Extension(Protocol):
 
 
 @runtime_checkable
-class VirtualExtension(Protocol):
-    """An extension that asks for other settings on the virtual network of a test."""
+class InProcessExtension(Protocol):
+    """An extension that asks for other settings where no process runs beside the controller."""
 
-    def on_virtual_network(self, settings: Any, ip: str) -> Any:
-        """Return the settings for a controller at ``ip`` of a network with nothing of this machine.
+    def in_process(self, settings: Any, ip: str) -> Any:
+        """Return the settings for the virtual clock and for tests; called before all but ``read``.
 
-        Tests call it before ``attach``: what a test does must not depend on where it runs.
+        What happens there must not depend on where it runs.
+
+        Args:
+            settings: of the table.
+            ip: of the controller on a virtual network, which has nothing of this machine; "" where
+                a test uses the network of the host.
         """
 
 
@@ -136,9 +140,25 @@ def check_settings(settings: Mapping[str, Any], controller: Controller) -> list[
     return notes
 
 
-def services_of(settings: Mapping[str, Any]) -> list[str]:
-    """Return the tables, among those with settings, whose extension has a service."""
-    return [name for name in settings if extensions()[name].service]
+def in_process(settings: Mapping[str, Any], ip: str) -> dict[str, Any]:
+    """Return the settings where no process runs beside the controller, by table.
+
+    Args:
+        settings: of the extensions, by table.
+        ip: see `InProcessExtension.in_process`.
+    """
+    here = dict(settings)
+    for name, value in settings.items():
+        extension = extensions()[name]
+        if isinstance(extension, InProcessExtension):
+            here[name] = extension.in_process(value, ip)
+    return here
+
+
+def services_of(settings: Mapping[str, Any]) -> dict[str, str]:
+    """Return the modules of the services of a project, by table."""
+    modules = {name: extensions()[name].service(value) for name, value in settings.items()}
+    return {name: module for name, module in modules.items() if module}
 
 
 @dataclass(frozen=True)

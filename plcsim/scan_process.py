@@ -19,7 +19,7 @@ from plcsim import realtime
 from plcsim.clock import MonotonicClock, VirtualClock
 from plcsim.controller import Controller
 from plcsim.errors import PlcError
-from plcsim.extension import extensions, services_of
+from plcsim.extension import extensions, in_process, services_of
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.project import Project, load_setup, read_project
 from plcsim.report import report
@@ -133,15 +133,15 @@ def _run(order: RunOrder) -> dict[str, Any]:
 
 def _share(controller: Controller, project: Project, order: RunOrder) -> None:
     """Let the extensions hook in, and lay out the image that services and watchers read."""
+    given = in_process(project.extensions, VIRTUAL_IP) if order.virtual else project.extensions
     attached = {
-        name: extensions()[name].attach(settings, controller)
-        for name, settings in project.extensions.items()
+        name: extensions()[name].attach(settings, controller) for name, settings in given.items()
     }
     ImageWriter(
         order.image_fd,
         controller,
         project=project.name,
-        services={name: attached[name].for_service for name in services_of(project.extensions)},
+        services={name: attached[name].for_service for name in services_of(given)},
         exports=[tag for attachment in attached.values() for tag in attachment.exports],
         wake_fds=order.wake_fds,
     )

@@ -7,7 +7,7 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
-from plcsim.extension import ServiceOrder, extensions, services_of
+from plcsim.extension import ServiceOrder, services_of
 from plcsim.shared_image.layout import HEADER_SIZE, make_file
 
 if TYPE_CHECKING:
@@ -27,8 +27,9 @@ STOP_S = 2.0
 class _Service:
     """One service process and when to start it again."""
 
-    def __init__(self, order: ServiceOrder) -> None:
+    def __init__(self, module: str, order: ServiceOrder) -> None:
         self.order = order
+        self._module = module
         self.starts = 0
         self._process: subprocess.Popen[bytes] | None = None
         self._next_ns = 0
@@ -50,9 +51,8 @@ class _Service:
 
     def _start(self) -> None:
         order = self.order
-        module = extensions()[order.table].service
         self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
-            [sys.executable, "-P", "-m", module, order.to_json()],
+            [sys.executable, "-P", "-m", self._module, order.to_json()],
             pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
             process_group=0,
             stdin=subprocess.DEVNULL,
@@ -86,11 +86,11 @@ class ServiceProcesses:
 
     def __init__(self, settings: Mapping[str, Any], status_fd: int, *, quiet: bool = False) -> None:
         self.image_fd = make_file()
-        names = services_of(settings)
-        self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in names]
+        modules = services_of(settings)
+        self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in modules]
         self._services = [
-            _Service(ServiceOrder(name, self.image_fd, status_fd, wake_fd, quiet))
-            for name, wake_fd in zip(names, self.wake_fds, strict=True)
+            _Service(module, ServiceOrder(name, self.image_fd, status_fd, wake_fd, quiet))
+            for (name, module), wake_fd in zip(modules.items(), self.wake_fds, strict=True)
         ]
 
     def tend(self, now_ns: int) -> None:

@@ -8,17 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.extension import EXTENSION
+from crosnode.in_process_master import InProcessMaster
 from crosnode.master_server import MasterOptions, MasterServer
 from crosnode.names import node_settings
 from crosnode.node import CrosNode, NodeOptions
-from crosnode.project import (
-    MASTER_IP,
-    OPTIONS,
-    EmbeddedMaster,
-    SharedTypes,
-    step_beside,
-    surroundings,
-)
+from crosnode.project import MASTER_IP, OPTIONS, SharedTypes, step_beside, surroundings
 from plcsim.context import Context
 from plcsim.memory import Memory
 from plcsim.system import State
@@ -103,7 +97,7 @@ class Ros:
                 "be empty), or use @pytest.mark.plc(boot=False) and call plc.boot()"
             )
         settings = EXTENSION.read(Table(Path("plc.toml"), "ros", {}), Path())
-        here = EXTENSION.on_virtual_network(settings, self._plc.ip)
+        here = EXTENSION.in_process(settings, self._plc.ip)
         EXTENSION.attach(here, self._plc.controller)
 
     # The master
@@ -123,7 +117,7 @@ class Ros:
     def _find_embedded(self) -> None:
         """Note the present embedded master: every start of the controller makes another one."""
         if self._is_embedded and self._plc.controller.state is State.RUN:
-            self._master = self._context.library(EmbeddedMaster)
+            self._master = self._context.library(InProcessMaster)
 
     def stop_master(self) -> None:
         """End the master at once: its connections end, and what it knows is lost.

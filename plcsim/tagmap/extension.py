@@ -28,11 +28,13 @@ class ModbusProject(NamedTuple):
 class ModbusExtension:
     """`plcsim.extension.Extension` of Modbus TCP."""
 
-    service = "plcsim.services.modbus"
-
     def read(self, table: Table, folder: Path) -> ModbusProject:
         """Return the settings."""
         return ModbusProject(read_settings(table, folder), folder)
+
+    def service(self, _settings: ModbusProject) -> str:
+        """Return the module that serves the map."""
+        return "plcsim.services.modbus"
 
     def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
         """Return the map for the service; addresses given for the first time are locked."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from plcsim.extension import VirtualExtension, extensions, services_of
+from plcsim.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
 from plcsim.tag import Tag
@@ -37,14 +37,11 @@ class Extensions:
         self, settings: Mapping[str, Any], controller: Controller, name: str, ip: str
     ) -> None:
         self._fd = -1
-        for table, given in settings.items():
-            extension = extensions()[table]
-            here = given
-            if ip and isinstance(extension, VirtualExtension):
-                here = extension.on_virtual_network(given, ip)
-            if not extension.service:
-                extension.attach(here, controller)
-        self._services = services_of(settings)
+        here = in_process(settings, ip)
+        self._services = services_of(here)
+        for table, given in here.items():
+            if table not in self._services:
+                extensions()[table].attach(given, controller)
         if self._services:
             self._share(controller, name)
 

@@ -234,7 +234,7 @@ def test_counts_that_are_told() -> None:
 def test_unknown_tags_and_types_are_errors_before_the_first_cycle() -> None:
     with pytest.raises(ConfigurationError, match=r"plc.toml: ros.publish./x: .*plant\.nothing"):
         Rig(publish={"/x": entry("plant.nothing", "std_msgs/Bool")})
-    with pytest.raises(ConfigurationError, match=r"plc.toml: ros./x.type: .*no_msgs/Such"):
+    with pytest.raises(ConfigurationError, match=r"plc.toml: ros.publish./x.type: .*no_msgs/Such"):
         Rig(publish={"/x": entry("plant.on", "no_msgs/Such")})
 
 

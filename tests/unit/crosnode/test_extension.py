@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from crosnode.extension import EXTENSION
-from crosnode.project import EmbeddedMaster, create_node, surroundings
+from crosnode.in_process_master import InProcessMaster
+from crosnode.project import create_node, surroundings
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
@@ -37,7 +38,8 @@ def controller(**values: object) -> Controller:
     classes = [TaskClassSetup(1, MS, [ProgramSetup("talker", Talker)])]
     plc = Controller(Setup(classes), network=host, clock=clock)
     table = Table(Path("plc.toml"), "ros", {"master": "embedded", "host": "127.0.0.1"} | values)
-    attachment = EXTENSION.attach(EXTENSION.read(table, Path()), plc)
+    settings = EXTENSION.in_process(EXTENSION.read(table, Path()), "")
+    attachment = EXTENSION.attach(settings, plc)
     assert not attachment.exports
     return plc
 
@@ -60,12 +62,12 @@ def test_programs_get_the_settings_and_the_master_runs_in_the_scan() -> None:
 def test_after_service_a_restart_makes_node_and_master_anew() -> None:
     plc = controller()
     plc.boot()
-    first = plc.context.library(EmbeddedMaster)
+    first = plc.context.library(InProcessMaster)
     plc.tasks[0].variables.broken = True  # type: ignore[attr-defined]
     assert plc.run(cycles=200) is State.SERVICE
     assert plc.boot() is State.RUN
     plc.run(cycles=80)
-    second = plc.context.library(EmbeddedMaster)
+    second = plc.context.library(InProcessMaster)
     assert second is not first
     assert "/talker" in str(second.master.get_system_state("/x"))
     plc.shutdown()
@@ -75,14 +77,14 @@ def test_without_topics_there_is_no_bridge() -> None:
     plc = controller()
     plc.boot()
     plc.run(cycles=50)
-    state = plc.context.library(EmbeddedMaster).master.get_system_state("/x")
+    state = plc.context.library(InProcessMaster).master.get_system_state("/x")
     assert "plc_bridge" not in str(state)
 
 
 def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() -> None:
     values = {"master": "http://robot:5/", "host": "robot", "bind": "10.0.0.1", "namespace": "/x"}
     settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
-    moved = EXTENSION.on_virtual_network(settings, "192.168.0.10")
+    moved = EXTENSION.in_process(settings, "192.168.0.10")
     assert moved.master_uri == "http://192.168.0.1:11311/"
     assert (moved.host, moved.bind_ip, moved.namespace) == ("192.168.0.10", "", "/x")
     assert moved.environment == {}
@@ -91,5 +93,5 @@ def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() 
 def test_on_a_virtual_network_the_embedded_master_keeps_its_port() -> None:
     values = {"master": "embedded", "master_port": 12345}
     settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
-    moved = EXTENSION.on_virtual_network(settings, "192.168.0.10")
+    moved = EXTENSION.in_process(settings, "192.168.0.10")
     assert moved.master_uri == "http://192.168.0.10:12345/"

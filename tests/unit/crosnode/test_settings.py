@@ -32,7 +32,7 @@ def test_defaults_are_those_of_ros() -> None:
 
 def test_the_environment_counts_and_the_table_goes_before_it() -> None:
     environment = {"ROS_MASTER_URI": "http://a:1", "ROS_IP": "10.0.0.1", "ROS_NAMESPACE": "cell"}
-    assert read({}, environment)[:1] == ("http://a:1",)
+    assert read({}, environment).master_uri == "http://a:1"
     assert read({}, environment).host == "10.0.0.1"
     assert read({}, environment).namespace == ""  # that of the environment is the node's business
     settings = read({"master": "http://b:2", "host": "plc", "namespace": "/x"}, environment)

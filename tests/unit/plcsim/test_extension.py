@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from plcsim import extension, project, service_processes
+from plcsim import extension, project
 from plcsim.controller import Controller
 from plcsim.errors import ConfigurationError
 from plcsim.extension import Attachment, check_settings, services_of
@@ -20,7 +20,8 @@ TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
 
 
 class Web:
-    service = "service_for_tests"
+    def service(self, settings: int) -> str:
+        return "service_for_tests"
 
     def read(self, table: Table, folder: Path) -> int:
         return table.number("port", 80, 1, 65535)
@@ -30,13 +31,19 @@ class Web:
 
 
 class Quiet(Web):
-    service = ""
+    """One whose settings say whether it has a service."""
+
+    def service(self, settings: int) -> str:
+        return super().service(settings) if settings == 4321 else ""
+
+    def in_process(self, settings: int, ip: str) -> int:
+        return settings + len(ip)
 
 
 @pytest.fixture(autouse=True)
 def installed(monkeypatch: pytest.MonkeyPatch) -> None:
     found = {"web": Web(), "quiet": Quiet()}
-    for module in (extension, project, service_processes):
+    for module in (extension, project):
         monkeypatch.setattr(module, "extensions", lambda: found)
 
 
@@ -64,8 +71,14 @@ def test_a_table_that_nobody_claims_is_an_error(folder: Callable[[str], Path]) -
         read_project(folder("[wep]\nport = 8080\n"))
 
 
-def test_only_extensions_with_a_module_have_a_service() -> None:
-    assert services_of({"quiet": 1, "web": 2}) == ["web"]
+def test_the_settings_say_whether_an_extension_has_a_service() -> None:
+    web = {"web": "service_for_tests"}
+    assert services_of({"quiet": 1, "web": 2}) == web
+    assert services_of({"quiet": 4321, "web": 2}) == {"quiet": "service_for_tests"} | web
+
+
+def test_in_process_an_extension_may_have_other_settings() -> None:
+    assert extension.in_process({"quiet": 1, "web": 2}, "ip") == {"quiet": 3, "web": 2}
 
 
 @pytest.fixture

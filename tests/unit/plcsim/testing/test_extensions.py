@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from plcsim import extension
 from plcsim.controller import Controller
 from plcsim.extension import Attachment
 from plcsim.shared_image import writer
@@ -16,7 +17,8 @@ from st_types.views import type_of
 class Steps:
     """An extension that steps with the scan."""
 
-    service = ""
+    def service(self, settings):
+        return ""
 
     def read(self, table, folder):
         raise AssertionError("the table is read already")
@@ -33,14 +35,15 @@ class Steps:
 class Moves(Steps):
     """One that lives at another address in tests."""
 
-    def on_virtual_network(self, settings, ip):
-        return f"{settings} at {ip}"
+    def in_process(self, settings, ip):
+        return f"{settings} at {ip or 'the host'}"
 
 
 class Serves(Steps):
     """One with a process of its own."""
 
-    service = "a_module_that_nobody_may_import"
+    def service(self, settings):
+        return "a_module_that_nobody_may_import"
 
     def attach(self, settings, controller):
         raise AssertionError("nothing is handed over to a process that does not run")
@@ -49,8 +52,8 @@ class Serves(Steps):
 @pytest.fixture
 def installed(monkeypatch):
     found = {"steps": Steps(), "moves": Moves(), "serves": Serves()}
-    monkeypatch.setattr(module, "extensions", lambda: found)
-    monkeypatch.setattr(module, "services_of", lambda tables: [t for t in tables if t == "serves"])
+    for each in (module, extension):
+        monkeypatch.setattr(each, "extensions", lambda: found)
     return found
 
 
@@ -68,16 +71,16 @@ def open_with(installed, cell_plc):
         plc.close()
 
 
-def test_those_that_step_are_attached_with_what_holds_on_the_virtual_network(open_with, installed):
+def test_those_that_step_are_attached_with_what_holds_in_process(open_with, installed):
     open_with(settings={"steps": "a", "moves": "b"}).cycles(3)
     assert installed["steps"].settings == "a"
     assert installed["steps"].seen == [1, 2, 3]
     assert installed["moves"].settings == "b at 192.168.0.10"
 
 
-def test_on_the_network_of_the_host_the_settings_stay(open_with, installed):
+def test_on_the_network_of_the_host_there_is_no_address(open_with, installed):
     open_with(settings={"moves": "b"}, host_network=True)
-    assert installed["moves"].settings == "b"
+    assert installed["moves"].settings == "b at the host"
 
 
 def test_what_is_forced_is_what_extensions_see(open_with, installed):
