@@ -3,7 +3,7 @@
     python benchmarks/ros_fuzz.py [--seconds 30] [--seed 7] [--json FILE]
 
 `plcsim master`, the examples talker (here a hundred words a second) and listener, and add_two_ints
-with its master inside the scan run as a user runs them. All ports at which they listen are attacked
+with its master beside the scan run as a user runs them. All ports at which they listen are attacked
 at once by up to 200 connections, every few seconds all of them at one port. Exit code 1 where a
 process ended or went into SERVICE, a cycle time violation was the program's, a word or a call was
 lost, memory grew by more than the bound, or a port does not answer afterwards.
@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from _outcome import console, figures_table, number_above_0, print_machine, write_json
 from node_step import free_port
-from ros_processes import HOST, PLCSIM, Process, Project, answers, still_answers
+from ros_processes import HOST, PLCSIM, Process, Project, ServiceProcess, answers, still_answers
 
 from crosnode.testing import Attacker, HostilePeers
 from plcsim.network import OsNetwork
@@ -62,7 +62,8 @@ class System:
         embedded = 'master = "embedded"'
         self.adder.change("plc.toml", embedded, f"{embedded}\nmaster_port = {own_port}")
         self.projects = [self.talker, self.listener, self.adder]
-        self.processes = [self.master, *self.projects]
+        own_master = ServiceProcess("its master", self.adder, "crosnode.master_service")
+        self.processes = [self.master, *self.projects, own_master]
 
     def start(self) -> None:
         """Start all, and wait until words and calls flow."""

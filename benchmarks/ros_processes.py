@@ -44,13 +44,13 @@ class Process:
     def __init__(self, name: str, command: list[str], log: Path) -> None:
         self.name = name
         self._command = command
-        self._log = log
+        self.log = log
         self._popen: subprocess.Popen[bytes] | None = None
 
     def start(self, master_uri: str) -> None:
         """Start it with this ROS_MASTER_URI."""
         environment = {**os.environ, "ROS_MASTER_URI": master_uri, "ROS_IP": HOST}
-        with self._log.open("wb") as log:
+        with self.log.open("wb") as log:
             self._popen = subprocess.Popen(self._command, env=environment, stdout=log, stderr=log)
 
     @property
@@ -72,7 +72,7 @@ class Process:
     @property
     def said(self) -> str:
         """What it printed last."""
-        return self._log.read_text(errors="replace")[-1000:]
+        return self.log.read_text(errors="replace")[-1000:]
 
     def memory_kib(self, field: str = "VmRSS") -> int:
         """Return its resident memory, or the peak of that (VmHWM); 0 where it has gone."""
@@ -155,6 +155,33 @@ class Project(Process):
         """Return its report, after it has ended."""
         report: dict[str, Any] = json.loads(self._report.read_text())
         return report
+
+
+class ServiceProcess(Process):
+    """A process that a project's supervisor starts beside the scan, and stops with it.
+
+    Args:
+        name: for tables.
+        project: whose service it is.
+        module: that it runs.
+    """
+
+    def __init__(self, name: str, project: Project, module: str) -> None:
+        super().__init__(name, [], project.log)
+        self._project = project
+        self._module = module
+        self._service_pid = 0
+
+    @property
+    def pid(self) -> int:
+        """Number of the process that ran at the first look; another one after it is an end."""
+        self._service_pid = self._service_pid or child_with(self._project.parent.pid, self._module)
+        return self._service_pid
+
+    @property
+    def is_running(self) -> bool:
+        """Whether it has not ended."""
+        return Path(f"/proc/{self.pid}").exists()
 
 
 def listening_ports(pid: int) -> list[int]:
