@@ -12,6 +12,7 @@ from crosnode.budget import CONNECTION_WORK, MESSAGE_WORK, XMLRPC_WORK
 from crosnode.connection import Failed, State
 from crosnode.dyn_buffer import DynBuffer
 from crosnode.tcpip_socket import AREA_SIZE, TcpipSocketState
+from crosnode.xmlrpc import Progress
 
 if TYPE_CHECKING:
     from crosnode import tcpros, xmlrpc
@@ -215,7 +216,8 @@ class Link:
                 return
             budget.messages -= 1
             budget.work -= price
-            self._handle(event, now_ns)
+            if not isinstance(event, Progress):
+                self._handle(event, now_ns)
 
     def _price(self) -> int:
         """Return the price of the next event."""

@@ -93,7 +93,7 @@ class Master:
         """Answer a request, ``system.multicall`` included."""
         self._calls = []
         if call.method == "system.multicall":
-            reply: Response | Fault = Response(run_multicall(call.params, self._answer))
+            reply: Response | Fault = Response(list(run_multicall(call.params, self._answer)))
         else:
             reply = self._answer(call)
         return Answer(reply, self._calls)

@@ -5,6 +5,7 @@ from crosnode.xmlrpc.connection import (
     Event,
     FaultReceived,
     Limits,
+    Progress,
     ResponseReceived,
     XmlRpcClientConnection,
     XmlRpcConnection,
@@ -18,8 +19,8 @@ from crosnode.xmlrpc.values import (
     Value,
     ValueLimits,
     ValueParser,
-    check_value,
 )
+from crosnode.xmlrpc.writer import check_value
 
 __all__ = [
     "Call",
@@ -28,6 +29,7 @@ __all__ = [
     "Fault",
     "FaultReceived",
     "Limits",
+    "Progress",
     "Response",
     "ResponseReceived",
     "Value",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 import h11
 
 from crosnode.connection import Act, Closed, Connection, Failed, State, Table
-from crosnode.errors import LocalProtocolError, XmlRpcError
+from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
 from crosnode.xmlrpc.values import (
     Call,
     Fault,
@@ -16,10 +16,8 @@ from crosnode.xmlrpc.values import (
     Value,
     ValueLimits,
     ValueParser,
-    dump_call,
-    dump_fault,
-    dump_response,
 )
+from crosnode.xmlrpc.writer import ResponseWriter, dump_call, dump_fault
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,6 +36,8 @@ CLIENT: Final[Table] = {
 
 PARSE_ERROR: Final = -32700
 """Fault code for a document that cannot be read (xmlrpc-epi, fault code interoperability)."""
+
+INTERNAL_ERROR: Final = -32603
 
 Role: TypeAlias = type[h11.CLIENT] | type[h11.SERVER]
 
@@ -81,7 +81,12 @@ class FaultReceived:
     text: str
 
 
-Event: TypeAlias = CallReceived | ResponseReceived | FaultReceived | Failed | Closed
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Some of a long document was read or written; there is more to do."""
+
+
+Event: TypeAlias = CallReceived | ResponseReceived | FaultReceived | Progress | Failed | Closed
 
 
 class XmlRpcConnection(Connection):
@@ -99,6 +104,7 @@ class XmlRpcConnection(Connection):
         self.limits = limits
         self._http = h11.Connection(role, max_incomplete_event_size=limits.max_head)
         self._values = ValueParser(limits.values)
+        self._unparsed = b""
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
@@ -129,6 +135,11 @@ class XmlRpcConnection(Connection):
         """Do what the next HTTP events say, until one of ours comes of them."""
         try:
             while True:
+                if self._unparsed:
+                    self._unparsed = self._values.feed_part(self._unparsed)
+                    if self._unparsed:
+                        self._since_ns = now_ns
+                        return Progress()
                 http_event = self._http.next_event()
                 if http_event in (h11.NEED_DATA, h11.PAUSED):
                     return None
@@ -141,7 +152,7 @@ class XmlRpcConnection(Connection):
 
     def _handle(self, http_event: object, now_ns: int) -> Event | None:
         if isinstance(http_event, h11.Data):
-            self._values.feed(http_event.data)
+            self._unparsed = bytes(http_event.data)
             return None
         if isinstance(http_event, h11.EndOfMessage):
             document = self._values.close()
@@ -193,6 +204,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
     def __init__(self, limits: Limits, now_ns: int) -> None:
         super().__init__(h11.SERVER, State.REQUEST, limits, now_ns)
         self._is_idle = False
+        self._writer: ResponseWriter | None = None
 
     @property
     def deadline_ns(self) -> int | None:
@@ -201,6 +213,9 @@ class XmlRpcServerConnection(XmlRpcConnection):
 
     def next_event(self, now_ns: int) -> Event | None:
         """Return the next event, None where none can be had from the bytes so far."""
+        if self._writer is not None and self.state is State.REPLY:
+            self._write_late(self._writer)
+            return Progress()
         event = super().next_event(now_ns)
         if event is None and self._is_idle and self._is_within_request:
             self._is_idle, self._since_ns = False, now_ns
@@ -212,20 +227,39 @@ class XmlRpcServerConnection(XmlRpcConnection):
         return self._http.their_state is not h11.IDLE or bool(self._http.trailing_data[0])
 
     def respond(self, value: Value) -> None:
-        """Answer the call with a value.
+        """Answer the call with a value; a long one is written while ``next_event`` is called.
 
         Raises:
-            MessageValueError: XML-RPC cannot carry it; the call is still to be answered.
+            MessageValueError: XML-RPC cannot carry it, as seen in its first part; the call is
+                still to be answered. Seen later, it is answered with a fault.
         """
-        self._answer(dump_response(value))
+        self._check_turn()
+        writer = ResponseWriter(value)
+        document = writer.write()
+        if document is None:
+            self._writer = writer
+        else:
+            self._answer(document)
+
+    def _write_late(self, writer: ResponseWriter) -> None:
+        try:
+            document = writer.write()
+        except MessageValueError as error:
+            document = dump_fault(Fault(INTERNAL_ERROR, str(error)))
+        if document is not None:
+            self._answer(document)
 
     def fault(self, code: int, text: str) -> None:
         """Answer the call with a fault."""
+        self._check_turn()
         self._answer(dump_fault(Fault(code, text)))
 
-    def _answer(self, document: bytes) -> None:
-        if self.state is not State.REPLY:
+    def _check_turn(self) -> None:
+        if self.state is not State.REPLY or self._writer is not None:
             raise LocalProtocolError(f"an answer in state {self.state.name}")
+
+    def _answer(self, document: bytes) -> None:
+        self._writer = None
         self._send_document(document, 200)
         self._end_call()
         self._is_idle = True

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Final
 from crosnode.xmlrpc.values import Call, Fault, Response, Value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 METHOD: Final = "system.multicall"
-MAX_CALLS: Final = 200
+MAX_CALLS: Final = 1_000
 
-MAX_VALUES: Final = 1_000
+MAX_VALUES: Final = 20_000
 """Values in all answers together: a short document could ask for any number of long ones."""
 
 REPLY_TOO_LARGE: Final = -32500
@@ -46,20 +46,21 @@ def _call(entry: Value) -> Call | Fault:
     return Call(method, params)
 
 
-def run_multicall(params: list[Value], answer: Callable[[Call], Response | Fault]) -> list[Value]:
-    """Answer calls in order and return the value of the whole.
+def run_multicall(
+    params: list[Value], answer: Callable[[Call], Response | Fault]
+) -> Iterator[Value]:
+    """Answer calls in order, each when its turn in the value of the whole comes.
 
     Behind ``MAX_VALUES`` calls are not made; a fault stands for each.
     """
-    found: list[Value] = []
     left = MAX_VALUES
     for call in split_multicall(params):
         if isinstance(call, Call) and left > 0:
-            found.append(_packed(answer(call)))
+            packed = _packed(answer(call))
         else:
-            found.append(_packed(call if isinstance(call, Fault) else TOO_LARGE))
-        left -= _count(found[-1])
-    return found
+            packed = _packed(call if isinstance(call, Fault) else TOO_LARGE)
+        left -= _count(packed)
+        yield packed
 
 
 def _count(value: Value) -> int:

@@ -1,4 +1,4 @@
-"""XML-RPC values to XML and back, by the marshaller of the standard library, made safe.
+"""XML to XML-RPC values, by the unmarshaller of the standard library, made safe.
 
 Expat reads the XML in the pieces in which it comes; a document type, and with it every entity and
 every bomb made of them, is refused, and depth, number of elements and size are bounded. Untyped
@@ -7,12 +7,11 @@ values are strings, as roscpp sends them. Source: xmlrpc.com/spec.
 
 from __future__ import annotations
 
-import re
 import xmlrpc.client
 from typing import Any, Final, NamedTuple, TypeAlias
 from xml.parsers import expat
 
-from crosnode.errors import LimitError, MessageValueError, XmlRpcError
+from crosnode.errors import LimitError, XmlRpcError
 
 Value: TypeAlias = Any
 """bool, int (32 bits), float, str, bytes, datetime, list or dict with str keys."""
@@ -21,7 +20,10 @@ MIB: Final = 1 << 20
 MAX_TOKEN: Final = 8192
 """Bytes of one tag or comment; expat reads an incomplete one again with each piece."""
 
-_NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+
+AT_ONCE: Final = 64
+SLICE: Final = 256
+"""``feed_part`` ends with the slice, of so many bytes, in which the count of elements is passed."""
 
 
 class ValueLimits(NamedTuple):
@@ -58,46 +60,10 @@ class Response(NamedTuple):
     value: Value
 
 
-def dump_call(method: str, params: list[Value] | tuple[Value, ...]) -> bytes:
-    """Return the XML of a call.
-
-    Raises:
-        MessageValueError: a value that XML-RPC cannot carry.
-    """
-    return _dump(tuple(params), methodname=method)
-
-
-def dump_response(value: Value) -> bytes:
-    """Return the XML of a reply; raises as ``dump_call`` does."""
-    return _dump((value,), methodresponse=True)
-
-
-def dump_fault(fault: Fault) -> bytes:
-    """Return the XML of a fault; what XML cannot hold in its text is replaced."""
-    return _dump(xmlrpc.client.Fault(fault.code, _NOT_XML.sub("?", fault.text)))
-
-
-def check_value(value: Value) -> None:
-    """Check that XML-RPC can carry a value; raises as ``dump_call`` does."""
-    dump_response(value)
-
-
-def _dump(params: Any, **options: Any) -> bytes:
-    try:
-        text = xmlrpc.client.dumps(params, **options)
-    except (TypeError, OverflowError, RecursionError) as error:
-        raise MessageValueError(f"XML-RPC cannot carry the value: {error}.") from error
-    if match := _NOT_XML.search(text):
-        raise MessageValueError(f"XML-RPC cannot carry the character {match[0]!r}.")
-    # A bare carriage return would be read as a newline; the marshaller itself writes none.
-    return text.replace("\r", "&#13;").encode()
-
-
 class ValueParser:
     """Reads one XML-RPC document, piece by piece.
 
-    The work of ``feed`` is proportional to the bytes given to it, so the owner bounds the work of a
-    step by the bytes that it reads.
+    The work lies in the elements, not in the bytes, so ``feed_part`` is bounded by elements.
     """
 
     def __init__(self, limits: ValueLimits) -> None:
@@ -113,7 +79,19 @@ class ValueParser:
         self._parser.EndElementHandler = self._end
         self._parser.CharacterDataHandler = self._data
 
-    def feed(self, data: bytes | bytearray) -> None:
+    def feed_part(self, data: bytes) -> bytes:
+        """Parse some elements of the next piece; return what is left of it.
+
+        Raises:
+            XmlRpcError: the document is not XML-RPC, or over a limit.
+        """
+        place, most = 0, self._elements + AT_ONCE
+        while place < len(data) and self._elements < most:
+            self.feed(data[place : place + SLICE])
+            place += SLICE
+        return data[place:]
+
+    def feed(self, data: bytes) -> None:
         """Parse the next piece.
 
         Raises:
@@ -143,9 +121,9 @@ class ValueParser:
             raise XmlRpcError(f"reply with {len(params)} values")
         return Response(params[0])
 
-    def _parse(self, data: bytes | bytearray, *, is_final: bool) -> None:
+    def _parse(self, data: bytes, *, is_final: bool) -> None:
         try:
-            self._parser.Parse(bytes(data), is_final)
+            self._parser.Parse(data, is_final)
         except _FAULTS as error:
             raise XmlRpcError(f"not an XML-RPC document: {error}") from error
 

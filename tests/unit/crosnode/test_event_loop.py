@@ -5,7 +5,7 @@ from itertools import pairwise
 from crosnode.api_caller import ApiCall, CallState
 from crosnode.budget import StepLimits
 from crosnode.tcpros.header import encode_header
-from crosnode.xmlrpc.values import dump_call
+from crosnode.xmlrpc.writer import dump_call
 
 from .node.world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, words
 
@@ -84,6 +84,24 @@ def test_a_flood_of_calls_leaves_a_topic_its_turn_and_the_other_way_round() -> N
     answered, beside = flood(4)
     assert beside == alone > 10
     assert answered > 100
+
+
+def test_a_call_for_much_is_answered_over_many_steps() -> None:
+    world = World()
+    node, asker = world.node("n"), world.node("asker", OTHER_IP)
+    for number in range(100):
+        node.register_publisher(f"/topic{number}", STRING)
+    world.until(lambda: node.is_registered and asker.is_registered)
+    calls = [{"methodName": "getPublications", "params": ["/x"]} for _ in range(60)]
+    multi = asker.core.api.start(ApiCall(node.uri, "system.multicall", [calls]))
+    steps = 0
+    while multi.state is CallState.WAITING:
+        world.run(1)
+        steps += 1
+    assert steps > 60
+    assert len(multi.value) == 60
+    assert all(answer == multi.value[0] for answer in multi.value)
+    assert len(multi.value[0][0][2]) == 101
 
 
 def test_a_caller_that_does_not_read_its_answers_is_not_heard_any_more() -> None:

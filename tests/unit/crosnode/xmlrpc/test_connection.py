@@ -19,8 +19,8 @@ from crosnode.xmlrpc import (
     XmlRpcConnection,
     XmlRpcServerConnection,
 )
-from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER
-from crosnode.xmlrpc.values import dump_call
+from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER, Progress
+from crosnode.xmlrpc.writer import AT_ONCE, dump_call
 
 LIMITS = Limits(values=ValueLimits(max_size=2000), max_head=1000, timeout_ns=1000)
 
@@ -288,3 +288,77 @@ def test_any_bytes(pieces: list[bytes]) -> None:
 def test_every_state_can_end(table: dict[State, dict[Act, State]]) -> None:
     assert table[State.CLOSED] == {}
     assert all(state is State.CLOSED or Act.END in row for state, row in table.items())
+
+
+def long_pair() -> tuple[XmlRpcClientConnection, XmlRpcServerConnection]:
+    limits = Limits(timeout_ns=1000)
+    return XmlRpcClientConnection("h:1", limits, 0), XmlRpcServerConnection(limits, 0)
+
+
+def progress(connection: XmlRpcConnection, now_ns: int = 0) -> int:
+    """Take Progress as long as it comes; return how often."""
+    count = 0
+    while connection.next_event(now_ns) == Progress():
+        count += 1
+    return count
+
+
+def test_a_long_answer_is_written_and_read_a_part_at_a_time() -> None:
+    ours, theirs = long_pair()
+    value = [[number, str(number)] for number in range(500)]
+    ours.call("m", [], 0)
+    theirs.receive_data(sent(ours))
+    theirs.next_event(0)
+    theirs.respond(value)
+    assert sent(theirs) == b""
+    assert not theirs.wants_data
+    assert progress(theirs) == 500 * 4 // AT_ONCE
+    answer = sent(theirs)
+    ours.receive_data(answer)
+    turns = 0
+    while (event := ours.next_event(900 * turns)) == Progress():
+        turns += 1
+        assert ours.handle_timer(900 * turns) is None  # what comes is no silence
+    assert event == ResponseReceived(value)
+    assert turns > 50
+    ours.call("m", [], 0)
+    theirs.receive_data(sent(ours))
+    assert theirs.next_event(0) == CallReceived("m", [])
+
+
+def test_a_long_call_is_read_a_part_at_a_time() -> None:
+    ours, theirs = long_pair()
+    value = {f"key{number}": number for number in range(500)}
+    ours.call("setParam", ["/n", "/x", value], 0)
+    theirs.receive_data(sent(ours))
+    parts = []
+    while (event := theirs.next_event(0)) == Progress():
+        parts.append(event)
+    assert event == CallReceived("setParam", ["/n", "/x", value])
+    assert len(parts) > 10
+
+
+def test_what_cannot_be_sent_is_a_fault_where_it_comes_late() -> None:
+    ours, theirs = long_pair()
+    ours.call("m", [], 0)
+    theirs.receive_data(sent(ours))
+    theirs.next_event(0)
+    theirs.respond([*range(500), None])
+    with pytest.raises(LocalProtocolError):
+        theirs.respond(1)
+    progress(theirs)
+    ours.receive_data(sent(theirs))
+    fault = ours.next_event(0)
+    assert isinstance(fault, FaultReceived)
+    assert "NoneType" in fault.text
+
+
+def test_an_end_while_a_long_answer_is_written() -> None:
+    ours, theirs = long_pair()
+    ours.call("m", [], 0)
+    theirs.receive_data(sent(ours))
+    theirs.next_event(0)
+    theirs.respond(list(range(1_000)))
+    theirs.close()
+    assert theirs.next_event(0) is None
+    assert sent(theirs) == b""

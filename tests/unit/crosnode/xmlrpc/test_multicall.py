@@ -20,7 +20,7 @@ def test_values_and_faults_in_order() -> None:
         return Fault(1, "no") if call.method == "bad" else Response([call.method, *call.params])
 
     calls = [entry("a", [1]), entry("bad", []), "no struct", {"methodName": "b"}]
-    assert run_multicall([calls], answer) == [
+    assert list(run_multicall([calls], answer)) == [
         [["a", 1]],
         {"faultCode": 1, "faultString": "no"},
         {
@@ -47,7 +47,7 @@ def test_a_short_call_cannot_ask_for_any_number_of_long_answers() -> None:
         asked.append(call.method)
         return Response([[{"k": number}] for number in range(MAX_VALUES // 10)])
 
-    found = run_multicall([[entry("m", [])] * MAX_CALLS], answer)
+    found = list(run_multicall([[entry("m", [])] * MAX_CALLS], answer))
     assert len(found) == MAX_CALLS
     assert len(asked) == 4
     assert {each["faultCode"] for each in found[4:]} == {REPLY_TOO_LARGE}

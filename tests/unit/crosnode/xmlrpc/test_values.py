@@ -15,6 +15,8 @@ from crosnode.xmlrpc.values import (
     Response,
     ValueLimits,
     ValueParser,
+)
+from crosnode.xmlrpc.writer import (
     check_value,
     dump_call,
     dump_fault,
