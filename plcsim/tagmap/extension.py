@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.extension import Attachment
 from plcsim.tagmap.automatic import write_lock
 from plcsim.tagmap.load import load_map
-from plcsim.tagmap.ports import may_use_privileged_ports, unprivileged_ports
+from plcsim.tagmap.ports import may_use_privileged_ports, remedy, unprivileged_ports
 from plcsim.tagmap.settings import read_settings
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class ModbusExtension:
             server_context(settings.settings.tls)
         port = settings.settings.port
         if 0 < port < unprivileged_ports() and not may_use_privileged_ports():
-            return [f"modbus.port: {port} needs root or CAP_NET_BIND_SERVICE, which are not given"]
+            return [f"modbus.port: {remedy(port)}"]
         return []
 
 

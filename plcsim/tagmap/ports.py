@@ -21,6 +21,14 @@ def unprivileged_ports() -> int:
         return 1024
 
 
+def remedy(port: int) -> str:
+    """Return what to do where a port needs rights that are not given."""
+    return (
+        f"{port} needs root or CAP_NET_BIND_SERVICE, which are not given; another one, such as "
+        "port = 1502, needs neither"
+    )
+
+
 def may_use_privileged_ports() -> bool:
     """Return True where this process has CAP_NET_BIND_SERVICE (capabilities(7)), as root has."""
     for line in _STATUS.read_text("utf-8").splitlines():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import errno
 import ipaddress
 import os
 import sys
@@ -16,6 +17,7 @@ from plcsim.services.modbus.connection import Connection, Limits, WriteRecord
 from plcsim.services.modbus.handler import Handler, Rights
 from plcsim.services.modbus.listener import Listener, place
 from plcsim.services.modbus.tls import rights_of, role_of
+from plcsim.tagmap.ports import remedy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -83,8 +85,10 @@ class Server:
         try:
             self._listener = Listener(host, port, self.settings.tls, self._admit, self.faulty)
         except OSError as err:
+            denied = isinstance(err, PermissionError)
+            reason = remedy(port) if denied else os.strerror(err.errno or errno.EIO)
             raise ConfigurationError(
-                f"modbus: cannot listen on {place(host, port)}: {err}"
+                f"modbus: cannot listen on {place(host, port)}: {reason}"
             ) from None
         loop.set_exception_handler(self._report)
         self.port = self._listener.port

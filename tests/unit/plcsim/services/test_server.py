@@ -1,5 +1,7 @@
 import asyncio
+import errno
 import json
+import socket
 import struct
 import threading
 from collections.abc import Awaitable, Callable, Iterator
@@ -244,10 +246,26 @@ def test_stopping_closes_the_connections_and_the_port_is_free_again(world: World
 def test_a_port_in_use_is_a_configuration_error(world: World) -> None:
     async def client(server: Server) -> None:
         taken = replace(SETTINGS, port=server.port)
-        with pytest.raises(ConfigurationError, match=f"cannot listen on 127.0.0.1:{server.port}"):
+        text = f"modbus: cannot listen on 127.0.0.1:{server.port}: Address already in use$"
+        with pytest.raises(ConfigurationError, match=text):
             await Server(world.server.device, taken, AuditLog("")).start()
 
     serve(world, client)
+
+
+def test_a_port_that_needs_rights_gets_the_remedy(
+    world: World, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def denied(*_: object, **__: object) -> socket.socket:
+        raise PermissionError(errno.EACCES, "Permission denied (while attempting to bind)")
+
+    async def start() -> None:
+        low = replace(SETTINGS, port=502)
+        await Server(world.server.device, low, AuditLog("")).start()
+
+    monkeypatch.setattr(socket, "create_server", denied)
+    with pytest.raises(ConfigurationError, match=r"127.0.0.1:502: 502 needs root.*port = 1502"):
+        asyncio.run(start())
 
 
 def test_a_peer_that_floods_does_not_hold_up_the_others(

@@ -7,6 +7,7 @@ import pytest
 
 from plcsim.cli.main import main
 from plcsim.tagmap import extension
+from plcsim.tagmap.ports import remedy
 
 PROGRAM = """
 from plcsim import Program
@@ -73,7 +74,7 @@ def test_a_port_that_needs_rights_is_noted(
     monkeypatch.setattr(extension, "unprivileged_ports", lambda: 1024)
     monkeypatch.setattr(extension, "may_use_privileged_ports", lambda: may)
     assert main(["check", str(with_modbus(project, "port = 1023"))]) == 0
-    shown = "on this host: modbus.port: 1023 needs root or CAP_NET_BIND_SERVICE"
+    shown = f"on this host: modbus.port: {remedy(1023)}"
     assert (shown in capsys.readouterr().out) is not may
     for port in (0, 1024):
         assert main(["check", str(with_modbus(project, f"port = {port}"))]) == 0

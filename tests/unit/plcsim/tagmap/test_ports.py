@@ -16,6 +16,11 @@ def test_the_first_port_for_everybody_is_the_hosts(
     assert ports.unprivileged_ports() == first
 
 
+def test_the_remedy_is_a_right_or_another_port() -> None:
+    assert "502 needs root or CAP_NET_BIND_SERVICE" in ports.remedy(502)
+    assert "port = 1502" in ports.remedy(502)
+
+
 @pytest.mark.parametrize(
     ("capabilities", "may"),
     [("000001ffffffffff", True), ("0000000000000400", True), ("0000000000000bff", False)],
