@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 from plcsim import realtime
 from plcsim.clock import MonotonicClock, VirtualClock
 from plcsim.controller import Controller
-from plcsim.errors import PlcError
+from plcsim.errors import ConfigurationError, PlcError
 from plcsim.extension import extensions, in_process, services_of
 from plcsim.network import OsNetwork, VirtualNetwork
-from plcsim.project import Project, load_setup, read_project
+from plcsim.project import FILE_NAME, Project, load_setup, read_project
 from plcsim.report import report
 from plcsim.shared_image import ImageWriter
 from plcsim.status_page import StatusPage
@@ -153,7 +153,10 @@ def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:
         return realtime.Rights((), ())
     rights = realtime.acquire(project.priority, project.cpu)
     if project.realtime == "require" and not rights.complete:
-        raise PlcError(f"plc.realtime: required, but {'; '.join(rights.refused)}")
+        file = project.folder / FILE_NAME
+        raise ConfigurationError(
+            f"{file}: plc.realtime: required, but not given: {'; '.join(rights.refused)}"
+        )
     return rights
 
 
