@@ -60,10 +60,12 @@ def acquire(priority: int, cpu: int | None) -> Rights:
 
     Args:
         priority: of SCHED_FIFO, 1 to 98.
-        cpu: the processor to stay on; None takes the last one allowed, if there are several.
+        cpu: the processor to stay on; None takes the last one allowed, if there are several, and so
+            does one that is not there.
     """
     granted: list[str] = []
-    refused: list[str] = []
+    missing = missing_cpu(cpu)
+    refused = [missing] if missing else []
     sharpen_timers()
     try:
         # What a program starts (a thread, a process) must not hold the scan up as its equal.
@@ -86,11 +88,20 @@ def acquire(priority: int, cpu: int | None) -> Rights:
 
 
 def scan_cpu(cpu: int | None) -> int | None:
-    """Return the processor for the scan: the given one, or the last of several allowed."""
+    """Return the processor for the scan: the given one if it is there, or the last of several."""
     allowed = sorted(os.sched_getaffinity(0))
-    if cpu is not None:
+    if cpu in allowed:
         return cpu
     return allowed[-1] if len(allowed) > 1 else None
+
+
+def missing_cpu(cpu: int | None) -> str:
+    """Return in words that a processor is not there for this process, "" where it is."""
+    allowed = sorted(os.sched_getaffinity(0))
+    if cpu is None or cpu in allowed:
+        return ""
+    numbers = ", ".join(map(str, allowed))
+    return f"there is no processor {cpu} for the scan, only {numbers}; {allowed[-1]} is taken"
 
 
 def _lock_memory(granted: list[str], refused: list[str]) -> None:

@@ -14,11 +14,13 @@ from plcsim.duration import format_duration
 from plcsim.extension import check_settings
 from plcsim.network import VirtualNetwork
 from plcsim.project import load_setup, read_project
+from plcsim.realtime import missing_cpu
 from st_types.views import address_of, type_of
 
 if TYPE_CHECKING:
     import argparse
 
+    from plcsim.project import Project
     from plcsim.task import TaskClass
 
 CHECK_IP = "192.168.0.10"
@@ -43,7 +45,7 @@ def check(options: argparse.Namespace) -> int:
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
     controller = Controller(load_setup(project), network=network, clock=clock)
-    notes = check_settings(project.extensions, controller)
+    notes = [*check_settings(project.extensions, controller), *notes_on_cpu(project)]
     console = CommandConsole()
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
@@ -60,6 +62,12 @@ def check(options: argparse.Namespace) -> int:
     for note in notes:
         console.print(f"on this host: {note}", soft_wrap=True)
     return 0
+
+
+def notes_on_cpu(project: Project) -> list[str]:
+    """Return what this host makes of ``plc.cpu``, where that is not what was asked for."""
+    missing = "" if project.realtime == "off" else missing_cpu(project.cpu)
+    return [f"plc.cpu: {missing}"] if missing else []
 
 
 def _add_rows(table: Table, task_class: TaskClass, controller: Controller) -> None:

@@ -56,15 +56,23 @@ def test_without_the_scheduler_nothing_else_is_taken(scheduler, monkeypatch):
 
 def test_a_processor_that_is_refused_does_not_matter(scheduler, monkeypatch):
     monkeypatch.setattr(os, "sched_setaffinity", refuse)
-    rights = realtime.acquire(50, 7)
+    rights = realtime.acquire(50, 1)
     assert rights.complete
-    assert rights.refused == ("CPU 7: Operation not permitted",)
+    assert rights.refused == ("CPU 1: Operation not permitted",)
+
+
+def test_a_processor_that_is_not_there_is_said_and_another_taken(scheduler):
+    rights = realtime.acquire(50, 7)
+    assert rights.refused == ("there is no processor 7 for the scan, only 0, 1, 2; 2 is taken",)
+    assert scheduler[1] == (0, {2})
+    assert [realtime.missing_cpu(cpu) for cpu in (None, 0, 1, 2)] == [""] * 4
 
 
 def test_the_scan_takes_the_last_of_several_processors(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3, 5, 4})
     assert realtime.scan_cpu(None) == 5
     assert realtime.scan_cpu(3) == 3
+    assert realtime.scan_cpu(7) == 5
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
     assert realtime.scan_cpu(None) is None
 

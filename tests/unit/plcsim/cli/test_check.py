@@ -81,6 +81,15 @@ def test_a_wrong_project_is_exit_code_1(cell, capsys):
     assert shown.err.startswith(f"plcsim: {cell / 'other' / 'main.py'}:1: ModuleNotFoundError")
 
 
+@pytest.mark.parametrize(("rights", "noted"), [("auto", True), ("off", False)])
+def test_a_processor_that_is_not_there_is_noted(cell, capsys, rights, noted):
+    plc = cell / "plc.toml"
+    plc.write_text(f'[plc]\ncpu = 1023\nrealtime = "{rights}"\n' + plc.read_text())
+    assert main(["check", str(cell)]) == 0
+    shown = capsys.readouterr().out
+    assert ("on this host: plc.cpu: there is no processor 1023 for the scan" in shown) is noted
+
+
 def test_too_little_memory_is_found(cell, capsys):
     (cell / "main" / "main.py").write_text(
         "from plcsim import Program\nfrom st_types import ARRAY, UINT, var\n"
