@@ -166,6 +166,19 @@ class Supervisor:
             time.sleep(POLL_S)  # Popen.wait(timeout) would wake five times as often
         return self._outcome()
 
+    def stay(self, look: Callable[[], None] = lambda: None) -> None:
+        """Stay up in SERVICE until `stop` is called: services and watchers read the last snapshot.
+
+        It lies in memory that this process holds.
+
+        Args:
+            look: called about every `POLL_S` seconds.
+        """
+        while not self._stops:
+            self.services.tend(time.monotonic_ns())
+            look()
+            time.sleep(POLL_S)
+
     def _watch(self, now_ns: int) -> None:
         """Signal, and later kill, what has been running for too long."""
         if self._result_seen_ns or os.fstat(self._result_fd).st_size:
@@ -246,6 +259,7 @@ class Supervisor:
 
     def _report_of_death(self, fault: ProgramError | None) -> dict[str, Any]:
         state = State.SERVICE if fault else State.STOPPED
+        self.page.changed(state)  # the scan process could not say so itself
         entry = {
             "time_ns": self.page.elapsed_ns,
             "severity": "error" if fault else "information",

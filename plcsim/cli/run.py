@@ -6,9 +6,11 @@ import argparse
 import contextlib
 import json
 import signal
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from plcsim.cli.check import notes_on_cpu
 from plcsim.cli.display import LiveTable, print_summary
 from plcsim.cli.output_file import check_output, write_output
 from plcsim.duration import parse_duration_ns
@@ -56,6 +58,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--report", type=Path, metavar="FILE", help="write the figures of the run as JSON"
     )
+    parser.add_argument(
+        "--stay",
+        action="store_true",
+        help="in SERVICE, do not end before Ctrl-C: the last values can still be read",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(func=run)
 
@@ -77,6 +84,9 @@ def run(options: argparse.Namespace) -> int:
     """Run the project and return the exit code."""
     project = read_project(options.project)
     check_output("--report", options.report)
+    if not (options.quiet or options.virtual):
+        for note in notes_on_cpu(project):
+            print(f"on this host: {note}", file=sys.stderr)
     supervisor = Supervisor(
         project,
         virtual=options.virtual,
@@ -86,7 +96,10 @@ def run(options: argparse.Namespace) -> int:
     )
     with supervisor, _signals_forwarded(supervisor):
         result = _wait(supervisor, project, options)
-        return _finish(result, options)  # a late Ctrl-C shall not cost the report
+        code = _finish(result, options)  # a late Ctrl-C shall not cost the report
+        if options.stay and code == ENDED_IN_SERVICE:
+            _stay(supervisor, options)
+        return code
 
 
 def _wait(supervisor: Supervisor, project: Project, options: argparse.Namespace) -> dict[str, Any]:
@@ -112,6 +125,13 @@ def _signals_forwarded(supervisor: Supervisor) -> Iterator[None]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def _stay(supervisor: Supervisor, options: argparse.Namespace) -> None:
+    if not options.quiet:
+        with contextlib.suppress(OSError):
+            print("The values of the last cycle can be read until Ctrl-C.", file=sys.stderr)
+    supervisor.stay()
 
 
 def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:

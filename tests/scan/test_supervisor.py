@@ -14,7 +14,10 @@ from pathlib import Path
 import pytest
 
 from plcsim import supervisor
+from plcsim.errors import PlcError
 from plcsim.project import read_project
+from plcsim.run_file import find_run
+from plcsim.status_page import StatusPage
 from plcsim.supervisor import Supervisor
 from plcsim.system import State
 
@@ -248,6 +251,29 @@ def test_ctrl_c_runs_the_exits(program, start):
     assert out.endswith("bye\n")
     assert "STOPPED" in err
     assert "Traceback" not in err
+
+
+@pytest.mark.parametrize("cyclic", ["1 // 0", "os.kill(os.getpid(), signal.SIGKILL)"])
+def test_in_service_a_run_that_stays_is_watched_until_ctrl_c(program, start, cyclic):
+    folder = program(cyclic=cyclic)
+    process = start("run", folder, "--stay")
+    assert any("until Ctrl-C" in line for line in process.stderr)
+    run = find_run(folder)
+    page = StatusPage(run.open(run.status_fd))
+    assert page.state is State.SERVICE
+    page.close()
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=20)
+    assert process.returncode == 3
+    with pytest.raises(PlcError, match="is not running"):
+        find_run(folder)
+
+
+def test_a_stop_before_service_is_not_forgotten(program):
+    with Supervisor(read_project(program(exit="1 // 0", cyclic=IN))) as supervised:
+        supervised.wait(lambda: supervised.page.heartbeat > 2 and supervised.stop())
+        supervised.stay()
+        assert supervised.page.state is State.SERVICE
 
 
 def test_a_termination_that_reaches_both_processes_is_one_stop(program, start):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 from plcsim.services.modbus.errors import Code, ModbusException
 from plcsim.shared_image import CommandRefused, ImageError, ImageNotReady, ScanWatch
+from plcsim.system import State
 from plcsim.tagmap.errors import IllegalAddress, IllegalValue
 from plcsim.tagmap.reading import Reads
 from plcsim.tagmap.status_block import ControllerStatus
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
     from plcsim.shared_image import Command, Directory
     from plcsim.tagmap.point import Area, Point
+
+STANDS_STILL: Final = "the scan stands still"
 
 
 class Image(Protocol):
@@ -109,12 +112,13 @@ class Device:
         self.is_alive = self._watch.is_alive(self.image.latest, now_ns)
 
     def read(self, area: Area, address: int, count: int) -> bytes:
-        """Return registers as on the wire, or packed bits.
+        """Return registers as on the wire, or packed bits; in SERVICE those of the last cycle.
 
         Raises:
             ModbusException: with the code for what is wrong.
         """
-        self._require_alive()
+        if not self.is_alive and self.status().state != State.SERVICE.value:
+            raise ModbusException(Code.SERVER_DEVICE_FAILURE, STANDS_STILL)
         try:
             return self.reads.read(area, address, count, self.image, self.status)
         except IllegalAddress as err:
@@ -140,7 +144,8 @@ class Device:
         Raises:
             ModbusException: with the code for what is wrong; nothing is written.
         """
-        self._require_alive()
+        if not self.is_alive:
+            raise ModbusException(Code.SERVER_DEVICE_FAILURE, STANDS_STILL)
         try:
             return self.image.send(make(self.writes))
         except IllegalAddress as err:
@@ -155,7 +160,3 @@ class Device:
     def is_written(self, ticket: int) -> bool:
         """Return True once the program has the write and the latest snapshot shows it."""
         return self.image.is_acknowledged(ticket)
-
-    def _require_alive(self) -> None:
-        if not self.is_alive:
-            raise ModbusException(Code.SERVER_DEVICE_FAILURE, "the scan stands still")

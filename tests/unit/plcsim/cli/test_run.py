@@ -53,6 +53,32 @@ def test_quiet_prints_nothing_but_errors(project_of, capsys):
     assert f"({place})" in shown.err
 
 
+def test_a_processor_that_is_not_there_is_noted(project_of, capsys):
+    folder = project_of(FAILS, plc="cpu = 1023")
+    for options, noted in (([], True), (["--quiet"], False), (["--virtual"], False)):
+        assert main(["run", str(folder), *options]) == 3
+        assert ("on this host: plc.cpu: there is no" in capsys.readouterr().err) is noted
+
+
+def test_in_service_a_run_can_stay_until_ctrl_c(project_of, capsys, monkeypatch):
+    stayed = []
+
+    def ctrl_c(supervisor):
+        stayed.append(supervisor.page.state.name)
+
+    monkeypatch.setattr(run.Supervisor, "stay", ctrl_c)
+    folder = project_of(FAILS)
+    assert main(["run", str(folder), *VIRTUAL, "--stay"]) == 3
+    *_, last = capsys.readouterr().err.splitlines()
+    assert last == "The values of the last cycle can be read until Ctrl-C."
+    assert main(["run", str(folder), *VIRTUAL, "--stay", "--quiet"]) == 3
+    assert "until Ctrl-C" not in capsys.readouterr().err
+    assert main(["run", str(folder), *VIRTUAL]) == 3
+    project_of(GOOD)
+    assert main(["run", str(folder), *VIRTUAL, "--stay"]) == 0
+    assert stayed == ["SERVICE", "SERVICE"]
+
+
 def test_the_time_is_that_of_the_controller(project_of, tmp_path):
     report = tmp_path / "report.json"
     folder = project_of(GOOD)

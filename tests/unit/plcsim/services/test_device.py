@@ -5,7 +5,7 @@ from plcsim.services.modbus.errors import Code, ModbusException
 from plcsim.shared_image import CommandRefused, Directory, ImageError, ImageNotReady
 from plcsim.shared_image.command import Command
 from plcsim.tagmap import Area, IllegalAddress, IllegalValue, Point
-from plcsim.tagmap.status_block import FIRST
+from plcsim.tagmap.status_block import FIRST, ControllerStatus
 
 HR = Area.HOLDING_REGISTERS
 POINT = Point("p.a", "hr", 0, 1, -1, "H", "ABCD", "rw", 4096, "H", 2)
@@ -80,6 +80,22 @@ def test_an_address_without_a_tag_has_a_code() -> None:
     assert code_of(device, address=5) == code_of(device, address=5, write=True) == 2
     with pytest.raises(ModbusException):
         device.check_read(HR, 5, 1)
+
+
+@pytest.mark.parametrize(("state", "readable"), [(1, False), (2, False), (3, True), (4, False)])
+def test_in_service_the_last_cycle_can_be_read_but_not_written(
+    state: int, *, readable: bool
+) -> None:
+    device = Device(Image(), [POINT], status=lambda: ControllerStatus(state))
+    device.tick(0)
+    device.tick(10_000_000_000)
+    assert not device.is_alive
+    assert code_of(device, write=True) == Code.SERVER_DEVICE_FAILURE
+    if readable:
+        assert device.read(HR, 0, 1) == b"\x12\x34"
+        assert device.read(Area.INPUT_REGISTERS, FIRST + 10, 1) == b"\0\3"
+    else:
+        assert code_of(device) == Code.SERVER_DEVICE_FAILURE
 
 
 def test_without_a_status_page_the_status_is_empty() -> None:

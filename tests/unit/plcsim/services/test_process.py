@@ -30,6 +30,8 @@ class Echo(Program):
     cycles = var(UDINT)
 
     def cyclic(self):
+        if self.wanted == 666:
+            raise RuntimeError("as told")
         self.seen = self.wanted
         self.cycles += 1
 """
@@ -57,11 +59,14 @@ class Site:
         self.project: Project = read_project(folder)
         self.supervisor = Supervisor(self.project)
         self.result: dict[str, object] = {}
+        self.stays = False
         self._thread = threading.Thread(target=self._wait)
         self._thread.start()
 
     def _wait(self) -> None:
         self.result = self.supervisor.wait()
+        if self.stays:
+            self.supervisor.stay()
 
     def stop(self) -> None:
         self.supervisor.stop()
@@ -158,11 +163,11 @@ def test_a_killed_service_is_back_within_a_second_and_has_lost_no_acknowledged_w
     assert cycles > 100
 
 
-def answered(client: socket.socket, expected: str) -> bool:
-    """Read until the answer starts as expected."""
+def answered(client: socket.socket, expected: str, pdu: str = "03 0000 0001") -> bool:
+    """Ask until the answer starts as expected."""
     deadline = time.monotonic() + 10
     while time.monotonic() < deadline:
-        if ask(client, bytes.fromhex("03 0000 0001")).hex().startswith(expected):
+        if ask(client, bytes.fromhex(pdu)).hex().startswith(expected):
             return True
         time.sleep(0.01)
     return False
@@ -190,6 +195,22 @@ def test_a_killed_scan_takes_its_service_with_it(site: Site) -> None:
         site.supervisor.services._services[0].stop()
         assert not Path(f"/proc/{service}").exists()
         assert ask(client, bytes.fromhex("03 0000 0001")) == b""
+
+
+def test_in_service_the_last_cycle_is_still_read_until_the_stop(site: Site) -> None:
+    site.stays = True
+    with site.connect() as client:
+        assert ask(client, bytes.fromhex("06 0000 0007")).hex() == "0600000007"
+        assert ask(client, bytes.fromhex("06 0000 029a")).hex() == "060000029a"
+        assert answered(client, "8604", "06 0000 0001")
+        assert ask(client, bytes.fromhex("03 0000 0002")).hex() == "0304029a0007"
+        assert ask(client, bytes.fromhex("04 fdf2 0001")).hex() == "04020003"
+        os.kill(site.service_pid(), signal.SIGKILL)
+    with site.connect() as client:
+        assert ask(client, bytes.fromhex("03 0000 0002")).hex() == "0304029a0007"
+    site.stop()
+    assert not site._thread.is_alive()
+    assert site.result["state"] == "SERVICE"
 
 
 def test_a_run_is_found_by_its_folder(site: Site) -> None:
