@@ -2,9 +2,12 @@
 
 from pathlib import Path
 
+import pytest
+
 from crosnode.extension import EXTENSION
 from crosnode.in_process_master import InProcessMaster
 from crosnode.project import create_node, surroundings
+from plcsim.cli.main import main
 from plcsim.clock import VirtualClock
 from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
@@ -14,6 +17,18 @@ from plcsim.task import Program
 from st_types import BOOL, UDINT, var
 
 MS = 1_000_000
+
+
+CELL = """
+from plcsim import Program
+from st_types import BOOL, var
+
+class Cell(Program):
+    on = var(BOOL)
+
+    def cyclic(self):
+        pass
+"""
 
 
 class Talker(Program):
@@ -79,6 +94,71 @@ def test_without_topics_there_is_no_bridge() -> None:
     plc.run(cycles=50)
     state = plc.context.library(InProcessMaster).master.get_system_state("/x")
     assert "plc_bridge" not in str(state)
+
+
+def check(tmp_path: Path, text: str) -> int:
+    """Write a project with a table [ros] and let ``plcsim check`` say what it thinks."""
+    (tmp_path / "cell").mkdir()
+    (tmp_path / "cell" / "main.py").write_text(CELL)
+    (tmp_path / "plc.toml").write_text(f'[task_class.1]\nprograms = ["cell"]\n[ros]\n{text}\n')
+    return main(["check", str(tmp_path)])
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        (
+            'publish."/on" = {tag = "cell.of", type = "std_msgs/Bool"}',
+            "ros.publish./on: no tag 'cell.of'",
+        ),
+        (
+            'subscribe."/on" = {tag = "cell.on", type = "std_msgs/String"}',
+            "ros.subscribe./on: tag cell.on is BOOL, which does not go with string",
+        ),
+        (
+            'publish."/on" = {tag = "cell.on", type = "std_srvs/SetBool"}',
+            "ros.publish./on.type: std_srvs/SetBool is a service; topics have messages",
+        ),
+        (
+            'publish."/on" = {tag = "cell.on", type = "std_msgs/Bol"}',
+            "ros.publish./on.type: No message type std_msgs/Bol.",
+        ),
+    ],
+)
+def test_check_says_what_a_run_would(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, error: str
+) -> None:
+    assert check(tmp_path, text) == 1
+    assert f"plcsim: {tmp_path}/plc.toml: {error}" in capsys.readouterr().err
+
+
+def test_check_opens_nothing_and_needs_no_master(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = 'master = "http://nowhere:1/"\nbind = "192.0.2.1"\nhost = "nobody"\n'
+    assert (
+        check(tmp_path, f'{text}publish."/on" = {{tag = "cell.on", type = "std_msgs/Bool"}}') == 0
+    )
+    assert "on this host" not in capsys.readouterr().out
+
+
+def test_only_an_embedded_master_outside_of_tests_is_a_service() -> None:
+    def service(master: str, *, in_process: bool) -> str:
+        table = Table(Path("plc.toml"), "ros", {"master": master})
+        settings = EXTENSION.read(table, Path())
+        return EXTENSION.service(EXTENSION.in_process(settings, "") if in_process else settings)
+
+    assert service("embedded", in_process=False) == "crosnode.master_service"
+    assert service("embedded", in_process=True) == ""
+    assert service("http://localhost:11311/", in_process=False) == ""
+
+
+def test_the_logbook_says_once_that_a_program_misses_its_master() -> None:
+    plc = controller(master="http://192.168.0.99:11311/")
+    plc.boot()
+    plc.run(cycles=8_000)
+    lines = [entry.text for entry in plc.logbook if entry.source == "ros"]
+    assert lines == ["/talker: no master at http://192.168.0.99:11311/; trying on"]
 
 
 def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() -> None:
