@@ -53,7 +53,7 @@ def watch(options: argparse.Namespace) -> int:
         pids = ", ".join(str(other.pid) for other in others)
         print(
             f"{len(others) + 1} runs of this project; this is the one that was started last, "
-            f"process {run.pid}; the others are {pids}",
+            f"process {run.pid}; others: {pids}",
             file=sys.stderr,
         )
     fd = run.open(run.image_fd)

@@ -99,7 +99,7 @@ def test_of_several_runs_the_one_started_last_is_shown(
     assert shown.out.split()[-3:] == ["cell.count", "7", "UINT"]
     assert shown.err == (
         "2 runs of this project; this is the one that was started last, process "
-        f"{os.getpid()}; the others are {other.pid}\n"
+        f"{os.getpid()}; others: {other.pid}\n"
     )
 
 
