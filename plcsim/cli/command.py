@@ -8,6 +8,7 @@ import io
 import os
 import sys
 from importlib.metadata import entry_points, version
+from typing import TextIO
 
 from plcsim.cli import check, doctor, new, report, run, tags, types, watch
 from plcsim.errors import PlcError
@@ -47,18 +48,22 @@ def run_command(arguments: list[str] | None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:  # the reader has seen enough, as `head` has
-        _drop_output()
+        pass
     except (PlcError, TypeSystemError, OSError) as err:
-        print(f"plcsim: {err}", file=sys.stderr)
-        _drop_output()
-        return 1
+        with contextlib.suppress(OSError):
+            print(f"plcsim: {err}", file=sys.stderr)
+        code = 1
+    _drop_output(sys.stdout)
+    _drop_output(sys.stderr)
     return code
 
 
-def _drop_output() -> None:
-    """Let nothing that could not be written fail again at the end of the process."""
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        sys.stdout.flush()
+def _drop_output(stream: TextIO | None) -> None:
+    """Let nothing that could not be written fail again at the end: Python would exit with 120."""
+    if stream is None:  # closed before the process began
         return
-    with contextlib.suppress(OSError, ValueError, AttributeError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with contextlib.suppress(OSError, ValueError):
+        stream.flush()
+        return
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -58,12 +58,14 @@ class Running:
     @property
     def service_pid(self) -> int:
         """The process that serves Modbus."""
-        found = subprocess.run(
-            ["ps", "--ppid", str(self._process.pid), "-o", "pid=,args="],
-            capture_output=True, text=True, check=True,
-        )  # fmt: skip
-        (line,) = [line for line in found.stdout.splitlines() if "services.modbus" in line]
-        return int(line.split()[0])
+        tasks = Path(f"/proc/{self._process.pid}/task").glob("*/children")
+        children = " ".join(task.read_text() for task in tasks).split()
+        (found,) = [
+            child
+            for child in children
+            if "services.modbus" in Path(f"/proc/{child}/cmdline").read_text()
+        ]
+        return int(found)
 
     def report(self) -> dict[str, Any]:
         """Return the report of the run, after `stop`."""

@@ -146,7 +146,8 @@ def test_a_run_that_nobody_reads_keeps_its_report_and_exit_code(project_of, tmp_
     if full:
         os.close(broken)
         broken = os.open("/dev/full", os.O_WRONLY)
-    done = subprocess.run([*command, "--report", report], stderr=broken, check=False)
+    buffered = {k: v for k, v in os.environ.items() if k != "PYTHONUNBUFFERED"}
+    done = subprocess.run([*command, "--report", report], stderr=broken, env=buffered, check=False)
     os.close(broken)
     assert done.returncode == 3
     assert json.loads(report.read_text())["state"] == "SERVICE"
