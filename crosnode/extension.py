@@ -18,6 +18,9 @@ from plcsim.errors import ConfigurationError
 from plcsim.extension import Attachment
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from crosnode.master_server import MasterServer
     from plcsim.context import Context
     from plcsim.controller import Controller
     from plcsim.table import Table
@@ -28,6 +31,7 @@ LOOK_NS: Final = 500_000_000
 """Nanoseconds between two looks at whether the programs' nodes have their master."""
 
 CHECK_IP: Final = "192.168.0.10"
+"""Of the controller of `RosExtension.check`, on a network with nobody else."""
 
 
 class RosExtension:
@@ -40,11 +44,8 @@ class RosExtension:
         types = MessageTypes(settings.packages)
         for key, entries in (("publish", settings.publish), ("subscribe", settings.subscribe)):
             for entry in entries:
-                try:
-                    types.message(entry.type_name)
-                except CrosnodeError as error:
-                    text = _service_hint(types, entry.type_name) or str(error)
-                    raise table.error(f"{key}.{entry.topic}.type", text) from None
+                if misfit := _misfit(types, entry.type_name):
+                    raise table.error(f"{key}.{entry.topic}.type", misfit)
         return settings
 
     def in_process(self, settings: RosSettings, ip: str) -> RosSettings:
@@ -76,11 +77,7 @@ class RosExtension:
         found = Surroundings(settings, epoch_ns, time.perf_counter_ns)
         first = min(controller.classes, key=lambda each: each.cycle_ns)
         if settings.is_embedded and settings.is_in_process:
-            # not at the top: beside a master in its own process the scan has no use for it
-            from crosnode.in_process_master import InProcessMaster, MasterStep  # noqa: PLC0415
-
-            found = found._replace(master=InProcessMaster)
-            controller.image.inputs.append(MasterStep(controller.context, first))
+            found = found._replace(master=_master_in_scan(controller, first))
         controller.context.options[OPTIONS] = {"surroundings": found}
         if settings.publish or settings.subscribe:
             step = _BridgeStep(controller, first, settings.file)
@@ -107,13 +104,28 @@ def _for_service(settings: RosSettings) -> dict[str, object]:
     }
 
 
-def _service_hint(types: MessageTypes, name: str) -> str:
-    """Return what is wrong where a service stands in the place of a message, else ""."""
+def _misfit(types: MessageTypes, name: str) -> str:
+    """Return why a topic cannot have a type, "" where it can."""
     try:
-        types.service(name)
-    except CrosnodeError:
-        return ""
-    return f"{name} is a service; topics have messages"
+        types.message(name)
+    except CrosnodeError as error:
+        try:
+            types.service(name)
+        except CrosnodeError:
+            return str(error)
+        return f"{name} is a service; topics have messages"
+    return ""
+
+
+def _master_in_scan(
+    controller: Controller, task_class: TaskClass
+) -> Callable[[Context], MasterServer]:
+    """Let the master do its step in LATCH; return what makes it."""
+    # not at the top: beside a master in its own process the scan has no use for it
+    from crosnode.in_process_master import InProcessMaster, MasterStep  # noqa: PLC0415
+
+    controller.image.inputs.append(MasterStep(controller.context, task_class))
+    return InProcessMaster
 
 
 class _WatchStep:
@@ -126,7 +138,7 @@ class _WatchStep:
 
     def __call__(self, task_class: TaskClass) -> None:
         context = self._controller.context
-        if context.release_ns < self._next_ns or task_class is not self._class:
+        if task_class is not self._class or context.release_ns < self._next_ns:
             return
         self._next_ns = context.release_ns + LOOK_NS
         for severity, text in context.library(MasterWatch).look(context.release_ns):
