@@ -17,6 +17,7 @@ from crosnode.errors import InvalidNameError
 from crosnode.hosts import parse_hosts
 from crosnode.master_server import MasterOptions, MasterServer, first_parameters
 from crosnode.uri import make_uri, parse_uri
+from plcsim import descriptors
 from plcsim.context import Context
 from plcsim.errors import ConfigurationError
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST, tcpERR_INTERFACE, tcpERR_SOCKET_BIND
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 
 REST_S: Final = 0.001
 IDENTS: Final = 4096
+SPARE_DESCRIPTORS: Final = 64
+"""For everything but connections."""
+
 HOSTS: Final = Path("/etc/hosts")
 
 
@@ -59,6 +63,7 @@ class MasterProcess:
     """
 
     def __init__(self, host: str, port: int, bind_ip: str, hosts: Mapping[str, str]) -> None:
+        descriptors.allow(IDENTS + SPARE_DESCRIPTORS)
         self._context = Context(Memory(), OsNetwork(), {"AsTCP": {"idents": IDENTS}})
         pid = os.getpid()
         options = MasterOptions(

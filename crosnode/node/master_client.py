@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from crosnode.xmlrpc import Value
 
 PING_NS: Final = 1_000_000_000
-FIRST_RETRY_NS: Final = 50_000_000
+FIRST_RETRY_NS: Final = 20_000_000
 LONGEST_RETRY_NS: Final = 1_000_000_000
 SETTLE_NS: Final = 5_000_000_000
 """Nanoseconds that other nodes have to register with a master that was started again."""

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import errno
-import os
-import resource
 import socket
 import struct
 from contextlib import suppress
-from fcntl import F_DUPFD_CLOEXEC, fcntl
 from typing import Final
 
+from plcsim import descriptors
 from plcsim.network.protocol import (
     ANY_IP,
     BUFFERS,
@@ -76,22 +74,6 @@ _OPTIONS: Final = {
 }
 
 _LINGER: Final = struct.Struct("ii")
-
-DESCRIPTORS: Final = 4_096
-"""The process has room for so many from the start."""
-
-
-def make_room_for_descriptors() -> None:
-    """Let the kernel's table of descriptors grow now, and not in a cycle.
-
-    It doubles when it is full. Where a process has threads, those of numpy for example, the call
-    that needs the next descriptor then sleeps until no processor uses the old table (Linux,
-    expand_fdtable: synchronize_rcu): an accept(2) of 7 to 16 ms at descriptor 256.
-    """
-    most, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
-    with socket.socket() as any_socket, suppress(OSError):
-        os.close(fcntl(any_socket.fileno(), F_DUPFD_CLOEXEC, min(DESCRIPTORS, most) - 1))
-
 
 _NOTHING_YET: Final = Received(Outcome.WOULD_BLOCK)
 _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
@@ -285,7 +267,7 @@ class OsNetwork:
     """The TCP of the host this process runs on."""
 
     def __init__(self) -> None:
-        make_room_for_descriptors()
+        descriptors.make_room()
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See ``Network.open``."""

@@ -9,13 +9,12 @@ from __future__ import annotations
 import asyncio
 import importlib
 import json
-import resource
 import signal
 import sys
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim import realtime
+from plcsim import descriptors, realtime
 from plcsim.errors import PlcError
 from plcsim.extension import ServiceOrder
 from plcsim.services.modbus.audit import AuditLog
@@ -68,7 +67,7 @@ async def _serve(order: ServiceOrder) -> int:
         Identity(revision=version("plcsim"), project=image.directory.project),
         _status_reader(order, given["first_class"], image.layout_hash),
     )
-    _allow_descriptors(settings.connections + SPARE_DESCRIPTORS)
+    descriptors.allow(settings.connections + SPARE_DESCRIPTORS)
     stopped = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
@@ -85,14 +84,6 @@ async def _serve(order: ServiceOrder) -> int:
         await stopped.wait()
         await server.stop()
     return 0
-
-
-def _allow_descriptors(wanted: int) -> None:
-    """Raise the limit of this process; beyond the system's, connections wait for free ones."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    if soft < wanted:
-        most = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
-        resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
 
 
 def _status_reader(

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from plcsim.descriptors import ROOM
 from plcsim.network import Address, OsNetwork, Outcome
-from plcsim.network.os_network import DESCRIPTORS, OsSocket
+from plcsim.network.os_network import OsSocket
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -156,7 +157,7 @@ def test_a_connection_by_loopback_is_refused_after_the_listener_is_gone(
 
 
 def test_the_table_of_descriptors_does_not_grow_while_connections_come() -> None:
-    wanted = min(DESCRIPTORS, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
+    wanted = min(ROOM, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
     code = (
         "import re; from plcsim.network import OsNetwork; OsNetwork();"
         "print(re.search(r'FDSize:\\s+(\\d+)', open('/proc/self/status').read())[1])"
