@@ -9,16 +9,22 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+POLL_WORK: Final = 1_024
+"""Price of looking at a connection."""
+
+TRANSFER_WORK: Final = 8_192
+"""Price of a read that gave bytes and of a write, beside the bytes."""
+
 MESSAGE_WORK: Final = 4_096
 """Price of a message, a request or a reply, beside its bytes."""
 
-CONNECTION_WORK: Final = 32_768
+CONNECTION_WORK: Final = 49_152
 """Price of a connection that is made, taken, or ended, and of its header."""
 
-CALL_WORK: Final = 49_152
+CALL_WORK: Final = 32_768
 """Price of an XML-RPC call that is sent."""
 
-XMLRPC_WORK: Final = 65_536
+XMLRPC_WORK: Final = 98_304
 """Price of an XML-RPC call that is taken and answered, or of an answer."""
 
 

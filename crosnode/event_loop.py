@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
-from crosnode.budget import CONNECTION_WORK
+from crosnode.budget import CONNECTION_WORK, POLL_WORK
 from crosnode.link import Link
 from crosnode.tcpip_socket import SocketPool, TcpipSocketState
 
@@ -200,7 +200,8 @@ class EventLoop:
             if not link.is_over:  # another link's event may have ended it
                 link.step(now_ns, budget)
             if budget.is_short:  # a link that could do nothing goes first, another goes last
-                return (turn if budget.work == work else turn + 1) % count
+                had_to_wait = work - budget.work <= POLL_WORK
+                return (turn if had_to_wait else turn + 1) % count
         return (start + (turns if turns < count else 1)) % max(1, count)
 
     def _remove_ended(self) -> None:

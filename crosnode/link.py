@@ -8,7 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
-from crosnode.budget import CONNECTION_WORK, MESSAGE_WORK, XMLRPC_WORK
+from crosnode.budget import (
+    CONNECTION_WORK,
+    MESSAGE_WORK,
+    POLL_WORK,
+    TRANSFER_WORK,
+    XMLRPC_WORK,
+)
 from crosnode.connection import Failed, State
 from crosnode.dyn_buffer import DynBuffer
 from crosnode.tcpip_socket import AREA_SIZE, TcpipSocketState
@@ -135,6 +141,7 @@ class Link:
     def step(self, now_ns: int, budget: Budget) -> None:
         """Do what can be done now within the budget."""
         budget.polls -= 1
+        budget.work -= POLL_WORK
         if not self._is_up and not self._connect(now_ns):
             return
         self._turn += 1
@@ -203,7 +210,7 @@ class Link:
 
     def _count(self, received: int, budget: Budget) -> None:
         self.bytes_in += received
-        budget.work -= received
+        budget.work -= TRANSFER_WORK + received
         if self._xmlrpc:
             budget.bytes_parsed -= received
         else:
@@ -244,7 +251,7 @@ class Link:
         state, written = self.socket.write_buffer_ex(self._outbox, size)
         self.bytes_out += written
         budget.bytes_out -= written
-        budget.work -= 0 if self._xmlrpc else written  # in the price of the call
+        budget.work -= TRANSFER_WORK + (0 if self._xmlrpc else written)  # in the call's price
         if state not in (_DONE, _IN_PROGRESS):
             self.abort(f"{self.peer} is gone", now_ns)
 
