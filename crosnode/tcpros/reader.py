@@ -17,13 +17,16 @@ if TYPE_CHECKING:
 _LENGTH: Final = struct.Struct("<I")
 
 AHEAD: Final = 1 << 20
-"""Bytes of a large block that are laid out at once."""
+"""Bytes of a large block that are laid out at once, where the first of it has come."""
+
+FIRST: Final = 1 << 16
+"""Bytes that are laid out for a peer that has said no more than a length."""
 
 
 class LargeBlock:
     """A block of ``size`` bytes that is filled as they come.
 
-    No more than ``AHEAD`` bytes are laid out before they have come.
+    No more than ``FIRST`` bytes, and later ``AHEAD``, are laid out before they have come.
 
     Attributes:
         data: the bytes that came, and room for more.
@@ -34,7 +37,7 @@ class LargeBlock:
 
     def __init__(self, size: int) -> None:
         self._size = size
-        self.data = bytearray(min(size, AHEAD))
+        self.data = bytearray(min(size, FIRST))
         self.have = 0
 
     @property
@@ -46,7 +49,7 @@ class LargeBlock:
         """Take bytes; return those that belong to what follows the block."""
         while data and self.have < self._size:
             if self.have == len(self.data):
-                self.data += bytes(min(AHEAD, self._size - self.have))
+                self.data += bytes(min(AHEAD - self.have % AHEAD, self._size - self.have))
             piece = min(len(data), len(self.data) - self.have)
             self.data[self.have : self.have + piece] = data[:piece]
             self.have += piece
@@ -111,7 +114,7 @@ class ByteReader:
         Where they do not fit into one read they go to their place as they are fed, and what is
         returned is a read-only view of it. Raises as ``exactly`` does.
         """
-        if size <= AHEAD // 16:
+        if size <= FIRST:
             return (yield from self.exactly(size))
         block = LargeBlock(size)
         with memoryview(self._buffer) as data:

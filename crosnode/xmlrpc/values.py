@@ -108,6 +108,9 @@ class ValueParser:
     def close(self) -> Call | Response | Fault:
         """Return what the document says; raises as ``feed`` does."""
         self._parse(b"", is_final=True)
+        # The parser and this object hold each other; without a collector they would stay.
+        self._parser.StartElementHandler = self._parser.EndElementHandler = None
+        self._parser.CharacterDataHandler = None
         try:
             params = self._target.close()
         except xmlrpc.client.Fault as fault:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import crosnode.tcpros.reader as reader_module
 from crosnode.errors import TcprosError
-from crosnode.tcpros.reader import ByteReader, length_of
+from crosnode.tcpros.reader import AHEAD, FIRST, ByteReader, length_of
 
 
 def test_exactly_waits_for_bytes() -> None:
@@ -56,11 +56,19 @@ def test_more() -> None:
     assert done.value.value is False
 
 
-@given(st.binary(max_size=2000), st.lists(st.integers(1, 600), min_size=1), st.integers(1, 400))
-def test_a_large_block_is_the_same_for_any_split(body: bytes, sizes: list[int], ahead: int) -> None:
+@given(
+    st.binary(max_size=2000),
+    st.lists(st.integers(1, 600), min_size=1),
+    st.integers(1, 400),
+    st.integers(1, 100),
+)
+def test_a_large_block_is_the_same_for_any_split(
+    body: bytes, sizes: list[int], ahead: int, first: int
+) -> None:
     data = length_of(body) + body + b"next"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(reader_module, "AHEAD", ahead)
+        patch.setattr(reader_module, "FIRST", first)
         reader, place, found = ByteReader(), 0, None
         parser = reader.large_block(5000, "message")
         for size in itertools.cycle(sizes):
@@ -75,6 +83,17 @@ def test_a_large_block_is_the_same_for_any_split(body: bytes, sizes: list[int], 
     assert bytes(found) == body
     assert bytes(reader._buffer) == b"next"
     assert not isinstance(found, memoryview) or found.readonly
+
+
+def test_a_length_alone_lays_out_little() -> None:
+    reader = ByteReader()
+    reader.feed(struct.pack("<I", 64 << 20))
+    parser = reader.large_block(64 << 20, "message")
+    next(parser)
+    assert reader._large is not None
+    assert len(reader._large.data) == FIRST
+    reader.feed(bytes(FIRST + 1))
+    assert len(reader._large.data) == AHEAD
 
 
 def test_a_large_block_that_ends_early_is_an_error() -> None:
