@@ -13,6 +13,8 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from _ports import free_port
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -44,11 +46,6 @@ ECHO = ["load.echo_in,hr,0", "load.echo_out,hr,1"]
 WRITTEN_AT, TORN_AT = 200, 400
 WRITTEN = [f"load.written[{i}],hr,{i + WRITTEN_AT - 1}" for i in range(1, 121)]
 TORN = [f"load.torn,hr,{TORN_AT}"]
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return int(probe.getsockname()[1])
 
 
 def build(folder: Path, name: str, *flags: str) -> Path | None:

@@ -47,7 +47,6 @@ from _modbus_site import (
     build,
     child_with,
     cpu_s,
-    free_port,
     make_project,
     registers,
     result_of,
@@ -56,6 +55,7 @@ from _modbus_site import (
     start_client,
     wait_for,
 )
+from _ports import free_port
 from _stalls import StallWatch
 
 CONNECTIONS = (1, 10, 50)
@@ -223,7 +223,7 @@ def killed(folder: Path, client: Path) -> dict[str, Any]:
             load = subprocess.Popen(
                 [str(client), "load", str(site.port), "4", "125", "60"], stderr=subprocess.DEVNULL
             )
-            time.sleep(1)
+            time.sleep(1)  # let it come to its full rate
             os.kill(site.service, signal.SIGKILL)
             killed_at = time.monotonic()
             load.wait()  # its connections are reset

@@ -13,7 +13,6 @@ import argparse
 import gc
 import json
 import os
-import socket
 import subprocess
 import sys
 import time
@@ -22,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from _outcome import Target, console, number_above_0, print_machine
+from _ports import free_port
 from _ros_peer import make_node
 from rich.table import Table
 
@@ -86,19 +86,13 @@ CASES = [
 ]
 
 
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
 def run(case: Case, seconds: int) -> dict[str, Any]:
     """Run a case; the first second, in which all connect, is not counted."""
     port = free_port()
     command = [sys.executable, str(HERE / "_ros_peer.py"), str(port), *case.peer.split()]
     peer = subprocess.Popen(command, preexec_fn=ordinary)  # noqa: PLW1509  # no threads here
     try:
-        time.sleep(1.5)
+        time.sleep(1.5)  # the peer has registered, and stands as a talker that was there before
         context, node = make_node("plc", port, clock_ns=time.perf_counter_ns)
         case.register(node)
         statistics = Histogram()

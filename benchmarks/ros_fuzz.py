@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from _outcome import console, figures_table, number_above_0, print_machine, write_json
-from node_step import free_port
+from _ports import free_port
 from ros_processes import HOST, PLCSIM, Process, Project, ServiceProcess, answers, still_answers
 
 from crosnode.testing import Attacker, HostilePeers
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 MOST_OPEN = 200
 FLOOD_EVERY_S = 4.0
 FLOOD_S = 1.0
+"""So long the flood stands, silent, while the system goes on."""
 STEP_S = 0.001
 
 MOST_GROWTH_KIB = 32 * 1024

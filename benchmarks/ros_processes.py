@@ -14,7 +14,7 @@ import xmlrpc.client
 from pathlib import Path
 from typing import Any
 
-from modbus_load import child_with
+from _modbus_site import child_with
 
 from crosnode.tcpros.header import encode_header
 from crosnode.testing import Door, Speaks

@@ -31,8 +31,9 @@ from _outcome import (
     print_targets,
     write_json,
 )
+from _ports import free_port
 from _ros_peer import HOST, make_node
-from node_step import BYTES, STRING, free_port
+from node_step import BYTES, STRING
 from ros_processes import answers
 
 from crosnode.budget import UNPACED
@@ -65,7 +66,7 @@ else:
     rospy.Subscriber("/in", cls, heard, tcp_nodelay=True, buff_size=1 << 22)
     while not count[0]:
         time.sleep(0.01)
-    time.sleep(0.5)
+    time.sleep(0.5)  # past the start
     before, start = count[0], time.monotonic()
     time.sleep(seconds)
     print("RATE", (count[0] - before) / (time.monotonic() - start), flush=True)
