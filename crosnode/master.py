@@ -16,7 +16,7 @@ from crosnode.names import PRIVATE, SEPARATOR, join, namespace_of
 from crosnode.parameters import ParameterTree, changes_for, slashed
 from crosnode.registrations import ANY_TYPE, Graph, Node, Registrations, Replaced
 from crosnode.uri import parse_uri
-from crosnode.xmlrpc import Call, Fault, Response, Value, check_value, run_multicall
+from crosnode.xmlrpc import MULTICALL, Call, Fault, Response, Value, check_value, run_multicall
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -92,7 +92,7 @@ class Master:
     def handle(self, call: Call) -> Answer:
         """Answer a request, ``system.multicall`` included."""
         self._calls = []
-        if call.method == "system.multicall":
+        if call.method == MULTICALL:
             reply: Response | Fault = Response(list(run_multicall(call.params, self._answer)))
         else:
             reply = self._answer(call)
@@ -109,7 +109,7 @@ class Master:
 
     def _answer(self, call: Call) -> Response | Fault:
         if call.method == "system.listMethods":
-            return Response([*METHODS, "system.listMethods", "system.multicall"])
+            return Response([*METHODS, "system.listMethods", MULTICALL])
         method = METHODS.get(call.method)
         if method is None:
             return Fault(1, f"method {call.method[:100]!r} is not supported")

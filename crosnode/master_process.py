@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
 REST_S: Final = 0.001
 IDENTS: Final = 4096
-SPARE_DESCRIPTORS: Final = 64
-"""For everything but connections."""
-
 HOSTS: Final = Path("/etc/hosts")
 
 
@@ -63,7 +60,7 @@ class MasterProcess:
     """
 
     def __init__(self, host: str, port: int, bind_ip: str, hosts: Mapping[str, str]) -> None:
-        descriptors.allow(IDENTS + SPARE_DESCRIPTORS)
+        descriptors.allow(IDENTS + descriptors.SPARE)
         self._context = Context(Memory(), OsNetwork(), {"AsTCP": {"idents": IDENTS}})
         pid = os.getpid()
         options = MasterOptions(

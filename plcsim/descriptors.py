@@ -8,6 +8,9 @@ from contextlib import suppress
 from fcntl import F_DUPFD_CLOEXEC, fcntl
 from typing import Final
 
+SPARE: Final = 64
+"""A process that serves connections needs so many for everything else."""
+
 ROOM: Final = 4_096
 """The process has room for so many from the start."""
 

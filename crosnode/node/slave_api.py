@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 from crosnode.names import canonical
 from crosnode.node.status import StatusKind
 from crosnode.xmlrpc import (
+    MULTICALL,
     Call,
     CallReceived,
     Fault,
@@ -73,7 +74,7 @@ class SlaveApi:
             connection, XmlRpcServerConnection
         ):
             return
-        if event.method == "system.multicall":
+        if event.method == MULTICALL:
             connection.respond(run_multicall(event.params, self.answer))
             return
         reply = self.answer(Call(event.method, event.params))
@@ -95,7 +96,7 @@ class SlaveApi:
     def answer(self, call: Call) -> Response | Fault:
         """Answer one call."""
         if call.method == "system.listMethods":
-            return Response([*_METHODS, "system.listMethods", "system.multicall"])
+            return Response([*_METHODS, "system.listMethods", MULTICALL])
         method = _METHODS.get(call.method)
         if method is None:
             return Fault(1, f"method {call.method[:100]!r} is not supported")

@@ -11,7 +11,7 @@ from crosnode.xmlrpc.connection import (
     XmlRpcConnection,
     XmlRpcServerConnection,
 )
-from crosnode.xmlrpc.multicall import run_multicall, split_multicall
+from crosnode.xmlrpc.multicall import MULTICALL, run_multicall
 from crosnode.xmlrpc.values import (
     Call,
     Fault,
@@ -23,6 +23,7 @@ from crosnode.xmlrpc.values import (
 from crosnode.xmlrpc.writer import check_value
 
 __all__ = [
+    "MULTICALL",
     "Call",
     "CallReceived",
     "Event",
@@ -40,5 +41,4 @@ __all__ = [
     "XmlRpcServerConnection",
     "check_value",
     "run_multicall",
-    "split_multicall",
 ]

@@ -14,7 +14,7 @@ from crosnode.xmlrpc.values import Call, Fault, Response, Value
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-METHOD: Final = "system.multicall"
+MULTICALL: Final = "system.multicall"
 MAX_CALLS: Final = 1_000
 
 MAX_VALUES: Final = 20_000
@@ -30,9 +30,9 @@ TOO_LARGE: Final = Fault(REPLY_TOO_LARGE, f"the answers before have more than {M
 def split_multicall(params: list[Value]) -> list[Call | Fault]:
     """Return the calls in one call's parameters, with a fault in the place of each that is none."""
     if len(params) != 1 or not isinstance(params[0], list):
-        return [Fault(INVALID_PARAMETERS, f"{METHOD} takes one list of structs")]
+        return [Fault(INVALID_PARAMETERS, f"{MULTICALL} takes one list of structs")]
     if len(params[0]) > MAX_CALLS:
-        return [Fault(INVALID_PARAMETERS, f"{METHOD} takes at most {MAX_CALLS} calls")]
+        return [Fault(INVALID_PARAMETERS, f"{MULTICALL} takes at most {MAX_CALLS} calls")]
     return [_call(entry) for entry in params[0]]
 
 
@@ -41,8 +41,8 @@ def _call(entry: Value) -> Call | Fault:
     params = entry.get("params", []) if isinstance(entry, dict) else None
     if not isinstance(method, str) or not isinstance(params, list):
         return Fault(INVALID_PARAMETERS, "expected a struct of methodName and params")
-    if method == METHOD:
-        return Fault(INVALID_PARAMETERS, f"{METHOD} within {METHOD}")
+    if method == MULTICALL:
+        return Fault(INVALID_PARAMETERS, f"{MULTICALL} within {MULTICALL}")
     return Call(method, params)
 
 

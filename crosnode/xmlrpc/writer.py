@@ -68,11 +68,6 @@ def dump_call(method: str, params: Sequence[Value]) -> bytes:
     ).encode()
 
 
-def dump_response(value: Value) -> bytes:
-    """Return the XML of a reply; raises as ``dump_call`` does."""
-    return "".join(_response(value)).encode()
-
-
 def dump_fault(fault: Fault) -> bytes:
     """Return the XML of a fault; what XML cannot hold in its text is replaced."""
     value = {"faultCode": fault.code, "faultString": _NOT_XML.sub("?", fault.text)}

@@ -7,7 +7,6 @@ no earlier.
 
 from __future__ import annotations
 
-import difflib
 import struct
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +14,7 @@ from plcsim.services.modbus.connection import Connection, Limits
 from plcsim.services.modbus.device import Device, Identity
 from plcsim.services.modbus.errors import Code, ModbusException
 from plcsim.services.modbus.handler import Handler, Rights
+from plcsim.suggestion import did_you_mean
 from plcsim.system import State
 from plcsim.tagmap.load import load_map
 from plcsim.tagmap.point import Area
@@ -119,10 +119,8 @@ class Modbus:
         points = self._by_tag.get(tag.upper())
         if points is None:
             names = {point.tag: None for each in self._by_tag.values() for point in each}
-            near = ", ".join(difflib.get_close_matches(tag, names))
-            raise PlcTestError(
-                f"{tag} is not in the map of [modbus]{f'; did you mean {near}?' if near else ''}"
-            )
+            near = did_you_mean(tag, names, most=3)
+            raise PlcTestError(f"{tag} is not in the map of [modbus]{near}")
         # where none suits, the server says so
         return next(filter(suits, points), points[0])
 

@@ -12,7 +12,7 @@ import json
 import signal
 import sys
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from plcsim import descriptors, realtime
 from plcsim.errors import PlcError
@@ -29,9 +29,6 @@ from plcsim.tagmap.status_block import ControllerStatus
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-SPARE_DESCRIPTORS: Final = 64
-"""For everything but connections."""
 
 
 def main() -> int:
@@ -67,7 +64,7 @@ async def _serve(order: ServiceOrder) -> int:
         Identity(revision=version("plcsim"), project=image.directory.project),
         _status_reader(order, given["first_class"], image.layout_hash),
     )
-    descriptors.allow(settings.connections + SPARE_DESCRIPTORS)
+    descriptors.allow(settings.connections + descriptors.SPARE)
     stopped = asyncio.Event()
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):

@@ -17,13 +17,20 @@ from crosnode.xmlrpc.values import (
     ValueParser,
 )
 from crosnode.xmlrpc.writer import (
+    ResponseWriter,
     check_value,
     dump_call,
     dump_fault,
-    dump_response,
 )
 
 LIMITS = ValueLimits()
+
+
+def dump_response(value: object) -> bytes:
+    """Return a reply that is written in one part."""
+    document = ResponseWriter(value).write(10**9)
+    assert document is not None
+    return document
 
 
 def parse(document: bytes, size: int = 10**9, limits: ValueLimits = LIMITS) -> object:

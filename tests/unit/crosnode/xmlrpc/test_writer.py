@@ -18,10 +18,9 @@ from crosnode.xmlrpc.writer import (
     check_value,
     dump_call,
     dump_fault,
-    dump_response,
 )
 
-from .test_values import VALUES
+from .test_values import VALUES, dump_response
 
 
 def in_parts(value: object, most: int) -> list[bytes | None]:

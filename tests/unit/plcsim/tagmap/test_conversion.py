@@ -165,13 +165,16 @@ def test_a_float64_too_large_for_a_real_is_refused() -> None:
         from_registers(point("d", "f"), struct.pack(">d", 1e300))
 
 
-@given(
+any_point_with_a_scale = given(
     st.sampled_from("hHiIqQfd"),
     st.sampled_from("bBhHiIqQfd"),
     st.binary(min_size=8, max_size=8),
     st.floats(allow_nan=False, allow_infinity=False).filter(bool),
     st.floats(allow_nan=False, allow_infinity=False),
 )
+
+
+@any_point_with_a_scale
 def test_whatever_is_written_with_a_scale_is_refused_or_a_finite_value(
     kind: str, code: str, wire: bytes, scale: float, offset: float
 ) -> None:
@@ -184,13 +187,7 @@ def test_whatever_is_written_with_a_scale_is_refused_or_a_finite_value(
     assert math.isfinite(struct.unpack("<" + code, found)[0])
 
 
-@given(
-    st.sampled_from("hHiIqQfd"),
-    st.sampled_from("bBhHiIqQfd"),
-    st.binary(min_size=8, max_size=8),
-    st.floats(allow_nan=False, allow_infinity=False).filter(bool),
-    st.floats(allow_nan=False, allow_infinity=False),
-)
+@any_point_with_a_scale
 def test_whatever_a_variable_holds_can_be_read_with_any_scale(
     kind: str, code: str, data: bytes, scale: float, offset: float
 ) -> None:
