@@ -142,12 +142,12 @@ class Site:
     @property
     def service(self) -> int:
         """Process id of the Modbus service."""
-        return child_with(self.process.pid, "plcsim.services.modbus")
+        return child_with(self.process.pid, "plcsim.modbus.service")
 
     def resident_kib(self) -> list[int]:
         """Return the resident memory of the scan and of the service process."""
         return [
-            resident_kib(child_with(self.process.pid, "plcsim.scan_process")),
+            resident_kib(child_with(self.process.pid, "plcsim.process.scan_process")),
             resident_kib(self.service),
         ]
 

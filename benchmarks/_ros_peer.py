@@ -11,14 +11,14 @@ import sys
 import time
 from typing import Any
 
-from crosnode.api_caller import ApiCall, ApiCaller, CallState
-from crosnode.budget import UNPACED, Budget
-from crosnode.master_server import MasterOptions, MasterServer
-from crosnode.names import node_settings
+from crosnode.graph.names import node_settings
+from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
+from crosnode.transport.budget import UNPACED, Budget
 from crosnode.xmlrpc import Limits
-from plcsim.context import Context
-from plcsim.memory import Memory
+from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
 
 HOST = "127.0.0.1"

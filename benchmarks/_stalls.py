@@ -6,8 +6,8 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Self
 
-from plcsim.run_file import find_run
-from plcsim.status_page import StatusPage
+from plcsim.process.run_file import find_run
+from plcsim.shared_image.status_page import StatusPage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

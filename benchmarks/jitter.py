@@ -30,6 +30,7 @@ from _outcome import (
 from _run import HERE, run_project
 from _statements import write_statements
 
+from plcsim.core.statistics import Summary
 from plcsim.doctor.loops import (
     Loop,
     Measurement,
@@ -40,7 +41,6 @@ from plcsim.doctor.loops import (
     measure,
     probe_rights,
 )
-from plcsim.statistics import Summary
 
 CYCLE_NS = 1_000_000
 VIRTUAL_SCANS = 20_000

@@ -97,7 +97,7 @@ def compare(folder: Path, client: Path, seconds: float) -> dict[str, Any]:
     project = make_project(folder, port, BLOCK)
     plcsim = [sys.executable, "-m", "plcsim.cli.main", "run", "--quiet", str(project)]
     with running(plcsim, port, None) as process:
-        service = child_with(process.pid, "plcsim.services.modbus")
+        service = child_with(process.pid, "plcsim.modbus.service")
         os.sched_setaffinity(service, {FIRST_CPU})
         results["plcsim"] = throughput(client, service, port, seconds)
     port = free_port()

@@ -25,8 +25,8 @@ from _ports import free_port
 from _ros_peer import make_node
 from rich.table import Table
 
-from plcsim import garbage, realtime
-from plcsim.statistics import Histogram
+from plcsim.core.statistics import Histogram
+from plcsim.host import garbage, realtime
 
 HERE = Path(__file__).parent
 TICK_NS = 1_000_000

@@ -63,7 +63,7 @@ class System:
         embedded = 'master = "embedded"'
         self.adder.change("plc.toml", embedded, f"{embedded}\nmaster_port = {own_port}")
         self.projects = [self.talker, self.listener, self.adder]
-        own_master = ServiceProcess("its master", self.adder, "crosnode.master_service")
+        own_master = ServiceProcess("its master", self.adder, "crosnode.plc.master_service")
         self.processes = [self.master, *self.projects, own_master]
 
     def start(self) -> None:

@@ -18,11 +18,11 @@ from _modbus_site import child_with
 
 from crosnode.tcpros.header import encode_header
 from crosnode.testing import Door, Speaks
-from plcsim.errors import PlcError
+from plcsim.core.errors import PlcError
 from plcsim.network import Address
-from plcsim.run_file import find_run
+from plcsim.process.run_file import find_run
 from plcsim.shared_image import ImageNotReady, ImageReader
-from st_types.values import decode
+from st_types.types.values import decode
 
 HOST = "127.0.0.1"
 PROGRAMS = Path(__file__).parents[1] / "programs"
@@ -122,7 +122,9 @@ class Project(Process):
     @property
     def pid(self) -> int:
         """Number of the scan process."""
-        self._scan_pid = self._scan_pid or child_with(self.parent.pid, "plcsim.scan_process")
+        self._scan_pid = self._scan_pid or child_with(
+            self.parent.pid, "plcsim.process.scan_process"
+        )
         return self._scan_pid
 
     def change(self, file: str, old: str, new: str) -> None:

@@ -36,7 +36,7 @@ from _ros_peer import HOST, make_node
 from node_step import BYTES, STRING
 from ros_processes import answers
 
-from crosnode.budget import UNPACED
+from crosnode.transport.budget import UNPACED
 
 HERE = Path(__file__).parent
 PYTHON = "/usr/bin/python3"

@@ -35,10 +35,10 @@ from _outcome import (
     write_json,
 )
 
-from st_types.collector import collector_paused
-from st_types.declarations import parse_declarations
-from st_types.resolve import resolve
-from st_types.source import Source
+from st_types.resolve.table import resolve
+from st_types.syntax.collector import collector_paused
+from st_types.syntax.declarations import parse_declarations
+from st_types.syntax.source import Source
 
 LINES_PER_FILE = 300
 SEED = 61131

@@ -2,24 +2,24 @@
 
 from typing import TYPE_CHECKING
 
-from plcsim.lazy import lazy_names
+from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from plcsim.errors import PageFault, PlcError
-    from plcsim.function_block import FunctionBlock
-    from plcsim.memory import adr, sizeof
-    from plcsim.task import Program
+    from plcsim.core.errors import PageFault, PlcError
+    from plcsim.core.function_block import FunctionBlock
+    from plcsim.core.memory import adr, sizeof
+    from plcsim.core.task import Program
 
 __all__ = ["FunctionBlock", "PageFault", "PlcError", "Program", "adr", "sizeof"]
 
 __getattr__ = lazy_names(
     __name__,
     {
-        "FunctionBlock": "plcsim.function_block",
-        "PageFault": "plcsim.errors",
-        "PlcError": "plcsim.errors",
-        "Program": "plcsim.task",
-        "adr": "plcsim.memory",
-        "sizeof": "plcsim.memory",
+        "FunctionBlock": "plcsim.core.function_block",
+        "PageFault": "plcsim.core.errors",
+        "PlcError": "plcsim.core.errors",
+        "Program": "plcsim.core.task",
+        "adr": "plcsim.core.memory",
+        "sizeof": "plcsim.core.memory",
     },
 )

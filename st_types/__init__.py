@@ -1,7 +1,8 @@
 """IEC 61131-3 data types: declarations, layout, values, typed views. No behaviour."""
 
-from st_types.arrays import Array
-from st_types.elementary import (
+from st_types.errors import DeclarationError, TypeSystemError, ValueRangeError
+from st_types.types.arrays import Array
+from st_types.types.elementary import (
     BOOL,
     BYTE,
     DATE,
@@ -23,8 +24,7 @@ from st_types.elementary import (
     WORD,
     DataType,
 )
-from st_types.errors import DeclarationError, TypeSystemError, ValueRangeError
-from st_types.views import (
+from st_types.types.views import (
     ARRAY,
     ENUM,
     STRING,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from st_types.diagnostics import Diagnostic
+    from st_types.syntax.diagnostics import Diagnostic
 
 
 class TypeSystemError(Exception):

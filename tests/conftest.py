@@ -9,10 +9,10 @@ import textwrap
 
 import pytest
 
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
-from plcsim.memory import PAGE
-from plcsim.task import Program
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.memory import PAGE
+from plcsim.core.task import Program
 
 MS = 1_000_000
 

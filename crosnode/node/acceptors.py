@@ -10,9 +10,9 @@ from crosnode.tcpros import PublisherConnection, ServiceServerConnection
 from crosnode.xmlrpc import XmlRpcServerConnection
 
 if TYPE_CHECKING:
-    from crosnode.event_loop import Accepted
-    from crosnode.link import Owner
     from crosnode.node.slave_api import NodeView
+    from crosnode.transport.event_loop import Accepted
+    from crosnode.transport.link import Owner
     from crosnode.xmlrpc import Limits
 
 

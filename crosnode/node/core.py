@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 from crosnode.node.status import Status, StatusKind
 
 if TYPE_CHECKING:
-    from crosnode.api_caller import ApiCaller
-    from crosnode.event_loop import EventLoop
-    from crosnode.hosts import HostTable
+    from crosnode.graph.hosts import HostTable
     from crosnode.node.master_client import MasterClient
-    from crosnode.queues import DropOldestQueue
+    from crosnode.node.queues import DropOldestQueue
     from crosnode.tcpros import Limits
+    from crosnode.transport.event_loop import EventLoop
+    from crosnode.xmlrpc.api_caller import ApiCaller
 
 
 class NodeCore:

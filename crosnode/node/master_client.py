@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
-from crosnode.api_caller import ApiCall, ApiCaller, CallState
 from crosnode.node.status import Status, StatusKind
+from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from crosnode.queues import DropOldestQueue
+    from crosnode.node.queues import DropOldestQueue
     from crosnode.xmlrpc import Value
 
 PING_NS: Final = 1_000_000_000

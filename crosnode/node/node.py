@@ -9,11 +9,9 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Final, TypeVar
 
-from crosnode.api_caller import ApiCall, ApiCaller, CallState
-from crosnode.budget import Budget
 from crosnode.errors import InvalidNameError, NodeError
-from crosnode.event_loop import EventLoop
-from crosnode.hosts import HostTable
+from crosnode.graph.hosts import HostTable
+from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.acceptors import ServiceAcceptor, SlaveAcceptor, TopicAcceptor
 from crosnode.node.core import NodeCore
@@ -21,6 +19,7 @@ from crosnode.node.master_client import MasterClient, Registration
 from crosnode.node.options import NodeOptions
 from crosnode.node.parameter import ParameterSubscription
 from crosnode.node.publisher import Publisher
+from crosnode.node.queues import DropOldestQueue
 from crosnode.node.ros_time import RosTime
 from crosnode.node.rosout import LogLevel, Rosout
 from crosnode.node.service_caller import ServiceCaller
@@ -28,16 +27,17 @@ from crosnode.node.service_provider import ServiceProvider
 from crosnode.node.slave_api import SlaveApi
 from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
-from crosnode.queues import DropOldestQueue
-from crosnode.uri import make_uri
-from plcsim.statistics import Histogram
+from crosnode.transport.budget import Budget
+from crosnode.transport.event_loop import EventLoop
+from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
+from plcsim.core.statistics import Histogram
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode.names import NodeSettings
+    from crosnode.graph.names import NodeSettings
     from crosnode.xmlrpc import Value
-    from plcsim.context import Context
+    from plcsim.core.context import Context
 
 Role = TypeVar("Role", Publisher, Subscriber, ServiceProvider)
 
@@ -51,7 +51,8 @@ class CrosNode:
 
     Args:
         context: of the controller.
-        settings: name, namespace, master, host and remappings (`crosnode.names.node_settings`).
+        settings: name, namespace, master, host and remappings
+            (`crosnode.graph.names.node_settings`).
         types: message types; ``MessageTypes()`` has the common ones.
         options: see ``NodeOptions``.
 

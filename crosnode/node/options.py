@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crosnode.budget import StepLimits
 from crosnode.tcpros import Limits as TcprosLimits
+from crosnode.transport.budget import StepLimits
 from crosnode.xmlrpc import Limits as XmlRpcLimits
 
 if TYPE_CHECKING:

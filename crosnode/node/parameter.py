@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.names import SEPARATOR, canonical
+from crosnode.graph.names import SEPARATOR, canonical
 from crosnode.node.master_client import Wish
-from crosnode.queues import DropOldestQueue
+from crosnode.node.queues import DropOldestQueue
 
 if TYPE_CHECKING:
     from crosnode.node.master_client import Registration

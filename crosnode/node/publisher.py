@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.messages.definition import HEADER
 from crosnode.node.period import Period
+from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
-from crosnode.queues import DropOldestQueue
-from crosnode.tcpip_socket import AREA_SIZE
 from crosnode.tcpros import HeaderReceived, PublisherConnection, TypeInfo
+from crosnode.transport.tcpip_socket import AREA_SIZE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crosnode import tcpros, xmlrpc
-    from crosnode.link import Link
     from crosnode.messages import Message, MessageType
     from crosnode.node.core import NodeCore
     from crosnode.node.master_client import Registration
+    from crosnode.transport.link import Link
 
 SEQ_MASK: Final = 0xFFFF_FFFF
 

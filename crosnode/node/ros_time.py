@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from crosnode.api_caller import CallState
 from crosnode.errors import DecodeError, InvalidNameError
 from crosnode.node.status import StatusKind
+from crosnode.xmlrpc.api_caller import CallState
 
 if TYPE_CHECKING:
-    from crosnode.api_caller import ApiCall
     from crosnode.node.node import CrosNode
     from crosnode.node.subscriber import Packet, Subscriber
+    from crosnode.xmlrpc.api_caller import ApiCall
 
 CLOCK: Final = "rosgraph_msgs/Clock"
 

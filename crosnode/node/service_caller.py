@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crosnode.api_caller import ApiCall, CallState
-from crosnode.connection import State
 from crosnode.errors import DecodeError, InvalidNameError
 from crosnode.node.period import Period
-from crosnode.queues import DropOldestQueue
+from crosnode.node.queues import DropOldestQueue
 from crosnode.tcpros import (
     Failed,
     HeaderReceived,
@@ -17,14 +15,16 @@ from crosnode.tcpros import (
     ServiceClientConnection,
     TypeInfo,
 )
+from crosnode.transport.connection import State
+from crosnode.xmlrpc.api_caller import ApiCall, CallState
 
 if TYPE_CHECKING:
     from crosnode import tcpros, xmlrpc
-    from crosnode.budget import Budget
-    from crosnode.link import Link
+    from crosnode.graph.uri import Address
     from crosnode.messages import Message, ServiceType
     from crosnode.node.core import NodeCore
-    from crosnode.uri import Address
+    from crosnode.transport.budget import Budget
+    from crosnode.transport.link import Link
 
 
 class ServiceReply(NamedTuple):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from crosnode.connection import State
 from crosnode.errors import DecodeError
+from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
-from crosnode.queues import DropOldestQueue
 from crosnode.tcpros import (
     Failed,
     HeaderReceived,
@@ -15,15 +14,16 @@ from crosnode.tcpros import (
     ServiceServerConnection,
     TypeInfo,
 )
+from crosnode.transport.connection import State
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crosnode import tcpros, xmlrpc
-    from crosnode.link import Link
     from crosnode.messages import Message, MessageType, ServiceType
     from crosnode.node.core import NodeCore
     from crosnode.node.master_client import Registration
+    from crosnode.transport.link import Link
 
 
 class ServiceRequest:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
-from crosnode.names import canonical
+from crosnode.graph.names import canonical
 from crosnode.node.status import StatusKind
 from crosnode.xmlrpc import (
     MULTICALL,
@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from crosnode import tcpros, xmlrpc
-    from crosnode.event_loop import Listener
-    from crosnode.link import Link
     from crosnode.node.core import NodeCore
     from crosnode.node.parameter import ParameterSubscription
     from crosnode.node.publisher import Publisher
     from crosnode.node.service_provider import ServiceProvider
     from crosnode.node.subscriber import Subscriber
+    from crosnode.transport.event_loop import Listener
+    from crosnode.transport.link import Link
 
 SUCCESS: Final = 1
 ERROR: Final = -1

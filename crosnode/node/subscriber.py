@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.api_caller import ApiCall, CallState
 from crosnode.errors import DecodeError
 from crosnode.node.master_client import Wish
+from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
-from crosnode.queues import DropOldestQueue
 from crosnode.tcpros import (
     Failed,
     HeaderReceived,
@@ -17,15 +16,16 @@ from crosnode.tcpros import (
     SubscriberConnection,
     TypeInfo,
 )
+from crosnode.xmlrpc.api_caller import ApiCall, CallState
 
 if TYPE_CHECKING:
     from crosnode import tcpros, xmlrpc
-    from crosnode.budget import Budget
-    from crosnode.link import Link
+    from crosnode.graph.uri import Address
     from crosnode.messages import Message, MessageType
     from crosnode.node.core import NodeCore
     from crosnode.node.master_client import Registration
-    from crosnode.uri import Address
+    from crosnode.transport.budget import Budget
+    from crosnode.transport.link import Link
     from crosnode.xmlrpc import Value
 
 FIRST_RETRY_NS: Final = 100_000_000

@@ -1,6 +1,5 @@
 """TCPROS, the protocol of ROS 1 topics and services, without input and output."""
 
-from crosnode.connection import Closed, Failed, State
 from crosnode.tcpros.connection import (
     Event,
     HeaderReceived,
@@ -15,6 +14,7 @@ from crosnode.tcpros.connection import (
 from crosnode.tcpros.header import ANY
 from crosnode.tcpros.service import ServiceClientConnection, ServiceServerConnection
 from crosnode.tcpros.topic import PublisherConnection, SubscriberConnection
+from crosnode.transport.connection import Closed, Failed, State
 
 __all__ = [
     "ANY",

@@ -6,10 +6,10 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
-from crosnode.connection import Act, Closed, Connection, Failed, State
 from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
+from crosnode.transport.connection import Act, Closed, Connection, Failed, State
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar, Final
 
-from crosnode.connection import Act, Closed, State, Table
 from crosnode.errors import TcprosError
 from crosnode.tcpros.connection import (
     ClientConnection,
@@ -21,6 +20,7 @@ from crosnode.tcpros.connection import (
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
+from crosnode.transport.connection import Act, Closed, State, Table
 
 if TYPE_CHECKING:
     from collections.abc import Generator

@@ -6,7 +6,7 @@ around a controller under test. Hostile peers attack whatever listens in such a 
 
 from typing import TYPE_CHECKING
 
-from plcsim.lazy import lazy_names
+from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from crosnode.testing.attacker import Attacker, Door

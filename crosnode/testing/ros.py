@@ -7,16 +7,16 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.extension import EXTENSION
-from crosnode.in_process_master import InProcessMaster
-from crosnode.master_server import MasterOptions, MasterServer
-from crosnode.names import node_settings
+from crosnode.graph.names import node_settings
+from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
-from crosnode.project import MASTER_IP, OPTIONS, SharedTypes, step_beside, surroundings
-from plcsim.context import Context
-from plcsim.memory import Memory
-from plcsim.system import State
-from plcsim.table import Table
+from crosnode.plc.extension import EXTENSION
+from crosnode.plc.in_process_master import InProcessMaster
+from crosnode.plc.project import MASTER_IP, OPTIONS, SharedTypes, step_beside, surroundings
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
+from plcsim.core.system import State
+from plcsim.project.table import Table
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
 import h11
 
-from crosnode.connection import Act, Closed, Connection, Failed, State, Table
 from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
+from crosnode.transport.connection import Act, Closed, Connection, Failed, State, Table
 from crosnode.xmlrpc.values import (
     Call,
     Fault,

@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller
-from plcsim.duration import format_duration
-from plcsim.extension import check_settings
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller
+from plcsim.core.duration import format_duration
+from plcsim.host.realtime import missing_cpu
 from plcsim.network import VirtualNetwork
-from plcsim.project import load_setup, read_project
-from plcsim.realtime import missing_cpu
-from st_types.views import address_of, type_of
+from plcsim.project.extension import check_settings
+from plcsim.project.plc_toml import load_setup, read_project
+from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     import argparse
 
-    from plcsim.project import Project
-    from plcsim.task import TaskClass
+    from plcsim.core.task import TaskClass
+    from plcsim.project.plc_toml import Project
 
 CHECK_IP = "192.168.0.10"
 

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.progress import track
 
-from plcsim.errors import PlcError
-from st_types.declarations import parse_declarations
+from plcsim.core.errors import PlcError
 from st_types.errors import SourceError
-from st_types.source import Source
+from st_types.syntax.declarations import parse_declarations
+from st_types.syntax.source import Source
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from st_types.syntax import DeclarationFile
+    from st_types.syntax.tree import DeclarationFile
 
 SUFFIXES = frozenset([".typ", ".var", ".fun"])
 

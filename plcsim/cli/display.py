@@ -12,13 +12,13 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.console import CommandConsole
-from plcsim.duration import format_duration
+from plcsim.core.duration import format_duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from plcsim.project import Project
-    from plcsim.status_page import StatusPage
+    from plcsim.project.plc_toml import Project
+    from plcsim.shared_image.status_page import StatusPage
 
 PERIOD_S = 0.25
 

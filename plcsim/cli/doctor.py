@@ -16,18 +16,18 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.output_file import check_output, write_output
+from plcsim.core.duration import format_duration, parse_duration_ns
 from plcsim.doctor.advice import advise
 from plcsim.doctor.host import read_host
 from plcsim.doctor.loops import Order, ScanLoop, floor_loop, measure, probe_rights
 from plcsim.doctor.verdict import Comparison, Verdict, explain, judge
-from plcsim.duration import format_duration, parse_duration_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from plcsim.doctor.host import Host
     from plcsim.doctor.loops import Loop, Measurement
-    from plcsim.realtime import Rights
+    from plcsim.host.realtime import Rights
 
 SCHEMA = "plcsim-doctor/1"
 

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.errors import PlcError
+from plcsim.core.errors import PlcError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

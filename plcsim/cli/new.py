@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import plcsim
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     import argparse

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -16,8 +16,8 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.console import CommandConsole
-from plcsim.errors import ConfigurationError
-from plcsim.rank_test import rank_test
+from plcsim.cli.rank_test import rank_test
+from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any
 from plcsim.cli.check import notes_on_cpu
 from plcsim.cli.display import LiveTable, print_summary
 from plcsim.cli.output_file import check_output, write_output
-from plcsim.duration import parse_duration_ns
-from plcsim.errors import ConfigurationError
-from plcsim.project import read_project
-from plcsim.supervisor import Supervisor
+from plcsim.core.duration import parse_duration_ns
+from plcsim.core.errors import ConfigurationError
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-    from plcsim.project import Project
+    from plcsim.project.plc_toml import Project
 
 ENDED_IN_SERVICE = 3
 

@@ -7,24 +7,24 @@ from typing import TYPE_CHECKING
 
 from plcsim.cli.declaration_files import Reading, find_files, library_files, read_files
 from plcsim.cli.message_files import MessageFiles, common_folders
-from plcsim.errors import PlcError
-from st_types.c_header import c_header
-from st_types.collector import collector_paused
-from st_types.derived import DataBlockType, StructType, resolve_alias
-from st_types.diagnostics import Severity
-from st_types.layout_table import layout_rows
-from st_types.printer import print_file, print_item
-from st_types.python_source import python_source
-from st_types.resolve import TypeTable, resolve
-from st_types.ros import Limits, struct_name, structs_from_ros
-from st_types.ros_export import messages_from_struct
+from plcsim.core.errors import PlcError
+from st_types.resolve.table import TypeTable, resolve
+from st_types.syntax.collector import collector_paused
+from st_types.syntax.diagnostics import Severity
+from st_types.syntax.printer import print_file, print_item
+from st_types.types.derived import DataBlockType, StructType, resolve_alias
+from st_types.writers.c_header import c_header
+from st_types.writers.layout_table import layout_rows
+from st_types.writers.python_source import python_source
+from st_types.writers.ros import Limits, struct_name, structs_from_ros
+from st_types.writers.ros_export import messages_from_struct
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from st_types.elementary import DataType
+    from st_types.types.elementary import DataType
 
 
 def check(options: argparse.Namespace) -> int:

@@ -12,13 +12,13 @@ from rich.live import Live
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
-from plcsim.errors import ConfigurationError
-from plcsim.project import find_project
-from plcsim.run_file import Run, find_runs
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.tag import Tag, leaves
+from plcsim.process.run_file import Run, find_runs
+from plcsim.project.plc_toml import find_project
 from plcsim.shared_image import ImageError, ImageNotReady, ImageReader
-from plcsim.tag import Tag, leaves
-from st_types.derived import ArrayType, EnumerationType, StructType
-from st_types.values import decode
+from st_types.types.derived import ArrayType, EnumerationType, StructType
+from st_types.types.values import decode
 
 if TYPE_CHECKING:
     import argparse

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from plcsim.doctor.host import Host
     from plcsim.doctor.verdict import Comparison
-    from plcsim.realtime import Rights
+    from plcsim.host.realtime import Rights
 
 STOLEN_PERCENT = 1
 """From this share of stolen time on, the hypervisor is worth a word."""

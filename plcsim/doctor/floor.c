@@ -3,8 +3,8 @@
  * floor CYCLE_NS CYCLES PRIORITY CPU
  *
  * Sleeps until each grid point with clock_nanosleep(TIMER_ABSTIME) and notes how late it woke; it
- * does nothing else. Grid points that pass meanwhile are skipped and counted, as in plcsim.scan.
- * PRIORITY above 0 asks for the rights that plcsim.realtime takes: SCHED_FIFO, one CPU (-1: any),
+ * does nothing else. Grid points that pass meanwhile are skipped and counted, as in plcsim.core.scan.
+ * PRIORITY above 0 asks for the rights that plcsim.host.realtime takes: SCHED_FIFO, one CPU (-1: any),
  * locked memory, no deep sleep. Writes {"missed": N, "lateness_ns": [...]} to stdout; where
  * SCHED_FIFO is refused, writes why to stderr and ends with 1.
  */

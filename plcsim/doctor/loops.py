@@ -15,11 +15,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from plcsim import realtime
+from plcsim.core.statistics import Histogram, Summary
 from plcsim.doctor.errors import MeasurementError
 from plcsim.doctor.host import read_cpu_ticks
-from plcsim.report import summary_of
-from plcsim.statistics import Histogram, Summary
+from plcsim.host import realtime
+from plcsim.process.report import summary_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,7 +10,7 @@ import json
 import sys
 import time
 
-from plcsim import realtime
+from plcsim.host import realtime
 
 
 def run(cycle_ns: int, cycles: int) -> tuple[int, list[int]]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.duration import format_duration
+from plcsim.core.duration import format_duration
 
 if TYPE_CHECKING:
     from plcsim.doctor.loops import Measurement

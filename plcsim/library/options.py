@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 from plcsim.library.astcp.settings import Settings as AsTcpSettings
 
 if TYPE_CHECKING:

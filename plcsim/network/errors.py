@@ -10,7 +10,7 @@ What happens on a net is never an exception: it is an ``Outcome``.
 
 from __future__ import annotations
 
-from plcsim.errors import PlcError
+from plcsim.core.errors import PlcError
 
 
 class NetworkError(PlcError):

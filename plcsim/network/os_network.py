@@ -8,7 +8,7 @@ import struct
 from contextlib import suppress
 from typing import Final
 
-from plcsim import descriptors
+from plcsim.host import descriptors
 from plcsim.network.protocol import (
     ANY_IP,
     BUFFERS,

@@ -6,7 +6,7 @@ import struct
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
-from st_types.layout import align_up
+from st_types.types.layout import align_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

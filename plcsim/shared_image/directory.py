@@ -11,9 +11,9 @@ import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from plcsim.core.tag import Tag, find_tag
 from plcsim.shared_image.errors import ImageError
-from plcsim.tag import Tag, find_tag
-from st_types.derived import (
+from st_types.types.derived import (
     AliasType,
     ArrayType,
     DataBlockType,
@@ -26,7 +26,7 @@ from st_types.derived import (
     SubrangeType,
     WStringType,
 )
-from st_types.elementary import ELEMENTARY, UDINT, DataType, ElementaryType
+from st_types.types.elementary import ELEMENTARY, UDINT, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

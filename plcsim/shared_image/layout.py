@@ -13,7 +13,7 @@ import mmap
 import os
 from typing import Final, NamedTuple
 
-from st_types.layout import align_up
+from st_types.types.layout import align_up
 
 MAGIC: Final = 0x504C_4349_4D47_0001
 HEADER_SIZE: Final = 4096

@@ -13,21 +13,21 @@ import os
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.errors import ConfigurationError, PageFault
-from plcsim.memory import PAGE
+from plcsim.core.errors import ConfigurationError, PageFault
+from plcsim.core.memory import PAGE
 from plcsim.shared_image import layout
 from plcsim.shared_image.command import Mask, Scatter, decode_command
 from plcsim.shared_image.directory import Directory, Variables, hash_of
 from plcsim.shared_image.ring import Consumer
-from st_types.views import address_of, type_of
+from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from plcsim.controller import Controller
+    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
+    from plcsim.core.task import TaskClass
     from plcsim.shared_image.command import Command, Operation
-    from plcsim.tag import Tag
-    from plcsim.task import TaskClass
 
 COMMANDS_PER_LATCH = (8, 64)
 """Of one service, at least and at most."""

@@ -6,10 +6,11 @@ here. docs/testing.md is the tutorial, docs/testing-reference.md the reference.
 
 from typing import TYPE_CHECKING
 
-from plcsim.lazy import lazy_names
+from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from plcsim.services.modbus.errors import ModbusException
+    from plcsim.modbus.service.errors import ModbusException
+    from plcsim.modbus.testing.modbus import Modbus
     from plcsim.testing.errors import (
         ControllerFault,
         ExpectationFailed,
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     )
     from plcsim.testing.interleavings import Interleaving
     from plcsim.testing.machine import PlcMachine, every_cycle
-    from plcsim.testing.modbus import Modbus
     from plcsim.testing.plc import Plc
     from plcsim.testing.strategies import stimuli, tag_values
     from plcsim.testing.target import open_plc
@@ -49,8 +49,8 @@ __getattr__ = lazy_names(
         "ControllerFault": "plcsim.testing.errors",
         "ExpectationFailed": "plcsim.testing.errors",
         "Interleaving": "plcsim.testing.interleavings",
-        "Modbus": "plcsim.testing.modbus",
-        "ModbusException": "plcsim.services.modbus.errors",
+        "Modbus": "plcsim.modbus.testing.modbus",
+        "ModbusException": "plcsim.modbus.service.errors",
         "PlantError": "plcsim.testing.errors",
         "Plc": "plcsim.testing.plc",
         "PlcMachine": "plcsim.testing.machine",

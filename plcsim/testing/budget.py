@@ -12,7 +12,7 @@ from __future__ import annotations
 from math import ceil
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from plcsim.duration import format_duration
+from plcsim.core.duration import format_duration
 from plcsim.testing.calibration import slowness
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.times import duration_ns

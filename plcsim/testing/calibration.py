@@ -10,8 +10,8 @@ from __future__ import annotations
 from time import thread_time_ns
 from typing import TYPE_CHECKING
 
-from st_types.elementary import BOOL, DINT, REAL
-from st_types.views import Struct, var
+from st_types.types.elementary import BOOL, DINT, REAL
+from st_types.types.views import Struct, var
 
 if TYPE_CHECKING:
     from plcsim.testing.costs import Costs

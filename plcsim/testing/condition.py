@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.values import text_of
-from st_types.values import decode
+from st_types.types.values import decode
 
 if TYPE_CHECKING:
     from types import CodeType

@@ -12,13 +12,13 @@ from functools import partial
 from time import thread_time_ns
 from typing import TYPE_CHECKING
 
-from plcsim.clock import VirtualClock
+from plcsim.core.clock import VirtualClock
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from plcsim.controller import Controller
+    from plcsim.core.controller import Controller
 
 __tracebackhide__ = True
 
@@ -86,7 +86,7 @@ class Costs:
 def garbage_held() -> Iterator[None]:
     """Keep Python's cyclic collector out of the programs, as on the controller.
 
-    The scan collects while it sleeps (`plcsim.garbage`).
+    The scan collects while it sleeps (`plcsim.host.garbage`).
     """
     enabled = gc.isenabled()
     gc.disable()

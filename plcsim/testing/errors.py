@@ -11,7 +11,7 @@
 
 from __future__ import annotations
 
-from plcsim.errors import PlcError
+from plcsim.core.errors import PlcError
 
 
 class PlcTestError(PlcError):

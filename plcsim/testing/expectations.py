@@ -6,12 +6,12 @@ from abc import ABC, abstractmethod
 from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from plcsim.duration import format_duration
+from plcsim.core.duration import format_duration
 from plcsim.testing.condition import Condition
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.times import duration_ns
 from plcsim.testing.values import text_of
-from st_types.values import decode
+from st_types.types.values import decode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

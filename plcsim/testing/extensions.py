@@ -5,17 +5,17 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from plcsim.extension import extensions, in_process, services_of
+from plcsim.core.tag import Tag
+from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
-from plcsim.tag import Tag
 from plcsim.testing.errors import PlcTestError
-from st_types.views import address_of, type_of
+from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from plcsim.controller import Controller
+    from plcsim.core.controller import Controller
 
 __tracebackhide__ = True
 
@@ -24,7 +24,7 @@ class Extensions:
     """What plc.toml says beyond the controller itself, hooked into the controller under test.
 
     No service process is started; what it would read and write, the shared image, is there, and a
-    client such as `plcsim.testing.modbus.Modbus` takes the place of the service.
+    client such as `plcsim.modbus.testing.modbus.Modbus` takes the place of the service.
 
     Args:
         settings: by table.

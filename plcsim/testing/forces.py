@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.values import is_number
-from st_types.derived import SubrangeType
-from st_types.elementary import ElementaryType, Kind
+from st_types.types.derived import SubrangeType
+from st_types.types.elementary import ElementaryType, Kind
 
 if TYPE_CHECKING:
     from random import Random
 
-    from plcsim.tag import Tag
+    from plcsim.core.tag import Tag
     from plcsim.testing.tags import Tags
 
 __tracebackhide__ = True

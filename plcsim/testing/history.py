@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.memory import PAGE
+from plcsim.core.memory import PAGE
 from plcsim.testing.diagram import draw, foot_of, step_for, table
 from plcsim.testing.trace import Row, Trace
 from plcsim.testing.values import text_of, value_in
@@ -17,9 +17,9 @@ from plcsim.testing.values import text_of, value_in
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.controller import Controller
-    from plcsim.tag import Tag
-    from plcsim.task import TaskClass
+    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
+    from plcsim.core.task import TaskClass
 
 SHOWN = 20
 """Cycles in the table of a failure."""

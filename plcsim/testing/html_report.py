@@ -7,7 +7,7 @@ import platform
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from plcsim.duration import format_duration
+from plcsim.core.duration import format_duration
 from plcsim.testing.calibration import REFERENCE_NS
 from plcsim.testing.result import SCHEMA
 from plcsim.testing.svg import histogram

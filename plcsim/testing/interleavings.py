@@ -7,14 +7,14 @@ from math import prod
 from random import Random
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.duration import format_duration
-from plcsim.task import Policy
+from plcsim.core.duration import format_duration
+from plcsim.core.task import Policy
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from plcsim.controller import Setup, TaskClassSetup
+    from plcsim.core.controller import Setup, TaskClassSetup
 
 __tracebackhide__ = True
 

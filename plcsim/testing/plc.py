@@ -7,12 +7,12 @@ from functools import partial
 from random import Random
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller
-from plcsim.errors import ProgramError
-from plcsim.logbook import Severity
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller
+from plcsim.core.errors import ProgramError
+from plcsim.core.logbook import Severity
+from plcsim.core.system import State
 from plcsim.network import OsNetwork, VirtualNetwork
-from plcsim.system import State
 from plcsim.testing.condition import Condition
 from plcsim.testing.costs import Costs, garbage_held
 from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError, PlcTestError
@@ -30,9 +30,9 @@ from plcsim.testing.world import CONTROLLER_IP, World
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
-    from plcsim.controller import Setup
+    from plcsim.core.controller import Setup
+    from plcsim.core.task import TaskClass
     from plcsim.network import Network
-    from plcsim.task import TaskClass
     from plcsim.testing.condition import Given
 
 __tracebackhide__ = True

@@ -14,7 +14,7 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
 
-    from plcsim.testing.modbus import Modbus
+    from plcsim.modbus.testing.modbus import Modbus
     from plcsim.testing.plc import Plc
 
 __tracebackhide__ = True
@@ -120,7 +120,7 @@ def plc(request: pytest.FixtureRequest, _plc_seed_step: int) -> Iterator[Plc]:
 def modbus(plc: Plc) -> Modbus:
     """Give a Modbus master that is connected to the controller; the project has [modbus]."""
     with _session().plain_errors():
-        master: Modbus = import_module("plcsim.testing.modbus").Modbus(plc)
+        master: Modbus = import_module("plcsim.modbus.testing.modbus").Modbus(plc)
     return master
 
 

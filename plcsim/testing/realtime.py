@@ -5,12 +5,12 @@ from __future__ import annotations
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from plcsim.duration import format_duration
-from plcsim.task import Cause, Violation
+from plcsim.core.duration import format_duration
+from plcsim.core.task import Cause, Violation
 
 if TYPE_CHECKING:
-    from plcsim.controller import Controller
-    from plcsim.task import TaskClass
+    from plcsim.core.controller import Controller
+    from plcsim.core.task import TaskClass
 
 
 class Verdict(Enum):

@@ -6,8 +6,8 @@ import re
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
-from plcsim.report import class_report, fault_report, violation_report
-from plcsim.statistics import Histogram
+from plcsim.core.statistics import Histogram
+from plcsim.process.report import class_report, fault_report, violation_report
 from plcsim.testing.costs import overhead_ns
 
 if TYPE_CHECKING:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from _pytest.runner import runtestprotocol
 
-from plcsim.duration import parse_duration_ns
-from plcsim.errors import PlcError
-from plcsim.realtime import sharpen_timers
+from plcsim.core.duration import parse_duration_ns
+from plcsim.core.errors import PlcError
+from plcsim.host.realtime import sharpen_timers
 from plcsim.testing.budget import (
     MOST_RUNS,
     Measurement,

@@ -11,8 +11,8 @@ import csv
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.duration import parse_duration_ns
-from plcsim.errors import TagError
+from plcsim.core.duration import parse_duration_ns
+from plcsim.core.errors import TagError
 from plcsim.testing.errors import StimulusError
 from plcsim.testing.values import value_of
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from hypothesis import strategies as st
 
 from plcsim.testing.times import duration_ns
-from st_types.derived import (
+from st_types.types.derived import (
     ArrayType,
     EnumerationType,
     ReferenceType,
@@ -18,13 +18,13 @@ from st_types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.elementary import ElementaryType, Kind
+from st_types.types.elementary import ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from plcsim.testing.plc import Plc
-    from st_types.elementary import DataType
+    from st_types.types.elementary import DataType
 
 __tracebackhide__ = True
 

@@ -10,7 +10,7 @@ from plcsim.testing.values import is_number, printable, text_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.tag import Tag
+    from plcsim.core.tag import Tag
 
     Changes = Sequence[tuple[int, object]]
 

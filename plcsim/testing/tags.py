@@ -5,16 +5,16 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from plcsim.errors import TagError
+from plcsim.core.errors import TagError
 from plcsim.testing.values import leaves_of
 from st_types.errors import ValueRangeError
-from st_types.values import encode
+from st_types.types.values import encode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from plcsim.controller import Controller
-    from plcsim.tag import Tag
+    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
 
 __tracebackhide__ = True
 

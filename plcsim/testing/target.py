@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from plcsim.controller import ProgramSetup, Setup, TaskClassSetup
-from plcsim.duration import parse_duration_ns
-from plcsim.project import FILE_NAME, load_setup, read_project
+from plcsim.core.controller import ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.duration import parse_duration_ns
+from plcsim.project.plc_toml import FILE_NAME, load_setup, read_project
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.task import Program
+    from plcsim.core.task import Program
 
 __tracebackhide__ = True
 
 _LOADED = "plcsim_project_"
-"""Modules of projects have this prefix (`plcsim.program_loader`)."""
+"""Modules of projects have this prefix (`plcsim.program.python.loader`)."""
 
 
 @dataclass(frozen=True)

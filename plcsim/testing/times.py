@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plcsim.duration import parse_duration_ns
+from plcsim.core.duration import parse_duration_ns
 from plcsim.testing.errors import PlcTestError
 
 __tracebackhide__ = True

@@ -7,19 +7,19 @@ import io
 from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.duration import parse_duration_ns
+from plcsim.core.duration import parse_duration_ns
 from plcsim.testing.diagram import draw
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.svg import timing_diagram
 from plcsim.testing.values import text_of
-from st_types.values import decode
+from st_types.types.values import decode
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.memory import Memory
-    from plcsim.tag import Tag
+    from plcsim.core.memory import Memory
+    from plcsim.core.tag import Tag
 
 __tracebackhide__ = True
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Any
 
-from plcsim.duration import parse_duration_ns
-from plcsim.memory import PAGE
-from plcsim.tag import Tag
+from plcsim.core.duration import parse_duration_ns
+from plcsim.core.memory import PAGE
+from plcsim.core.tag import Tag
 from plcsim.testing.errors import PlcTestError
-from st_types.derived import (
+from st_types.types.derived import (
     ArrayType,
     EnumerationType,
     StringType,
@@ -18,14 +18,14 @@ from st_types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.elementary import TIME, ElementaryType, Kind
-from st_types.values import decode
+from st_types.types.elementary import TIME, ElementaryType, Kind
+from st_types.types.values import decode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from plcsim.tag import TagTable
-    from st_types.elementary import DataType
+    from plcsim.core.tag import TagTable
+    from st_types.types.elementary import DataType
 
 __tracebackhide__ = True
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from plcsim.clock import MonotonicClock
+from plcsim.core.clock import MonotonicClock
 
 if TYPE_CHECKING:
     from types import TracebackType

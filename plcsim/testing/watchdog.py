@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-    from plcsim.controller import Controller
+    from plcsim.core.controller import Controller
 
 LIMIT_S = 2.0
 """CPU time between two looks; a program that runs through two of them is ended."""

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import pytest
 
-from plcsim.context import Context
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory, adr, sizeof
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
     ERR_FUB_ENABLE_FALSE,
@@ -42,13 +43,12 @@ from plcsim.library.astcp import (
     tcpSO_LINGER_SET,
     tcpSO_NOWAITING_SET,
 )
-from plcsim.memory import Memory, adr, sizeof
 from st_types import STRING, UDINT, UINT, Struct, var
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from plcsim.function_block import FunctionBlock
+    from plcsim.core.function_block import FunctionBlock
     from plcsim.network import Network
 
     from .network_rigs import Rig

@@ -3,7 +3,7 @@
 import gc
 import tracemalloc
 
-from plcsim.task import Policy
+from plcsim.core.task import Policy
 from st_types import UINT, var
 
 MS = 1_000_000

@@ -11,10 +11,10 @@ from typing import NamedTuple
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
-from plcsim.memory import PAGE
-from plcsim.task import Cause, Policy, Program
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.memory import PAGE
+from plcsim.core.task import Cause, Policy, Program
 
 MS = 1_000_000
 HORIZON_NS = 60 * MS

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from plcsim import supervisor
-from plcsim.errors import PlcError
-from plcsim.project import read_project
-from plcsim.run_file import find_run
-from plcsim.status_page import StatusPage
-from plcsim.supervisor import Supervisor
-from plcsim.system import State
+from plcsim.core.errors import PlcError
+from plcsim.core.system import State
+from plcsim.process import supervisor
+from plcsim.process.run_file import find_run
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.plc_toml import read_project
+from plcsim.shared_image.status_page import StatusPage
 
 MS = 1_000_000
 HEAD = "import ctypes, os, signal, sys, threading, time\nfrom plcsim import Program\n"

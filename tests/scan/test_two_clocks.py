@@ -2,11 +2,11 @@
 
 import pytest
 
-from plcsim.clock import MonotonicClock, VirtualClock
-from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.clock import MonotonicClock, VirtualClock
+from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.memory import PAGE
+from plcsim.core.task import Policy, Program
 from plcsim.library.standard import CTU, R_TRIG, TON, TP
-from plcsim.memory import PAGE
-from plcsim.task import Policy, Program
 from st_types import ARRAY, BOOL, DINT, LREAL, REAL, STRING, TIME, USINT, var
 
 MS = 1_000_000

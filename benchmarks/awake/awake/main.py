@@ -4,8 +4,8 @@ import json
 import time
 
 from plcsim import Program
-from plcsim.clock import MonotonicClock
-from plcsim.statistics import Histogram
+from plcsim.core.clock import MonotonicClock
+from plcsim.core.statistics import Histogram
 
 awake = Histogram()
 

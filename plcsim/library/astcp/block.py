@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plcsim.function_block import FunctionBlock
+from plcsim.core.function_block import FunctionBlock
 from plcsim.library.astcp.constants import tcpERR_INVALID_IDENT
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE

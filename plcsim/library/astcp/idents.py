@@ -9,7 +9,7 @@ from plcsim.library.astcp.constants import tcpINVALID_IDENT
 from plcsim.library.astcp.settings import Settings
 
 if TYPE_CHECKING:
-    from plcsim.context import Context
+    from plcsim.core.context import Context
     from plcsim.network.protocol import Socket
 
 LAST_IDENT = 0xFFFF_FFFF

@@ -17,8 +17,8 @@ from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from plcsim.core.memory import Memory
     from plcsim.library.astcp.idents import Endpoint, IdentTable
-    from plcsim.memory import Memory
 
 _UDINT: Final = Format("<I")
 _PAIR: Final = Format("<II")

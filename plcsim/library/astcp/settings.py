@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from plcsim.duration import parse_duration_ns
-from plcsim.errors import ConfigurationError
+from plcsim.core.duration import parse_duration_ns
+from plcsim.core.errors import ConfigurationError
 from plcsim.library.astcp.constants import (
     tcpERR_INVALID,
     tcpERR_INVALID_IDENT,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plcsim.function_block import FunctionBlock
+from plcsim.core.function_block import FunctionBlock
 from st_types import BOOL, var_input, var_output
 
 

@@ -7,7 +7,7 @@ goes on. RESET and LOAD win over counting, and an edge that comes under them is 
 
 from __future__ import annotations
 
-from plcsim.function_block import FunctionBlock
+from plcsim.core.function_block import FunctionBlock
 from st_types import BOOL, INT, UINT, var, var_input, var_output
 
 

@@ -10,7 +10,7 @@ IEC 61131-8 advises to suppress that edge.
 
 from __future__ import annotations
 
-from plcsim.function_block import FunctionBlock
+from plcsim.core.function_block import FunctionBlock
 from st_types import BOOL, var, var_input, var_output
 
 

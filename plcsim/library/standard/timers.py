@@ -12,7 +12,7 @@ What the standard leaves to the implementation, for all three alike:
 
 from __future__ import annotations
 
-from plcsim.function_block import FunctionBlock
+from plcsim.core.function_block import FunctionBlock
 from st_types import BOOL, TIME, UDINT, var, var_input, var_output
 
 NS_PER_MS = 1_000_000

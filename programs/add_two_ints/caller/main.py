@@ -1,7 +1,7 @@
 """Calls /add_two_ints ten times a second and checks the answers."""
 
 from crosnode.node import CrosNode, ServiceCaller
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import LREAL, UDINT, var
 

@@ -1,7 +1,7 @@
 """Provides /add_two_ints: each cycle answers what was asked, at most ten requests."""
 
 from crosnode.node import CrosNode, ServiceProvider
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import UDINT, var
 

@@ -10,7 +10,7 @@ from math import isfinite
 
 from crosnode.messages import Message, Time
 from crosnode.node import CrosNode, LogLevel, Publisher, Subscriber
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import ARRAY, BOOL, LREAL, UDINT, UINT, Struct, var
 

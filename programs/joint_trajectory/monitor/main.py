@@ -6,7 +6,7 @@ sensor_msgs/JointState``, and the views in joint_state.py by ``plcsim types pyth
 
 from crosnode.messages import Message, to_latin1
 from crosnode.node import CrosNode, Subscriber
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import UDINT, var
 

@@ -2,7 +2,7 @@
 
 from crosnode.messages import to_latin1
 from crosnode.node import CrosNode, LogLevel, Subscriber
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import STRING, UDINT, var
 

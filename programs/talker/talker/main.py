@@ -5,7 +5,7 @@ callback of figure 1.22, inverted as in figure 1.21.
 """
 
 from crosnode.node import CrosNode, Publisher
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import STRING, UDINT, var
 

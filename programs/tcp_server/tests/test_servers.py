@@ -6,13 +6,13 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller
+from plcsim.core.system import State
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.network import Address, Outcome, Socket, VirtualNetwork
-from plcsim.project import load_setup, read_project
-from plcsim.system import State
+from plcsim.project.plc_toml import load_setup, read_project
 
 SETUP = load_setup(read_project(Path(__file__).parents[1]))
 THESIS, ECHO = Address("127.0.0.1", 22011), Address("127.0.0.1", 22012)

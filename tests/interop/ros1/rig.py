@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from crosnode.graph.names import node_settings
 from crosnode.messages import MessageTypes
-from crosnode.names import node_settings
 from crosnode.node import CrosNode, NodeOptions
-from plcsim.context import Context
-from plcsim.memory import Memory
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
 
 PYTHON = "/usr/bin/python3"

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from crosnode.connection import State
-from crosnode.master import Master, OutgoingCall
-from crosnode.uri import parse_uri
+from crosnode.graph.uri import parse_uri
+from crosnode.master.master import Master, OutgoingCall
+from crosnode.transport.connection import State
 from crosnode.xmlrpc import (
     Call,
     CallReceived,

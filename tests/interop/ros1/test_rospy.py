@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from crosnode.connection import State
 from crosnode.messages import MessageTypes
 from crosnode.tcpros import (
     ANY,
@@ -25,6 +24,7 @@ from crosnode.tcpros import (
     SubscriberConnection,
     TypeInfo,
 )
+from crosnode.transport.connection import State
 from crosnode.xmlrpc import Call, Fault, Response
 
 from . import shell

@@ -3,7 +3,7 @@
 from hypothesis import strategies as st
 
 from st_types import STRING, WSTRING
-from st_types.derived import (
+from st_types.types.derived import (
     AliasType,
     ArrayType,
     DataBlockType,
@@ -16,7 +16,7 @@ from st_types.derived import (
     SubrangeType,
     WStringType,
 )
-from st_types.elementary import ELEMENTARY, INT, UDINT, USINT, ElementaryType, Kind
+from st_types.types.elementary import ELEMENTARY, INT, UDINT, USINT, ElementaryType, Kind
 
 elementary_types = st.sampled_from(sorted(set(ELEMENTARY.values()), key=str))
 

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from st_types.declarations import parse_declarations, parse_text
-from st_types.diagnostics import render_all
-from st_types.printer import print_file
-from st_types.resolve import TypeTable, resolve
-from st_types.source import Source
-from st_types.syntax import DeclarationFile
-from st_types.values import decode, encode, initial_image
+from st_types.resolve.table import TypeTable, resolve
+from st_types.syntax.declarations import parse_declarations, parse_text
+from st_types.syntax.diagnostics import render_all
+from st_types.syntax.printer import print_file
+from st_types.syntax.source import Source
+from st_types.syntax.tree import DeclarationFile
+from st_types.types.values import decode, encode, initial_image
 
 CORPUS = Path(__file__).parents[2] / "corpus" / "st_types"
 LIBRARY = Path(__file__).parents[3] / "plcsim" / "library"

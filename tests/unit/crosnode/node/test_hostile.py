@@ -6,8 +6,8 @@ same to real processes.
 
 import pytest
 
+from crosnode.graph.uri import parse_uri
 from crosnode.testing import Attacker, Door, HostilePeers, Speaks
-from crosnode.uri import parse_uri
 from plcsim.network import Address, Outcome
 
 from .world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, words

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import pytest
 
-from crosnode.api_caller import CallState
-from crosnode.budget import StepLimits
 from crosnode.errors import InvalidNameError, MessageTypeError
 from crosnode.node import StatusKind
+from crosnode.transport.budget import StepLimits
+from crosnode.xmlrpc.api_caller import CallState
 from plcsim.library.astcp.idents import IdentTable
 
 from .world import MS, OTHER_IP, PLC_IP, STRING, World, drain, news, words

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from crosnode.graph.uri import parse_uri
 from crosnode.node.slave_api import LARGEST
-from crosnode.uri import parse_uri
 
 from .world import OTHER_IP, PLC_IP, STRING, World
 

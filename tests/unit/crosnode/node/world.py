@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from typing import Any
 
-from crosnode.budget import StepLimits
-from crosnode.master_server import MasterOptions, MasterServer
-from crosnode.names import node_settings
+from crosnode.graph.names import node_settings
+from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions, Status, StatusKind
 from crosnode.tcpros.header import encode_header
-from plcsim.context import Context
-from plcsim.memory import Memory
+from crosnode.transport.budget import StepLimits
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
 from plcsim.network import Address, Link, Outcome, Socket, VirtualNetwork
 from plcsim.network.virtual_host import VirtualHost
 

@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crosnode.connection import Act
 from crosnode.errors import LocalProtocolError
 from crosnode.tcpros import (
     Event,
@@ -23,6 +22,7 @@ from crosnode.tcpros import (
 from crosnode.tcpros.connection import TcprosConnection as Connection
 from crosnode.tcpros.header import encode_header
 from crosnode.tcpros.reader import length_of
+from crosnode.transport.connection import Act
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
 LIMITS = Limits(max_header=300, max_message=50, timeout_ns=1000)

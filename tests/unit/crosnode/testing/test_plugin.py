@@ -45,7 +45,7 @@ def test_a_run_without_the_fixture_imports_nothing_of_crosnode():
         "import sys, crosnode.testing.plugin\n"
         "loaded = [m for m in sys.modules if m.startswith(('plcsim', 'crosnode', 'st_types'))]\n"
         "assert sorted(loaded) == ['crosnode', 'crosnode.testing', 'crosnode.testing.plugin',"
-        " 'plcsim', 'plcsim.lazy'], loaded\n"
+        " 'plcsim', 'plcsim.core', 'plcsim.core.lazy'], loaded\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

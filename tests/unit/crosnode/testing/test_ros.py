@@ -3,7 +3,7 @@
 import pytest
 
 from crosnode.errors import InvalidNameError
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from crosnode.testing import Ros
 from plcsim import Program
 from plcsim.testing import ExpectationFailed, Plc, PlcTestError, open_plc
@@ -12,7 +12,7 @@ from st_types import BOOL, STRING, UDINT, var
 
 TEXT = "std_msgs/String"
 MAIN = """
-from crosnode.project import create_node
+from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import STRING, UDINT, var
 

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crosnode.connection import Act, Closed, Failed, State
 from crosnode.errors import LocalProtocolError, MessageValueError
+from crosnode.transport.connection import Act, Closed, Failed, State
 from crosnode.xmlrpc import (
     CallReceived,
     Event,

@@ -4,7 +4,7 @@ import pytest
 
 from plcsim.cli import declaration_files
 from plcsim.cli.declaration_files import find_files, library_files, read_files
-from st_types import source
+from st_types.syntax import source
 
 
 def test_files_are_found_once_and_in_order(tmp_path: Path) -> None:

@@ -6,10 +6,10 @@ import pytest
 from rich.console import Console
 
 from plcsim.cli.display import LiveTable, print_summary, source_line
-from plcsim.project import read_project
-from plcsim.report import report
-from plcsim.status_page import StatusPage
-from plcsim.task import Policy
+from plcsim.core.task import Policy
+from plcsim.process.report import report
+from plcsim.project.plc_toml import read_project
+from plcsim.shared_image.status_page import StatusPage
 
 MS = 1_000_000
 

@@ -6,10 +6,10 @@ import json
 import pytest
 
 from plcsim.cli import doctor
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.statistics import Summary
 from plcsim.doctor.loops import Measurement, Order
-from plcsim.errors import ConfigurationError
-from plcsim.realtime import Rights
-from plcsim.statistics import Summary
+from plcsim.host.realtime import Rights
 
 ALL = Rights(("SCHED_FIFO 50", "CPU 1", "locked memory", "no deep sleep"), ())
 NONE = Rights((), ("SCHED_FIFO: Operation not permitted",))

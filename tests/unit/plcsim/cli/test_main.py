@@ -13,7 +13,7 @@ import pytest
 from plcsim.cli import command as cli
 from plcsim.cli.command import build_parser
 from plcsim.cli.main import main
-from plcsim.errors import PlcError
+from plcsim.core.errors import PlcError
 from st_types.errors import TypeSystemError
 
 OWN = ["run", "check", "doctor", "new"]

@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.cli.output_file import check_output, write_output
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 
 
 def test_a_file_that_can_be_written(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 
 from plcsim.cli.main import main
 from plcsim.cli.report import FALSE_ALARMS, comparisons, read_samples
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 
 
 def samples(factor, seed, repeats=30, tests=1):

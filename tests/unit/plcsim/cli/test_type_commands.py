@@ -7,9 +7,9 @@ import pytest
 
 from plcsim.cli import types
 from plcsim.cli.declaration_files import LIBRARY
-from plcsim.errors import PlcError
-from st_types.declarations import parse_text
+from plcsim.core.errors import PlcError
 from st_types.errors import DeclarationError
+from st_types.syntax.declarations import parse_text
 
 Run = Callable[..., tuple[int, str, str]]
 

@@ -9,10 +9,10 @@ import pytest
 
 from plcsim import Program
 from plcsim.cli.main import main
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
-from plcsim.run_file import Run, announce
+from plcsim.process.run_file import Run, announce
 from plcsim.shared_image import ImageWriter
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, BYTE, ENUM, REAL, STRING, UINT, Struct, var

@@ -2,10 +2,10 @@
 
 import pytest
 
+from plcsim.core.statistics import Histogram
 from plcsim.doctor.host import Host
 from plcsim.doctor.loops import Measurement, Order
 from plcsim.doctor.verdict import Comparison
-from plcsim.statistics import Histogram
 
 MS = 1_000_000
 PUNCTUAL = [20_000] * 10_000

@@ -6,7 +6,7 @@ import pytest
 
 from plcsim.doctor.advice import advise
 from plcsim.doctor.verdict import Comparison
-from plcsim.realtime import Rights
+from plcsim.host.realtime import Rights
 
 ALL = Rights(("SCHED_FIFO 50", "CPU 3", "locked memory", "no deep sleep"), ())
 NONE = Rights((), ("SCHED_FIFO: Operation not permitted",))

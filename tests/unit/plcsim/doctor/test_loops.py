@@ -18,7 +18,7 @@ from plcsim.doctor.loops import (
     probe_rights,
     write_project,
 )
-from plcsim.project import read_project
+from plcsim.project.plc_toml import read_project
 
 MS = 1_000_000
 ORDER = Order(cycle_ns=MS, cycles=20, realtime=False)

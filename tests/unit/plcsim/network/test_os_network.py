@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from plcsim.descriptors import ROOM
+from plcsim.host.descriptors import ROOM
 from plcsim.network import Address, OsNetwork, Outcome
 from plcsim.network.os_network import OsSocket
 

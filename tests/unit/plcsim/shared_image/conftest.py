@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from plcsim import Program
-from plcsim.clock import VirtualClock
-from plcsim.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
@@ -55,7 +55,7 @@ class World:
         tag = self.reader.directory.find(path)
         size = tag.data_type.size
         place = self.reader.directory.place_of(tag.address, size)
-        from st_types.values import decode
+        from st_types.types.values import decode
 
         return decode(tag.data_type, self.reader.copy(place, place + size)[1])
 

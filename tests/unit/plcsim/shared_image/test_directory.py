@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.errors import TagError
+from plcsim.core.errors import TagError
 from plcsim.library.standard import TON
 from plcsim.shared_image.directory import (
     Directory,
@@ -16,9 +16,16 @@ from plcsim.shared_image.directory import (
 )
 from plcsim.shared_image.errors import ImageError
 from st_types import ARRAY, BOOL, ENUM, INT, LREAL, STRING, WSTRING, DataType, Struct, var
-from st_types.derived import AliasType, ArrayType, Member, ReferenceType, StructType, SubrangeType
-from st_types.elementary import ELEMENTARY
-from st_types.views import type_of
+from st_types.types.derived import (
+    AliasType,
+    ArrayType,
+    Member,
+    ReferenceType,
+    StructType,
+    SubrangeType,
+)
+from st_types.types.elementary import ELEMENTARY
+from st_types.types.views import type_of
 
 
 class Colour(IntEnum):

@@ -3,7 +3,7 @@ import os
 import pytest
 
 from plcsim import Program
-from plcsim.controller import ProgramSetup, TaskClassSetup
+from plcsim.core.controller import ProgramSetup, TaskClassSetup
 from plcsim.shared_image import CommandRefused, Mask, Store, layout
 from plcsim.shared_image.command import encode_command
 from plcsim.shared_image.writer import COMMANDS_PER_LATCH, STEPS_PER_COMMAND, _joined

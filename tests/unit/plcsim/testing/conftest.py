@@ -9,7 +9,7 @@ _spec = importlib.util.spec_from_file_location("cell", Path(__file__).with_name(
 cell = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(cell)
 
-from plcsim.controller import ProgramSetup, Setup, TaskClassSetup  # noqa: E402  # after the cell
+from plcsim.core.controller import ProgramSetup, Setup, TaskClassSetup  # noqa: E402  # after the cell
 from plcsim.testing.plc import Plc  # noqa: E402  # after the cell
 
 MS = 1_000_000

@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.errors import TagError
+from plcsim.core.errors import TagError
 from plcsim.testing import PlcTestError
 from plcsim.testing.condition import Condition, source_of
 

@@ -1,6 +1,6 @@
 """Text diagrams."""
 
-from plcsim.tag import Tag
+from plcsim.core.tag import Tag
 from plcsim.testing.diagram import draw, foot_of, shorten, step_for, table
 from st_types import BOOL, DINT, REAL, STRING
 

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from plcsim import extension
-from plcsim.controller import Controller
-from plcsim.extension import Attachment
+from plcsim.core.controller import Controller
+from plcsim.project import extension
+from plcsim.project.extension import Attachment
 from plcsim.shared_image import writer
 from plcsim.testing import extensions as module
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
-from st_types.views import type_of
+from st_types.types.views import type_of
 
 
 class Steps:

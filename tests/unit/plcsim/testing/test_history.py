@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.memory import PAGE
+from plcsim.core.memory import PAGE
 from plcsim.testing.history import SHOWN, History
 
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from plcsim.services.modbus.errors import Code, ModbusException
+from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.testing.modbus import Modbus
 from plcsim.testing.errors import ControllerFault, PlcTestError
-from plcsim.testing.modbus import Modbus
 from plcsim.testing.target import open_plc
 
 MAP = """tag,area,offset,bit,type,order,scale,min,max,access

@@ -2,8 +2,8 @@
 
 import pytest
 
-from plcsim.errors import TagError
-from plcsim.system import State
+from plcsim.core.errors import TagError
+from plcsim.core.system import State
 from plcsim.testing import ControllerFault, ExpectationFailed, PlantError, PlcTestError
 from plcsim.testing.plc import Plc
 

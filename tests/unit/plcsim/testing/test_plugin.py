@@ -290,7 +290,7 @@ def test_a_run_without_plc_tests_imports_nothing_of_plcsim():
     code = (
         "import sys, plcsim.testing.plugin\n"
         "loaded = [m for m in sys.modules if m.startswith(('plcsim', 'st_types'))]\n"
-        "assert sorted(loaded) == ['plcsim', 'plcsim.lazy', 'plcsim.testing',"
+        "assert sorted(loaded) == ['plcsim', 'plcsim.core', 'plcsim.core.lazy', 'plcsim.testing',"
         " 'plcsim.testing.plugin'], loaded\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

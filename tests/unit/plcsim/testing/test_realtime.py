@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.task import Cause, Policy
+from plcsim.core.task import Cause, Policy
 from plcsim.testing.realtime import Verdict, figures, judge
 
 pytest_plugins = ["pytester"]

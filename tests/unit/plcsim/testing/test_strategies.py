@@ -6,11 +6,11 @@ from hypothesis import strategies as st
 from hypothesis.errors import NoSuchExample
 
 from plcsim import Program
-from plcsim.errors import TagError
+from plcsim.core.errors import TagError
 from plcsim.testing import open_plc, stimuli, tag_values
 from plcsim.testing.strategies import values_of
 from st_types import ARRAY, BOOL, INT, LREAL, REAL, STRING, WSTRING, Struct, var
-from st_types.values import decode, encode
+from st_types.types.values import decode, encode
 
 
 class Inner(Struct):

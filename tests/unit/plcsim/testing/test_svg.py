@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.tag import Tag
+from plcsim.core.tag import Tag
 from plcsim.testing.strategies import values_of
 from plcsim.testing.svg import WIDTH, histogram, ticks, timing_diagram
 from st_types import BOOL, INT, LREAL, STRING

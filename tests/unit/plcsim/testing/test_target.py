@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from plcsim import Program
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 from plcsim.testing import PlcTestError, open_plc
 from plcsim.testing.target import find_project, project_target
 from st_types import DINT, var

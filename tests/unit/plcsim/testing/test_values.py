@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from plcsim.testing.strategies import values_of
 from plcsim.testing.values import text_of, value_of
 from st_types import BOOL, DINT, ENUM, LREAL, REAL, STRING, TIME, ULINT
-from st_types.values import decode, encode
+from st_types.types.values import decode, encode
 
 
 class Light(IntEnum):

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from plcsim import Program, adr, sizeof
-from plcsim.errors import TagError
+from plcsim.core.errors import TagError
 from plcsim.library.astcp import TcpOpen, TcpRecv, TcpSend, TcpServer
 from plcsim.testing import PlantError, PlcTestError, StimulusError, open_plc
 from st_types import ARRAY, UDINT, UINT, USINT, var

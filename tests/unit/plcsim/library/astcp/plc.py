@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeVar
 
-from plcsim.context import Context
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
     ERR_OK,
@@ -17,11 +18,10 @@ from plcsim.library.astcp import (
     TcpServer,
 )
 from plcsim.library.astcp.idents import IdentTable
-from plcsim.memory import Memory
 from plcsim.network import Limits, Link, VirtualNetwork
 
 if TYPE_CHECKING:
-    from plcsim.function_block import FunctionBlock
+    from plcsim.core.function_block import FunctionBlock
     from plcsim.network import Network
 
 B = TypeVar("B", bound="FunctionBlock")

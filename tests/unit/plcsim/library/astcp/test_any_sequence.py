@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from plcsim.errors import PageFault
+from plcsim.core.errors import PageFault
 from plcsim.library import astcp
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
@@ -21,8 +21,8 @@ from plcsim.library.astcp import (
     TcpServer,
 )
 from plcsim.network import Limits
-from st_types.derived import Section
-from st_types.views import type_of
+from st_types.types.derived import Section
+from st_types.types.views import type_of
 
 from .plc import CLIENT, MS, PORT, SERVER, Plc, World
 

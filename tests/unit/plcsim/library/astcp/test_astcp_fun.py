@@ -8,10 +8,10 @@ import pytest
 
 from plcsim.library import astcp
 from plcsim.library.astcp import constants
-from st_types.declarations import parse_text
-from st_types.derived import Section
-from st_types.syntax import FunctionBlockDeclaration, TypeBlock, VariableBlock
-from st_types.views import type_of
+from st_types.syntax.declarations import parse_text
+from st_types.syntax.tree import FunctionBlockDeclaration, TypeBlock, VariableBlock
+from st_types.types.derived import Section
+from st_types.types.views import type_of
 
 SECTIONS = {
     "VAR_INPUT": Section.INPUT,

@@ -4,7 +4,8 @@ from struct import pack, unpack
 
 import pytest
 
-from plcsim.errors import PageFault
+from plcsim.core.errors import PageFault
+from plcsim.core.memory import adr, sizeof
 from plcsim.library import astcp
 from plcsim.library.astcp import (
     ERR_OK,
@@ -25,7 +26,6 @@ from plcsim.library.astcp import (
     tcpSO_NOWAITING_SET,
     tcpTCP_KEEPCNT_SET,
 )
-from plcsim.memory import adr, sizeof
 from plcsim.network import OptionValue, Outcome
 
 from .plc import CLIENT, PORT, WILD, World

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from plcsim.errors import PageFault
+from plcsim.core.errors import PageFault
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
     ERR_OK,

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from plcsim.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError
 from plcsim.library.astcp.settings import Settings
 
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plcsim.errors import PageFault
+from plcsim.core.errors import PageFault
 from plcsim.library.astcp import (
     ERR_OK,
     TcpRecv,

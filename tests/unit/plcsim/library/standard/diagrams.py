@@ -4,10 +4,10 @@ A diagram has one row a member and one column a call, 1 ms apart. ``_`` and ``#`
 TRUE, a digit is a number. Rows of inputs are played, rows of outputs are compared.
 """
 
-from plcsim.context import Context
-from plcsim.memory import PAGE, Memory
-from st_types.derived import Section
-from st_types.views import type_of
+from plcsim.core.context import Context
+from plcsim.core.memory import PAGE, Memory
+from st_types.types.derived import Section
+from st_types.types.views import type_of
 
 MS = 1_000_000
 

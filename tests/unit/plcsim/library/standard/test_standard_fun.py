@@ -5,9 +5,9 @@ from importlib.resources import files
 import pytest
 
 from plcsim.library import standard
-from st_types.declarations import parse_text
-from st_types.derived import Section
-from st_types.views import type_of
+from st_types.syntax.declarations import parse_text
+from st_types.types.derived import Section
+from st_types.types.views import type_of
 
 SECTIONS = {
     "VAR_INPUT": Section.INPUT,

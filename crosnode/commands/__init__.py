@@ -1,0 +1,1 @@
+"""What crosnode brings to the command line: ``plcsim ros``, ``plcsim master``."""

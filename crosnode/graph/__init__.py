@@ -1,0 +1,1 @@
+"""The ROS graph: names of resources, URIs and hosts."""

@@ -1,0 +1,56 @@
+"""Names of hosts: the cycle asks no name server, so all names are known before the first one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from crosnode.errors import InvalidNameError
+from crosnode.graph.uri import Address, parse_uri
+from plcsim.network.protocol import is_ipv4
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+LOCAL: Final = {"localhost": "127.0.0.1"}
+
+
+def parse_hosts(text: str) -> dict[str, str]:
+    """Return the IPv4 address of each name in a text in the form of ``/etc/hosts``."""
+    hosts: dict[str, str] = {}
+    for line in text.splitlines():
+        ip, *names = line.partition("#")[0].split() or [""]
+        if is_ipv4(ip):
+            for name in names:
+                hosts.setdefault(name.lower(), ip)
+    return hosts
+
+
+class HostTable:
+    """IPv4 addresses by host name.
+
+    Args:
+        hosts: names and addresses beyond ``localhost``.
+    """
+
+    def __init__(self, hosts: Mapping[str, str] | None = None) -> None:
+        self._hosts = LOCAL | {name.lower(): ip for name, ip in (hosts or {}).items()}
+
+    def resolve(self, host: str) -> str:
+        """Return the IPv4 address of a host.
+
+        Raises:
+            InvalidNameError: the name is not in the table.
+        """
+        ip = host if is_ipv4(host) else self._hosts.get(host.lower())
+        if ip is None:
+            raise InvalidNameError(f"host {host[:100]!r} is not known; add it to [ros.hosts].")
+        return ip
+
+    def address(self, uri: str, scheme: str) -> Address:
+        """Return the address that a URI leads to.
+
+        Raises:
+            InvalidNameError: not such a URI, or an unknown host.
+        """
+        host, port = parse_uri(uri, scheme)
+        return Address(self.resolve(host), port)

@@ -1,0 +1,156 @@
+"""A process that owns a master: what ``plcsim master`` runs, and `crosnode.plc.master_service`.
+
+It steps as fast as there is something to do and rests a millisecond where there is not.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from crosnode.errors import InvalidNameError
+from crosnode.graph.hosts import parse_hosts
+from crosnode.graph.uri import make_uri, parse_uri
+from crosnode.master.server import MasterOptions, MasterServer, first_parameters
+from crosnode.transport.budget import UNPACED
+from plcsim.core.context import Context
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.memory import Memory
+from plcsim.host import descriptors
+from plcsim.library.astcp import tcpERR_ALREADY_EXIST, tcpERR_INTERFACE, tcpERR_SOCKET_BIND
+from plcsim.network import OsNetwork
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Mapping
+    from types import FrameType
+
+REST_S: Final = 0.001
+IDENTS: Final = 4096
+HOSTS: Final = Path("/etc/hosts")
+
+
+class Refusal(NamedTuple):
+    """Why a port is not open.
+
+    Attributes:
+        field: "port" or "bind".
+        text: what is wrong with its value.
+    """
+
+    field: str
+    text: str
+
+
+class MasterProcess:
+    """A master on a controller without programs; its first step is done.
+
+    Args:
+        host: name or number in its URI.
+        port: to listen at.
+        bind_ip: own interface to listen on, "" for all.
+        hosts: addresses of host names in the URIs of nodes.
+
+    Attributes:
+        server: the master.
+    """
+
+    def __init__(self, host: str, port: int, bind_ip: str, hosts: Mapping[str, str]) -> None:
+        descriptors.allow(IDENTS + descriptors.SPARE)
+        self._context = Context(Memory(), OsNetwork(), {"AsTCP": {"idents": IDENTS}})
+        pid = os.getpid()
+        options = MasterOptions(
+            host=host,
+            port=port,
+            bind_ip=bind_ip,
+            pid=pid,
+            parameters=first_parameters(f"plcsim-{pid}-{time.time_ns()}"),
+            hosts=hosts,
+            step=UNPACED,
+        )
+        self.server = MasterServer(self._context, options)
+        self._stop = _Stop()
+        self._step()
+
+    @property
+    def refusal(self) -> Refusal | None:
+        """Why the port is not open, None where it is."""
+        if self.server.is_open:
+            return None
+        port, bind_ip = self.server.options.port, self.server.options.bind_ip
+        return {
+            tcpERR_ALREADY_EXIST: Refusal("port", f"{port} is in use"),
+            tcpERR_SOCKET_BIND: Refusal(
+                "port", f"{port} needs root or CAP_NET_BIND_SERVICE, which are not given"
+            ),
+            tcpERR_INTERFACE: Refusal("bind", f"{bind_ip!r} is no address of this host"),
+        }.get(
+            self.server.status,
+            Refusal("port", f"{port} cannot be opened: AsTCP status {self.server.status}"),
+        )
+
+    def _step(self) -> None:
+        self._context.release_ns = time.monotonic_ns()
+        self.server.step()
+
+    def run(self, until_ns: int | None = None, look: Callable[[], None] = lambda: None) -> None:
+        """Serve until SIGINT or SIGTERM, a shutdown by the API, or a time.
+
+        Args:
+            until_ns: of the monotonic clock, None for ever.
+            look: called after each step.
+        """
+        while not self._stop.is_asked and not self.server.master.is_shut_down:
+            self._step()
+            if until_ns is not None and self._context.release_ns >= until_ns:
+                break
+            look()
+            time.sleep(REST_S)
+        self.server.close()
+
+
+class _Stop:
+    """Set by SIGINT or SIGTERM."""
+
+    def __init__(self) -> None:
+        self.is_asked = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._ask)
+
+    def _ask(self, _number: int, _frame: FrameType | None) -> None:
+        self.is_asked = True
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run ``plcsim master``; return the exit status.
+
+    Raises:
+        ConfigurationError: the port cannot be opened, or the host is none.
+    """
+    start_ns = time.monotonic_ns()
+    text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+    host = _host(arguments.host)
+    process = MasterProcess(host, arguments.port, arguments.bind, parse_hosts(text))
+    if process.refusal:
+        raise ConfigurationError(f"--{process.refusal.field}: {process.refusal.text}")
+    sys.stdout.write(f"ROS_MASTER_URI={process.server.uri}\n")
+    sys.stdout.flush()
+    process.run(None if arguments.for_s is None else start_ns + int(arguments.for_s * 1e9))
+    return 0
+
+
+def _host(given: str | None) -> str:
+    """Return the host of the URI: the argument, ROS_HOSTNAME, ROS_IP or localhost."""
+    found = {"--host": given} | {key: os.environ.get(key) for key in ("ROS_HOSTNAME", "ROS_IP")}
+    for name, host in found.items():
+        if host:
+            try:
+                return parse_uri(make_uri("http", host, 1), "http").host
+            except InvalidNameError:
+                text = f"{name}: {host[:100]!r} is no name or number of a host"
+                raise ConfigurationError(text) from None
+    return "localhost"

@@ -1,0 +1,127 @@
+"""The master on its port: `crosnode.master.master.Master` over the bounded step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from crosnode.graph.hosts import HostTable
+from crosnode.graph.uri import DEFAULT_PORT, make_uri
+from crosnode.master.master import Master, OutgoingCall
+from crosnode.node.acceptors import SlaveAcceptor
+from crosnode.transport.budget import Budget, StepLimits
+from crosnode.transport.event_loop import EventLoop
+from crosnode.xmlrpc import Call, CallReceived, Fault, Limits, Value, XmlRpcServerConnection
+from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from crosnode import tcpros, xmlrpc
+    from crosnode.transport.link import Link
+    from plcsim.core.context import Context
+
+
+def first_parameters(run_id: str) -> dict[str, Value]:
+    """Return what rosmaster and roslaunch set at the start of a master."""
+    return {"/run_id": run_id, "/rosdistro": "noetic\n", "/rosversion": "1.15.15\n"}
+
+
+class MasterOptions(NamedTuple):
+    """Where a master listens and what a step may take.
+
+    Attributes:
+        host: name or number in its URI.
+        port: to listen at.
+        bind_ip: own interface to listen on, "" for all.
+        pid: what getPid answers.
+        parameters: what the parameter server holds at the start.
+        hosts: addresses of host names in the URIs of nodes.
+        step: bounds of one step.
+        xmlrpc: bounds of a connection.
+    """
+
+    host: str = "localhost"
+    port: int = DEFAULT_PORT
+    bind_ip: str = ""
+    pid: int = 0
+    parameters: Mapping[str, Value] | None = None
+    hosts: Mapping[str, str] | None = None
+    step: StepLimits = StepLimits()
+    xmlrpc: Limits = Limits()
+
+
+class MasterServer:
+    """A ROS 1 master and parameter server; ``step`` does its bounded step.
+
+    Args:
+        context: of the controller.
+        options: see ``MasterOptions``.
+
+    Attributes:
+        uri: where nodes reach it.
+        master: the logic.
+    """
+
+    def __init__(self, context: Context, options: MasterOptions | None = None) -> None:
+        self.options = options = options or MasterOptions()
+        self._context = context
+        self._loop = EventLoop(context, options.step)
+        acceptor = SlaveAcceptor(self, options.xmlrpc)
+        self._listener = self._loop.listen(options.bind_ip, options.port, acceptor)
+        self._api = ApiCaller(self._loop, HostTable(options.hosts), options.xmlrpc)
+        self.uri = make_uri("http", options.host, options.port)
+        self.master = Master(self.uri, options.pid, options.parameters)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nodes can connect; a port in use is tried again once a second."""
+        return self._listener.is_open
+
+    @property
+    def status(self) -> int:
+        """Status of the last AsTCP block that the port called, for messages."""
+        return self._listener.status
+
+    def step(self) -> None:
+        """Answer calls and make those that they cause, within the budget of a step."""
+        now_ns, budget = self._context.release_ns, Budget(self.options.step)
+        self._api.step_first(now_ns, budget)
+        self._loop.step(now_ns, budget)
+        self._api.step(now_ns, budget)
+        self._loop.step_new(now_ns, budget)
+
+    def close(self) -> None:
+        """Close the port and all connections."""
+        self._loop.close(self._context.release_ns)
+
+    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+        """Answer a call."""
+        connection = link.connection
+        if not isinstance(event, CallReceived) or not isinstance(
+            connection, XmlRpcServerConnection
+        ):
+            return
+        reply, calls = self.master.handle(Call(event.method, event.params))
+        if isinstance(reply, Fault):
+            connection.fault(*reply)
+        else:
+            connection.respond(reply.value)
+        for call in calls:
+            self._start(call)
+
+    def _start(self, call: OutgoingCall) -> None:
+        def answered(answer: ApiCall) -> None:
+            if answer.was_answered:
+                self.master.handle_reply(call, answer.reply)
+
+        self._api.start(ApiCall(call.uri, call.method, call.params, answered))
+
+    def expects_data(self, link: Link) -> bool:
+        """A caller may always call."""
+        return True
+
+    def fill(self, link: Link) -> None:
+        """Answers go to the connection at once."""
+
+    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+        """Nothing is kept for a caller."""

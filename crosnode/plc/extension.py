@@ -1,0 +1,177 @@
+"""The extension of the table [ros]: settings for nodes, the embedded master, the bridge."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from crosnode.errors import CrosnodeError
+from crosnode.graph.uri import DEFAULT_PORT, make_uri
+from crosnode.messages import MessageTypes
+from crosnode.plc.bridge import Bridge
+from crosnode.plc.master_watch import MasterWatch
+from crosnode.plc.project import MASTER_IP, OPTIONS, Surroundings
+from crosnode.plc.settings import RosSettings, read_settings
+from plcsim.core.errors import ConfigurationError
+from plcsim.project.extension import Attachment
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from crosnode.master.server import MasterServer
+    from plcsim.core.context import Context
+    from plcsim.core.controller import Controller
+    from plcsim.core.task import TaskClass
+    from plcsim.project.table import Table
+
+HOSTS: Final = Path("/etc/hosts")
+LOOK_NS: Final = 500_000_000
+"""Nanoseconds between two looks at whether the programs' nodes have their master."""
+
+CHECK_IP: Final = "192.168.0.10"
+"""Of the controller of `RosExtension.check`, on a network with nobody else."""
+
+
+class RosExtension:
+    """`plcsim.project.extension.Extension` of ROS 1."""
+
+    def read(self, table: Table, folder: Path) -> RosSettings:
+        """Return the settings; the types of the bridge are looked up."""
+        text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+        settings = read_settings(table, folder, dict(os.environ), text)
+        types = MessageTypes(settings.packages)
+        for key, entries in (("publish", settings.publish), ("subscribe", settings.subscribe)):
+            for entry in entries:
+                if misfit := _misfit(types, entry.type_name):
+                    raise table.error(f"{key}.{entry.topic}.type", misfit)
+        return settings
+
+    def in_process(self, settings: RosSettings, ip: str) -> RosSettings:
+        """Return the settings with an embedded master in the scan; see `InProcessExtension`.
+
+        On a virtual network all addresses are those of that network, and no ROS_* counts: an
+        embedded master is at the controller's address, any other at ``MASTER_IP``.
+        """
+        settings = settings._replace(is_in_process=True)
+        if not ip:
+            return settings
+        host, port = (
+            (ip, settings.master_port) if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
+        )
+        return settings._replace(
+            master_uri=make_uri("http", host, port), host=ip, bind_ip="", environment={}
+        )
+
+    def service(self, settings: RosSettings) -> str:
+        """Return the module of the embedded master, where it runs in a process of its own."""
+        if settings.is_embedded and not settings.is_in_process:
+            return "crosnode.plc.master_service"
+        return ""
+
+    def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
+        """Leave the settings for programs; step the bridge, and a master in the scan, with it."""
+        clock = controller.clock
+        epoch_ns = 0 if clock.is_virtual else time.time_ns() - clock.now_ns()
+        found = Surroundings(settings, epoch_ns, time.perf_counter_ns)
+        first = min(controller.classes, key=lambda each: each.cycle_ns)
+        if settings.is_embedded and settings.is_in_process:
+            found = found._replace(master=_master_in_scan(controller, first))
+        controller.context.options[OPTIONS] = {"surroundings": found}
+        if settings.publish or settings.subscribe:
+            step = _BridgeStep(controller, first, settings.file)
+            step.bridge()  # its types are compiled before the first cycle
+            controller.image.inputs.append(step.latch)
+            controller.image.watchers.append(step.publish)
+        controller.image.watchers.append(_WatchStep(controller, first))
+        return Attachment(_for_service(settings))
+
+    def check(self, settings: RosSettings, controller: Controller) -> list[str]:
+        """Check the bridge against the tags, as a run does before its first cycle."""
+        self.attach(self.in_process(settings, CHECK_IP), controller)
+        return []
+
+
+def _for_service(settings: RosSettings) -> dict[str, object]:
+    """Return what `crosnode.plc.master_service` is told."""
+    return {
+        "file": str(settings.file),
+        "host": settings.host,
+        "port": settings.master_port,
+        "bind_ip": settings.bind_ip,
+        "hosts": dict(settings.hosts),
+    }
+
+
+def _misfit(types: MessageTypes, name: str) -> str:
+    """Return why a topic cannot have a type, "" where it can."""
+    try:
+        types.message(name)
+    except CrosnodeError as error:
+        try:
+            types.service(name)
+        except CrosnodeError:
+            return str(error)
+        return f"{name} is a service; topics have messages"
+    return ""
+
+
+def _master_in_scan(
+    controller: Controller, task_class: TaskClass
+) -> Callable[[Context], MasterServer]:
+    """Let the master do its step in LATCH; return what makes it."""
+    # not at the top: beside a master in its own process the scan has no use for it
+    from crosnode.plc.in_process_master import InProcessMaster, MasterStep  # noqa: PLC0415
+
+    controller.image.inputs.append(MasterStep(controller.context, task_class))
+    return InProcessMaster
+
+
+class _WatchStep:
+    """Looks now and then whether the nodes of the programs have their master."""
+
+    def __init__(self, controller: Controller, task_class: TaskClass) -> None:
+        self._controller = controller
+        self._class = task_class
+        self._next_ns = 0
+
+    def __call__(self, task_class: TaskClass) -> None:
+        context = self._controller.context
+        if task_class is not self._class or context.release_ns < self._next_ns:
+            return
+        self._next_ns = context.release_ns + LOOK_NS
+        for severity, text in context.library(MasterWatch).look(context.release_ns):
+            self._controller.log(severity, "ros", text)
+
+
+class _BridgeStep:
+    """Does the bridge's step with the fastest class; a restart of the controller makes another."""
+
+    def __init__(self, controller: Controller, task_class: TaskClass, file: Path) -> None:
+        self._controller = controller
+        self._class = task_class
+        self._file = file
+
+    def bridge(self) -> Bridge:
+        """Return the bridge of this start of the controller."""
+        return self._controller.context.library(self._make)
+
+    def _make(self, _context: Context) -> Bridge:
+        try:
+            return Bridge(self._controller)
+        except CrosnodeError as error:
+            raise ConfigurationError(f"{self._file}: ros: {error}") from None
+
+    def latch(self, task_class: TaskClass) -> None:
+        """Bring messages in."""
+        if task_class is self._class:
+            self.bridge().latch()
+
+    def publish(self, task_class: TaskClass) -> None:
+        """Send tags."""
+        if task_class is self._class:
+            self.bridge().publish(self._controller.context.release_ns)
+
+
+EXTENSION = RosExtension()

@@ -1,0 +1,77 @@
+"""Tells people that the nodes of programs find no master, whether or not the programs tell it.
+
+It looks at the nodes from outside, so a program's ``pop_status`` still gives all news.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.core.logbook import Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from crosnode.node import CrosNode
+    from plcsim.core.context import Context
+
+PATIENCE_NS: Final = 3_000_000_000
+"""A master that starts together with the controller, or again, is not worth a line."""
+
+
+class News(NamedTuple):
+    """A line of the logbook."""
+
+    severity: Severity
+    text: str
+
+
+@dataclass(slots=True)
+class _Watched:
+    """A node, and how long it has been without its master.
+
+    Attributes:
+        node: of a program.
+        steps_ns: what its steps had taken when it was looked at, to see whether it does any.
+        missed_ns: since when no master was found, None where one is.
+        is_told: whether that was told.
+    """
+
+    node: CrosNode
+    steps_ns: int = 0
+    missed_ns: int | None = None
+    is_told: bool = False
+
+
+class MasterWatch:
+    """The nodes of the programs of one controller; ``context.library(MasterWatch)``."""
+
+    def __init__(self, _context: Context) -> None:
+        self._watched: list[_Watched] = []
+
+    def add(self, node: CrosNode) -> None:
+        """Look after a node until it ends."""
+        self._watched.append(_Watched(node))
+
+    def look(self, now_ns: int) -> Iterator[News]:
+        """Iterate over what is new; call it about once a second."""
+        self._watched = [each for each in self._watched if not each.node.is_shut_down]
+        for each in self._watched:
+            name, master = each.node.name, each.node.core.master
+            if _misses(each, now_ns) and not each.is_told:
+                each.is_told = True
+                yield News(Severity.WARNING, f"{name}: no master at {master.uri}; trying on")
+            elif each.is_told and master.is_found:
+                each.is_told = False
+                yield News(Severity.INFORMATION, f"{name}: master at {master.uri} found")
+
+
+def _misses(each: _Watched, now_ns: int) -> bool:
+    """Note how it is; return whether a node that does its steps has had no master for too long."""
+    steps_ns, each.steps_ns = each.steps_ns, each.node.statistics.total_ns
+    if each.node.core.master.is_found or steps_ns == each.steps_ns:
+        each.missed_ns = None
+    elif each.missed_ns is None:
+        each.missed_ns = now_ns
+    return each.missed_ns is not None and now_ns - each.missed_ns >= PATIENCE_NS

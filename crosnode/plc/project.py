@@ -1,0 +1,133 @@
+"""Nodes of programs: ``create_node`` in INIT, with what [ros] in plc.toml says.
+
+The settings lie in the options of the controller's context, where `crosnode.plc.extension` put
+them; without a table [ros] the ROS_* environment counts.
+"""
+
+from __future__ import annotations
+
+import os
+from functools import partial
+from typing import TYPE_CHECKING, Final, NamedTuple, cast
+
+from crosnode.graph.names import NodeSettings, node_settings
+from crosnode.messages import MessageTypes
+from crosnode.node import CrosNode, NodeOptions
+from crosnode.plc.master_watch import MasterWatch
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from crosnode.master.server import MasterServer
+    from crosnode.plc.settings import RosSettings
+    from crosnode.transport.budget import StepLimits
+    from plcsim.core.context import Context
+
+OPTIONS: Final = "ros"
+
+MASTER_IP: Final = "192.168.0.1"
+"""Where tests have the master, unless it is embedded (`crosnode.testing.Ros`)."""
+
+
+class Surroundings(NamedTuple):
+    """What the extension knows of the controller.
+
+    Attributes:
+        settings: table [ros].
+        epoch_ns: added to a release gives nanoseconds since 1970.
+        clock_ns: measures steps.
+        master: the embedded master, where it runs in the scan.
+        beside: steps the other hosts of a test, which answer nothing while no cycle ends.
+    """
+
+    settings: RosSettings
+    epoch_ns: int
+    clock_ns: Callable[[], int]
+    master: Callable[[Context], MasterServer] | None = None
+    beside: Callable[[], None] | None = None
+
+
+def surroundings(context: Context) -> Surroundings | None:
+    """Return what the extension left, None where the project has no table [ros]."""
+    return cast("Surroundings | None", context.options.get(OPTIONS, {}).get("surroundings"))
+
+
+class SharedTypes(MessageTypes):
+    """The message types of one controller, read and compiled once for all its nodes.
+
+    Args:
+        context: of the controller.
+    """
+
+    def __init__(self, context: Context) -> None:
+        found = surroundings(context)
+        super().__init__(found.settings.packages if found else ())
+
+
+def create_node(
+    context: Context,
+    name: str,
+    *arguments: str,
+    namespace: str = "",
+    step: StepLimits | None = None,
+) -> CrosNode:
+    """Make a node; call it in INIT, and ``do_events_loop`` of the node in CYCLIC.
+
+    Args:
+        context: of the program.
+        name: base name of the node.
+        arguments: remapping arguments such as ``chatter:=/other``, beside those of [ros].
+        namespace: of the node, where [ros] and the environment name none.
+        step: bounds of one step, by default those of `StepLimits`.
+
+    Raises:
+        InvalidNameError: a name is not legal.
+        NodeError: no port can be opened.
+    """
+    node = make_node(context, name, *arguments, namespace=namespace, step=step)
+    context.library(MasterWatch).add(node)
+    return node
+
+
+def make_node(
+    context: Context,
+    name: str,
+    *arguments: str,
+    namespace: str = "",
+    step: StepLimits | None = None,
+) -> CrosNode:
+    """Make a node that nobody watches; for the rest see ``create_node``."""
+    found = surroundings(context)
+    options = NodeOptions() if step is None else NodeOptions(step=step)
+    if found is None:
+        settings = node_settings(name, arguments, os.environ, namespace=namespace, host="127.0.0.1")
+        return CrosNode(context, settings, context.library(SharedTypes), options)
+    ros = found.settings
+    options = options._replace(
+        bind_ip=ros.bind_ip,
+        hosts=ros.hosts,
+        epoch_ns=found.epoch_ns,
+        clock_ns=found.clock_ns,
+        beside=partial(step_beside, context),
+    )
+    settings = _settings(ros, name, arguments, namespace)
+    return CrosNode(context, settings, context.library(SharedTypes), options)
+
+
+def step_beside(context: Context) -> None:
+    """Step what must answer a node that waits in EXIT: a master in the scan, hosts of a test."""
+    found = surroundings(context)
+    if found and found.master:
+        context.library(found.master).step()
+    if found and found.beside:
+        found.beside()
+
+
+def _settings(
+    ros: RosSettings, name: str, arguments: tuple[str, ...], namespace: str
+) -> NodeSettings:
+    """Return the node's settings; [ros] goes before the environment."""
+    given = [*ros.arguments, *arguments]
+    environment = {"ROS_NAMESPACE": ros.namespace} if ros.namespace else ros.environment
+    found = node_settings(name, given, environment, namespace=namespace)
+    return found._replace(master_uri=ros.master_uri, host=ros.host)

@@ -1,0 +1,220 @@
+"""The bounded step that the node and the embedded master share: listeners and links, in turn.
+
+Each step goes on at the connection where the budget of the step before ended, so that no peer can
+keep the others from their turn.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
+
+from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
+from crosnode.transport.link import Link
+from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
+
+if TYPE_CHECKING:
+    from crosnode.graph.uri import Address
+    from crosnode.tcpros import TcprosConnection
+    from crosnode.transport.budget import Budget, StepLimits
+    from crosnode.transport.link import Owner
+    from crosnode.xmlrpc import XmlRpcConnection
+    from plcsim.core.context import Context
+
+BACKLOG: Final = 64
+LARGE_BLOCK: Final = 8 << 20
+"""Bytes; messages up to this size cost no page faults each time."""
+
+REOPEN_NS: Final = 1_000_000_000
+"""Nanoseconds between two attempts to open a port that is in use."""
+
+
+Accepted: TypeAlias = "tuple[TcprosConnection | XmlRpcConnection, Owner, bool]"
+"""The protocol for a new connection, its owner, and whether it is XML-RPC."""
+
+
+class Acceptor(Protocol):
+    """Who takes the connections of a listener."""
+
+    def accepted(self, now_ns: int) -> Accepted:
+        """Return what a new connection speaks and who owns it."""
+
+
+class Listener:
+    """A port that peers connect to.
+
+    Args:
+        loop: whose sockets and links are used.
+        ip: address of the own interface, "" for all.
+        port: 0 for any free one.
+        acceptor: see ``Acceptor``.
+
+    Attributes:
+        port: the port listened at, the one wanted until it is open.
+    """
+
+    def __init__(self, loop: EventLoop, ip: str, port: int, acceptor: Acceptor) -> None:
+        self.port = port
+        self._ip = ip
+        self._loop = loop
+        self._acceptor = acceptor
+        self._socket = loop.pool.get()
+        self._next = loop.pool.get()
+        self._retry_ns = 0
+
+    @property
+    def is_open(self) -> bool:
+        """Whether peers can connect."""
+        return self._socket.is_open
+
+    @property
+    def status(self) -> int:
+        """Status of the last block called, for messages."""
+        return self._socket.status
+
+    def open(self, now_ns: int) -> bool:
+        """Open the port where it is not, at most once a second; return whether it is."""
+        if self._socket.is_open:
+            return True
+        if now_ns < self._retry_ns:
+            return False
+        self._retry_ns = now_ns + REOPEN_NS
+        self._socket.init(self._ip, self.port)
+        if self._socket.open(listening=True) is not TcpipSocketState.DONE:
+            return False
+        self.port = self._socket.own_port
+        # TcpServer listens with its first call; from here on peers may be told of the port.
+        if self._socket.accept(self._next, BACKLOG) is TcpipSocketState.DONE:
+            self._next.close()
+        return True
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Take waiting connections within the budget."""
+        if not self.open(now_ns):
+            return
+        while budget.accepts > 0 and budget.affords(CONNECTION_WORK):
+            client = self._next
+            state = self._socket.accept(client, BACKLOG)
+            if state is not TcpipSocketState.DONE:
+                if state is not TcpipSocketState.IN_PROGRESS:
+                    self._socket.close()
+                return
+            self._next = self._loop.pool.get()
+            budget.accepts -= 1
+            budget.work -= CONNECTION_WORK
+            client.set_options()
+            connection, owner, is_xmlrpc = self._acceptor.accepted(now_ns)
+            self._loop.add(Link(client, connection, owner, now_ns, is_xmlrpc=is_xmlrpc))
+
+    def close(self) -> None:
+        """Close the port."""
+        self._loop.pool.put(self._socket)
+        self._loop.pool.put(self._next)
+
+
+def keep_large_blocks() -> None:
+    """Let the memory of a large message be used again for the next one.
+
+    glibc gives a block above a threshold back to the system when it is freed; the next one costs
+    a page fault for each page; once a larger block was freed, the threshold is its size
+    (mallopt(3), M_MMAP_THRESHOLD). Elsewhere this does nothing.
+    """
+    bytearray(LARGE_BLOCK)
+
+
+class EventLoop:
+    """All connections of a node or a master.
+
+    Args:
+        context: of the controller.
+        limits: of each step.
+
+    Attributes:
+        links: all connections.
+        listeners: all ports.
+    """
+
+    def __init__(self, context: Context, limits: StepLimits) -> None:
+        self.pool = context.library(SocketPool)
+        keep_large_blocks()
+        self.limits = limits
+        self.links: list[Link] = []
+        self.listeners: list[Listener] = []
+        self._new: list[Link] = []
+        self._turn = 0
+        self._listener_turn = 0
+
+    def listen(self, ip: str, port: int, acceptor: Acceptor) -> Listener:
+        """Add a port to listen at."""
+        listener = Listener(self, ip, port, acceptor)
+        self.listeners.append(listener)
+        return listener
+
+    def connect(
+        self,
+        address: Address,
+        connection: TcprosConnection | XmlRpcConnection,
+        owner: Owner,
+        now_ns: int,
+        *,
+        is_xmlrpc: bool,
+    ) -> Link:
+        """Add a connection to a peer; it is made in the steps to come."""
+        socket = self.pool.get()
+        socket.init(*address)
+        link = Link(socket, connection, owner, now_ns, is_xmlrpc=is_xmlrpc)
+        self.add(link)
+        return link
+
+    def add(self, link: Link) -> None:
+        """Add a link."""
+        self.links.append(link)
+        self._new.append(link)
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Look at one listener, then at each link in turn while the budget lasts.
+
+        The next step begins with the first link that had to wait.
+        """
+        if self.listeners:
+            self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
+            self.listeners[self._listener_turn].step(now_ns, budget)
+        budget.is_short = False
+        self._turn = self._go_round(now_ns, budget)
+        if any(link.is_over for link in self.links):
+            self._remove_ended()
+
+    def step_new(self, now_ns: int, budget: Budget) -> None:
+        """Give links that were added in this step their first turn, at the end of it."""
+        new, self._new = self._new, []
+        for link in new:
+            if budget.polls > 0 and not link.is_over:
+                link.step(now_ns, budget)
+
+    def _go_round(self, now_ns: int, budget: Budget) -> int:
+        """Give links their turn while the budget lasts; return where the next step begins."""
+        links, count = self.links, len(self.links)
+        start = self._turn if self._turn < count else 0
+        turns = min(count, budget.polls)
+        for turn in range(start, start + turns):
+            link, work = links[turn % count], budget.work
+            if not link.is_over:  # another link's event may have ended it
+                link.step(now_ns, budget)
+            if budget.is_short:  # a link that could do nothing goes first, another goes last
+                had_to_wait = work - budget.work <= POLL_WORK
+                return (turn if had_to_wait else turn + 1) % count
+        return (start + (turns if turns < count else 1)) % max(1, count)
+
+    def _remove_ended(self) -> None:
+        for link in self.links:
+            if link.is_over:
+                self.pool.put(link.socket)
+        self.links = [link for link in self.links if not link.is_over]
+
+    def close(self, now_ns: int) -> None:
+        """End all links and close all ports at once."""
+        for link in self.links:
+            link.abort("", now_ns)
+        self._remove_ended()
+        for listener in self.listeners:
+            listener.close()
+        self.listeners.clear()

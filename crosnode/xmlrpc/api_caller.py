@@ -1,0 +1,224 @@
+"""Calls of the master and slave APIs: queued, in order for each node, never waited for."""
+
+from __future__ import annotations
+
+from collections import deque
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Final
+
+from crosnode.errors import InvalidNameError, MessageValueError
+from crosnode.transport.budget import CALL_WORK
+from crosnode.transport.connection import State
+from crosnode.xmlrpc import (
+    FaultReceived,
+    Limits,
+    ResponseReceived,
+    Value,
+    XmlRpcClientConnection,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from crosnode import tcpros, xmlrpc
+    from crosnode.graph.hosts import HostTable
+    from crosnode.transport.budget import Budget
+    from crosnode.transport.event_loop import EventLoop
+    from crosnode.transport.link import Link
+
+MAX_WAITING: Final = 1000
+"""Calls that wait for one node; the oldest one fails for the next."""
+
+SUCCESS: Final = 1
+
+
+class CallState(Enum):
+    """How far a call is."""
+
+    WAITING = auto()
+    DONE = auto()
+    FAILED = auto()
+
+
+class ApiCall:
+    """A call, and its result when it is there.
+
+    Attributes:
+        uri: of the node or master.
+        method: of its API.
+        params: as they go on the wire.
+        state: WAITING, DONE or FAILED.
+        value: the value of the answer once DONE.
+        error: why it failed once FAILED.
+        was_answered: False where the node could not be reached.
+        reply: the answer as it came, code and message included.
+    """
+
+    __slots__ = ("error", "method", "on_end", "params", "reply", "state", "uri", "value",
+                 "was_answered")  # fmt: skip
+
+    def __init__(
+        self,
+        uri: str,
+        method: str,
+        params: Sequence[Value],
+        on_end: Callable[[ApiCall], None] | None = None,
+    ) -> None:
+        self.uri = uri
+        self.method = method
+        self.params = list(params)
+        self.on_end = on_end
+        self.state = CallState.WAITING
+        self.value: Value = None
+        self.reply: Value = None
+        self.error = ""
+        self.was_answered = False
+
+    def __repr__(self) -> str:
+        return f"ApiCall({self.method} {self.params} {self.state.name} {self.error or self.value})"
+
+    def answer(self, value: Value) -> None:
+        """Take the answer ``[code, message, value]``; another form is the value itself."""
+        self.was_answered = True
+        self.reply = value
+        if not isinstance(value, list) or len(value) != 3 or type(value[0]) is not int:
+            self._end(CallState.DONE, value)
+        elif value[0] == SUCCESS:
+            self._end(CallState.DONE, value[2])
+        else:
+            self.error = str(value[1])
+            self._end(CallState.FAILED, value[2])
+
+    def fail(self, error: str, *, was_answered: bool = False) -> None:
+        """End the call without a value."""
+        self.error = error
+        self.was_answered = was_answered
+        self._end(CallState.FAILED, None)
+
+    def _end(self, state: CallState, value: Value) -> None:
+        self.state, self.value = state, value
+        if self.on_end:
+            self.on_end(self)
+
+
+class ApiCaller:
+    """All calls that a node or a master makes.
+
+    Args:
+        loop: whose connections are used.
+        hosts: finds the hosts in URIs.
+        limits: of each connection.
+    """
+
+    def __init__(self, loop: EventLoop, hosts: HostTable, limits: Limits) -> None:
+        self._loop = loop
+        self._hosts = hosts
+        self._limits = limits
+        self._channels: dict[str, _Channel] = {}
+        self._is_first = False
+        self._turn = 0
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no call waits for its answer."""
+        return not any(channel.calls for channel in self._channels.values())
+
+    def is_connected(self, uri: str) -> bool:
+        """Whether there is a connection to a node now."""
+        channel = self._channels.get(uri)
+        return channel is not None and channel.link is not None
+
+    def start(self, call: ApiCall, *, keep: bool = False) -> ApiCall:
+        """Queue a call; ``keep`` leaves the connection open for the next one."""
+        channel = self._channels.setdefault(call.uri, _Channel())
+        channel.keep = channel.keep or keep
+        channel.calls.append(call)
+        if len(channel.calls) > MAX_WAITING:
+            place = 1 if channel.link else 0
+            oldest = channel.calls[place]
+            del channel.calls[place]
+            oldest.fail("too many calls wait for this node")
+        return call
+
+    def step_first(self, now_ns: int, budget: Budget) -> None:
+        """Go before the connections in every other step, so that these cannot use up all of it."""
+        self._is_first = not self._is_first
+        if self._is_first:
+            self.step(now_ns, budget)
+
+    def step(self, now_ns: int, budget: Budget) -> None:
+        """Make connections for waiting calls, and send the next call of each, in turn."""
+        channels = list(self._channels.items())
+        self._turn = (self._turn + 1) % max(1, len(channels))
+        for uri, channel in channels[self._turn :] + channels[: self._turn]:
+            if channel.calls and channel.link is None:
+                if budget.start_call():
+                    self._connect(uri, channel, now_ns)
+            elif not channel.calls and channel.link is None:
+                del self._channels[uri]
+            if channel.link is not None:
+                channel.advance(now_ns, budget)
+
+    def _connect(self, uri: str, channel: _Channel, now_ns: int) -> None:
+        try:
+            address = self._hosts.address(uri, "http")
+        except InvalidNameError as error:
+            channel.fail_all(str(error))
+            return
+        connection = XmlRpcClientConnection(f"{address.host}:{address.port}", self._limits, now_ns)
+        channel.link = self._loop.connect(address, connection, channel, now_ns, is_xmlrpc=True)
+        channel.connection = connection
+
+
+class _Channel:
+    """The calls to one node; the first one may be running. Owner of the link to it."""
+
+    def __init__(self) -> None:
+        self.calls: deque[ApiCall] = deque()
+        self.link: Link | None = None
+        self.connection: XmlRpcClientConnection | None = None
+        self.keep = False
+
+    def advance(self, now_ns: int, budget: Budget) -> None:
+        """Send the next call, or close a connection that is needed no more."""
+        connection = self.connection
+        if connection is None or connection.state is not State.IDLE:
+            return
+        if not self.calls:
+            if not self.keep and self.link:
+                self.link.close()
+                self.link = self.connection = None  # a later call makes another
+            return
+        if not budget.affords(CALL_WORK):
+            return
+        budget.work -= CALL_WORK
+        try:
+            connection.call(self.calls[0].method, self.calls[0].params, now_ns)
+        except MessageValueError as error:
+            self.calls.popleft().fail(str(error), was_answered=True)
+
+    def fail_all(self, reason: str) -> None:
+        """End all calls."""
+        calls, self.calls = self.calls, deque()
+        for call in calls:
+            call.fail(reason)
+
+    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+        """Take the answer to the running call."""
+        if isinstance(event, ResponseReceived):
+            self.calls.popleft().answer(event.value)
+        elif isinstance(event, FaultReceived):
+            self.calls.popleft().fail(event.text, was_answered=True)
+
+    def expects_data(self, link: Link) -> bool:
+        """Whether a call waits for its answer."""
+        return bool(self.calls)
+
+    def fill(self, link: Link) -> None:
+        """Nothing waits beside the call that was sent."""
+
+    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+        """Fail what waits; an idle connection that the node closed is made again when needed."""
+        if link is self.link:
+            self.link = self.connection = None
+            self.fail_all(reason or "the connection was closed")

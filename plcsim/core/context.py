@@ -1,0 +1,68 @@
+"""What function blocks and programs of one controller work with."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from plcsim.core.memory import Memory
+    from plcsim.core.task import Violation
+    from plcsim.network.protocol import Network
+
+T = TypeVar("T")
+
+
+class Context:
+    """The surroundings of the programs of one controller.
+
+    Attributes:
+        memory: where all variables lie.
+        network: what the AsTCP blocks talk over.
+        release_ns: release time of the running task class, nanoseconds on the controller's clock.
+            It is the only time a function block knows, so all timers of a cycle agree. The scan
+            sets it before the first program of a cycle runs.
+        violation: the violation an exception program was called for, None before the first.
+        options: settings of controller libraries: table [library.NAME] of plc.toml by NAME.
+    """
+
+    __slots__ = ("_libraries", "memory", "network", "options", "release_ns", "violation")
+
+    def __init__(
+        self,
+        memory: Memory,
+        network: Network,
+        options: Mapping[str, Mapping[str, object]] | None = None,
+    ) -> None:
+        self.memory = memory
+        self.network = network
+        self.release_ns = 0
+        self.violation: Violation | None = None
+        self.options = dict(options or {})
+        self._libraries: dict[object, object] = {}
+
+    def library(self, factory: Callable[[Context], T]) -> T:
+        """Return a library's state of this controller, made by ``factory`` at the first call.
+
+        Blocks keep what cannot lie in PLC memory there: the sockets behind the idents, for example.
+        """
+        state = self._libraries.get(factory)
+        if state is None:
+            state = self._libraries[factory] = factory(self)
+        return cast("T", state)
+
+    def libraries(self) -> tuple[Any, ...]:
+        """Return the states made so far."""
+        return tuple(self._libraries.values())
+
+    def restart(self) -> None:
+        """Forget the states of all libraries; those with a ``close`` method are closed first.
+
+        The last violation is forgotten too.
+        """
+        for state in self.libraries():
+            if hasattr(state, "close"):
+                state.close()
+        self._libraries.clear()
+        self.violation = None

@@ -1,0 +1,317 @@
+"""The controller: memory, programs in task classes, the scan, and what happens when one fails."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+from plcsim.core.clock import MonotonicClock
+from plcsim.core.context import Context
+from plcsim.core.duration import format_duration
+from plcsim.core.errors import CycleTimeViolation, ProgramError
+from plcsim.core.image import ProcessImage
+from plcsim.core.logbook import Logbook, Severity
+from plcsim.core.memory import DEFAULT_SIZE, Memory
+from plcsim.core.scan import Scan
+from plcsim.core.system import Event, State, next_state
+from plcsim.core.tag import TagTable
+from plcsim.core.task import Cause, Policy, Program, Task, TaskClass, Unit, Violation, task_of
+from plcsim.program.python.place import describe, place_of
+from st_types.types.views import reset
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from plcsim.core.clock import Clock
+    from plcsim.network.protocol import Network
+
+VIOLATIONS_KEPT = 100
+"""Records of violations kept; all are counted."""
+
+
+@dataclass(frozen=True)
+class ProgramSetup:
+    """A program and the name it runs under."""
+
+    name: str
+    program: type[Program]
+
+
+@dataclass(frozen=True)
+class TaskClassSetup:
+    """A task class as configured; for the fields see `plcsim.core.task.TaskClass`."""
+
+    number: int
+    cycle_ns: int
+    programs: Sequence[ProgramSetup]
+    tolerance_ns: int = 0
+    first_release_ns: int | None = None
+    policy: Policy = Policy.SERVICE
+    host_policy: Policy = Policy.LOG
+
+
+@dataclass(frozen=True)
+class Setup:
+    """A controller as configured.
+
+    Attributes:
+        classes: the task classes.
+        memory_size: bytes of PLC memory.
+        exception_program: runs once for each violation under the policy "exception".
+        options: tables [library.NAME] of plc.toml by NAME.
+    """
+
+    classes: Sequence[TaskClassSetup]
+    memory_size: int = DEFAULT_SIZE
+    exception_program: ProgramSetup | None = None
+    options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+
+
+class Heartbeat(Protocol):
+    """Who watches the scan from outside is told here."""
+
+    def started(self, task: Task) -> None:
+        """Note that ``task`` is about to run a unit."""
+
+    def finished(self, task_class: TaskClass) -> None:
+        """Note that a cycle of ``task_class`` has ended."""
+
+    def changed(self, state: State) -> None:
+        """Note a new system state."""
+
+
+class _Nobody:
+    """The heartbeat of a controller that nobody watches."""
+
+    def started(self, task: Task) -> None:
+        pass
+
+    def finished(self, task_class: TaskClass) -> None:
+        pass
+
+    def changed(self, state: State) -> None:
+        pass
+
+
+class Controller:
+    """A controller with its programs.
+
+    Call `boot`, then `run` as often as wanted, then `shutdown`.
+
+    Args:
+        setup: what runs on it.
+        clock: virtual or real; the real one by default.
+        network: what the AsTCP blocks talk over.
+        heartbeat: told of every program that starts and every cycle that ends.
+
+    Attributes:
+        state: BOOT, RUN, SERVICE or STOPPED.
+        fault: what led to SERVICE, None otherwise.
+        stop_requested: `stop` was called since the last `boot`.
+        violations: the latest records, at most `VIOLATIONS_KEPT`.
+    """
+
+    def __init__(
+        self,
+        setup: Setup,
+        *,
+        network: Network,
+        clock: Clock | None = None,
+        heartbeat: Heartbeat | None = None,
+    ) -> None:
+        self.clock = clock or MonotonicClock()
+        self.memory = Memory(setup.memory_size)
+        self.context = Context(self.memory, network, setup.options)
+        self.logbook = Logbook()
+        self.state = State.BOOT
+        self.fault: ProgramError | Violation | None = None
+        self.violations: list[Violation] = []
+        self.classes = [self._task_class(c) for c in sorted(setup.classes, key=lambda c: c.number)]
+        self.tasks = [task for c in self.classes for task in c.tasks]
+        self._exception_task = self._task(setup.exception_program)
+        if self._exception_task is not None:
+            self.tasks.append(self._exception_task)
+        for index, task in enumerate(self.tasks):
+            task.index = index
+        self.tags = TagTable(self.memory, self.tasks)
+        self.image = ProcessImage()
+        self.scan = Scan(self.classes, self.clock, self.context, self.image, self, place_of)
+        self.image.attach(self.scan)
+        self._heartbeat = heartbeat or _Nobody()
+        self._origin_ns = self.clock.now_ns()
+        self.stop_requested = False
+        self._started = False
+
+    def _task(self, setup: ProgramSetup | None) -> Task | None:
+        if setup is None:
+            return None
+        return task_of(setup.name, self.memory.new(setup.program, self.context))
+
+    def _task_class(self, setup: TaskClassSetup) -> TaskClass:
+        tasks = [self._task(program) for program in setup.programs]
+        return TaskClass(
+            setup.number,
+            setup.cycle_ns,
+            setup.tolerance_ns,
+            [task for task in tasks if task is not None],
+            first_release_ns=setup.first_release_ns,
+            policy=setup.policy,
+            host_policy=setup.host_policy,
+        )
+
+    def boot(self) -> State:
+        """Give all variables their initial values and run every INIT, in configured order.
+
+        Returns:
+            RUN, or SERVICE where an INIT failed.
+
+        Raises:
+            StateError: the controller runs; call `shutdown` first.
+        """
+        if self.state is not State.BOOT:
+            self._enter(Event.RESTART)
+            self.fault = None
+            self.stop_requested = False
+            self.context.restart()
+        self.context.release_ns = self.clock.now_ns()
+        self._heartbeat.changed(self.state)
+        for task in self.tasks:
+            reset(task.variables)
+        for task in self.tasks:
+            self._run_unit(task, Unit.INIT)
+            if self.state is not State.BOOT:
+                return self.state
+        self._enter(Event.INITIALISED)
+        self._started = False
+        return self.state
+
+    def start(self) -> None:
+        """Lay the grids of all task classes from now on; `run` does it where nobody has.
+
+        What takes time after `boot` is done before, so that it costs no grid points.
+        """
+        if not self._started:
+            self.scan.start()
+            self._started = True
+
+    def run(self, until_ns: int | None = None, cycles: int | None = None) -> State:
+        """Run the scan until it is stopped or fails; for the limits see `Scan.run`."""
+        if self.state is State.RUN:
+            self.start()
+            if self.stop_requested:  # by a signal that came before the scan had started
+                self.scan.stop()
+            self.scan.run(until_ns, cycles)
+        return self.state
+
+    def run_for(self, duration_ns: int) -> State:
+        """Run the scan for ``duration_ns`` from now."""
+        return self.run(until_ns=self.clock.now_ns() + duration_ns)
+
+    def stop(self) -> None:
+        """End `run` after the current cycle; a signal handler may call this."""
+        self.stop_requested = True
+        self.scan.stop()
+
+    def abort_program(self, reason: str) -> None:
+        """Raise CycleTimeViolation in the program that is running, if one is.
+
+        Only a signal handler in the scan's own thread may call this.
+        """
+        if self.scan.active is not None:
+            raise CycleTimeViolation(reason)
+
+    def shutdown(self) -> State:
+        """Run every EXIT, in configured order, and close what the libraries hold.
+
+        Only in RUN: without INIT there is nothing to leave, and in SERVICE the programs are stopped
+        where they failed.
+        """
+        if self.state is State.RUN:
+            self._enter(Event.STOP)
+            self.context.release_ns = self.clock.now_ns()
+            for task in self.tasks:
+                self._run_unit(task, Unit.EXIT)
+        self.context.restart()
+        return self.state
+
+    def _run_unit(self, task: Task, unit: Unit) -> None:
+        """Run INIT or EXIT of a task; a failure is logged and leads to SERVICE."""
+        self._heartbeat.started(task)
+        try:
+            self.scan.active = task
+            task.units[unit]()
+            self.scan.active = None
+        except BaseException as error:  # whatever a program raises ends in SERVICE
+            self.scan.active = None
+            self._program_failed(task, unit, error)
+
+    def _enter(self, event: Event) -> None:
+        self.state = next_state(self.state, event)
+        self._heartbeat.changed(self.state)
+        self.log(Severity.INFORMATION, "system", f"{self.state.name}: {event.value}")
+
+    def log(self, severity: Severity, source: str, text: str) -> None:
+        """Write an entry of the logbook at the present time."""
+        self.logbook.write(self.clock.now_ns() - self._origin_ns, severity, source, text)
+
+    # what the scan tells (plcsim.core.scan.Supervisor)
+
+    def started(self, task: Task) -> None:
+        """Pass the heartbeat on."""
+        self._heartbeat.started(task)
+
+    def finished(self, task_class: TaskClass) -> None:
+        """Pass the end of a cycle on."""
+        self._heartbeat.finished(task_class)
+
+    def failed(self, task: Task, error: BaseException) -> None:
+        """Log what a program raised and go to SERVICE."""
+        self._program_failed(task, Unit.CYCLIC, error)
+
+    def violated(self, violation: Violation, policy: Policy) -> None:
+        """Log a violation and do what the policy says; after a fault no program runs any more."""
+        self.violations = [*self.violations[1 - VIOLATIONS_KEPT :], violation]
+        severity = Severity.ERROR if policy is Policy.SERVICE else Severity.WARNING
+        self.log(severity, f"task class {violation.task_class}", describe_violation(violation))
+        if policy is Policy.SERVICE:
+            self._go_to_service(violation)
+        elif policy is Policy.EXCEPTION and self._exception_task and self.state is State.RUN:
+            self.context.violation = violation
+            self.scan.run_exception_program(self._exception_task)
+
+    def _program_failed(self, task: Task, unit: Unit, error: BaseException) -> None:
+        fault = ProgramError(task.name, unit.value, place_of(error), describe(error))
+        fault.__cause__ = error
+        self.log(Severity.ERROR, task.name, str(fault))
+        self._go_to_service(fault)
+
+    def _go_to_service(self, fault: ProgramError | Violation) -> None:
+        self.scan.halt()
+        if self.fault is None:
+            self.fault = fault
+        if self.state is not State.SERVICE:
+            self._enter(Event.FAULT)
+
+
+def describe_violation(violation: Violation) -> str:
+    """Return the record of a violation as one line."""
+    text = {
+        Cause.PROGRAM: f"program {violation.program} used {format_duration(violation.own_ns)}",
+        Cause.PREEMPTED: (
+            f"programs of other classes used {format_duration(violation.others_ns)}, "
+            f"{violation.program} most"
+        ),
+        Cause.HOST: "the host did not give the CPU in time",
+    }[violation.cause]
+    if violation.place:
+        text = f"program {violation.program} did not return, ended at {violation.place}"
+    end = (
+        f"ended {format_duration(violation.response_ns)} after its release, "
+        f"limit {format_duration(violation.limit_ns)}"
+    )
+    if not violation.response_ns:  # only the watchdog, or Ctrl-C, ends a cycle in no time
+        end = "the time limit was the watchdog's, as no virtual time passes while a program runs"
+    return (
+        f"cycle time violation in cycle {violation.cycle}, cause {violation.cause.value}: {text}; "
+        f"{end}"
+    )

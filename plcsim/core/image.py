@@ -1,0 +1,59 @@
+"""The process image: values come in only in LATCH and go out only in PUBLISH.
+
+Who brings values in or takes them out enters a call here: plant models and recorders of tests, the
+extensions, and `plcsim.shared_image`, through which other processes read and write.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plcsim.core.scan import Phase
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.core.scan import Scan
+    from plcsim.core.task import TaskClass
+
+
+class ProcessImage:
+    """What is called at the right moments of the scan, in the order in which it was entered.
+
+    Attributes:
+        inputs: called in LATCH with the task class; here a plant model sets inputs.
+        watchers: called in PUBLISH with the task class; here a recorder reads tags.
+    """
+
+    def __init__(self) -> None:
+        self.inputs: list[Callable[[TaskClass], None]] = []
+        self.watchers: list[Callable[[TaskClass], None]] = []
+        self._scan: Scan | None = None
+
+    def attach(self, scan: Scan) -> None:
+        """Tell the image whose phases it must keep to."""
+        self._scan = scan
+
+    def _require(self, phase: Phase) -> None:
+        if self._scan is not None:
+            self._scan.require(phase)
+
+    def latch(self, task_class: TaskClass) -> None:
+        """Let the inputs of a class be set.
+
+        Raises:
+            PhaseError: the scan is not in LATCH.
+        """
+        self._require(Phase.LATCH)
+        for bring_in in self.inputs:
+            bring_in(task_class)
+
+    def publish(self, task_class: TaskClass) -> None:
+        """Let the watchers see the tags.
+
+        Raises:
+            PhaseError: the scan is not in PUBLISH.
+        """
+        self._require(Phase.PUBLISH)
+        for watch in self.watchers:
+            watch(task_class)

@@ -1,0 +1,144 @@
+"""Tags: the variables of programs as the outside names them, ``program.member[index].member``."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.core.errors import TagError
+from plcsim.core.memory import find
+from plcsim.core.suggestion import did_you_mean
+from st_types.errors import ValueRangeError
+from st_types.types.derived import ArrayType, DataBlockType, StructType, resolve_alias
+from st_types.types.values import encode
+from st_types.types.views import address_of, type_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from plcsim.core.memory import Memory
+    from plcsim.core.task import Task
+    from st_types.types.elementary import DataType
+
+
+class Tag(NamedTuple):
+    """A variable under the name by which it is read and written from outside.
+
+    Attributes:
+        path: such as ``"conveyor.motor.speed"``.
+        data_type: its type, aliases resolved.
+        address: PLC address of its first byte.
+    """
+
+    path: str
+    data_type: DataType[Any]
+    address: int
+
+
+def find_tag(path: str, programs: Mapping[str, Tag]) -> Tag:
+    """Return the tag ``path``; case does not matter.
+
+    Args:
+        path: such as ``"conveyor.motor.speed"``.
+        programs: all variables of each program as one tag, by the program's name in capitals.
+
+    Raises:
+        TagError: there is no such tag; the message offers names that are near.
+    """
+    name, _, rest = path.partition(".")
+    program = programs.get(name.upper())
+    if program is None:
+        raise TagError(f"no program {name!r} for tag {path!r}{_nearest(path, programs)}")
+    try:
+        data_type, offset = find(program.data_type, rest)
+    except KeyError as err:
+        raise TagError(f"no tag {path!r}: {err.args[0]}{_nearest(path, programs)}") from None
+    return Tag(path, data_type, program.address + offset)
+
+
+def _nearest(path: str, programs: Mapping[str, Tag]) -> str:
+    known = (tag.path for p in programs.values() for tag in leaves(*p, elements=False))
+    return did_you_mean(path, known, most=3)
+
+
+class TagTable:
+    """All tags of a controller.
+
+    Args:
+        memory: where the variables lie.
+        tasks: the programs, whose names are the first part of a path.
+    """
+
+    def __init__(self, memory: Memory, tasks: Sequence[Task]) -> None:
+        self._memory = memory
+        self._programs = {
+            t.name.upper(): Tag(t.name, type_of(t.variables), address_of(t.variables))
+            for t in tasks
+        }
+
+    def find(self, path: str) -> Tag:
+        """Return the tag ``path``; case does not matter.
+
+        Raises:
+            TagError: there is no such tag; the message offers names that are near.
+        """
+        return find_tag(path, self._programs)
+
+    def read(self, tag: Tag) -> object:
+        """Return the plain value of a tag (see `st_types.types.values.decode`)."""
+        return self._memory.get(tag.data_type, tag.address)
+
+    def write(self, tag: Tag, value: object) -> None:
+        """Store a plain value.
+
+        Raises:
+            TagError: the tag cannot take the value.
+        """
+        try:
+            data = encode(tag.data_type, value)
+        except ValueRangeError as err:
+            raise TagError(f"tag {tag.path}: {err}") from None
+        self._memory.write(tag.address, data)
+
+    def __iter__(self) -> Iterator[Tag]:
+        """Iterate over all tags of elementary, enumeration and string types.
+
+        Of an ARRAY only the first element's are named.
+        """
+        for program in self._programs.values():
+            yield from leaves(*program, elements=False)
+
+
+def leaves(
+    path: str,
+    data_type: DataType[Any],
+    address: int,
+    *,
+    blocks: bool = True,
+    elements: bool = True,
+) -> Iterator[Tag]:
+    """Iterate over the tags below one variable.
+
+    Args:
+        path: of the variable.
+        data_type: its type.
+        address: PLC address of its first byte.
+        blocks: go into the data blocks of function blocks as well.
+        elements: go into every element of an ARRAY; otherwise into the first one.
+    """
+    data_type = resolve_alias(data_type)
+    if isinstance(data_type, StructType):
+        if not blocks and isinstance(data_type, DataBlockType):
+            return
+        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+            inner = f"{path}.{member.name}"
+            at = address + offset
+            yield from leaves(inner, member.data_type, at, blocks=blocks, elements=elements)
+    elif isinstance(data_type, ArrayType):
+        ranges = (range(low, (high if elements else low) + 1) for low, high in data_type.bounds)
+        for place, index in enumerate(itertools.product(*ranges)):
+            inner = f"{path}[{','.join(map(str, index))}]"
+            at = address + place * data_type.element.size
+            yield from leaves(inner, data_type.element, at, blocks=blocks, elements=elements)
+    else:
+        yield Tag(path, data_type, address)

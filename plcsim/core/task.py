@@ -1,0 +1,219 @@
+"""Programs, and the task classes they run in."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.core.statistics import Histogram
+from st_types.types.views import Struct, context_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from plcsim.core.context import Context
+
+LOWEST_CLASS = 1
+HIGHEST_CLASS = 8
+
+
+class Program(Struct):
+    """Base of programs written in Python: variables and the units INIT, CYCLIC and EXIT.
+
+    Variables are declared in the class body with `st_types.var`; they lie in PLC memory and are the
+    program's tags. Other Python objects must be named in ``__slots__``; they are not tags. Any of
+    the three units may be left out.
+    """
+
+    __slots__ = ()
+
+    def init(self) -> None:
+        """INIT: runs once before the first cycle; its time is not monitored."""
+
+    def cyclic(self) -> None:
+        """CYCLIC: runs once in every cycle of the task class."""
+
+    def exit(self) -> None:
+        """EXIT: runs once when the controller stops."""
+
+    @property
+    def context(self) -> Context:
+        """The controller the program runs on."""
+        context: Context = context_of(self)
+        return context
+
+
+class Unit(Enum):
+    """The three units of a program."""
+
+    INIT = "INIT"
+    CYCLIC = "CYCLIC"
+    EXIT = "EXIT"
+
+
+class Task:
+    """A program under a name in a task class; two tasks of one program have two sets of variables.
+
+    Attributes:
+        name: as in plc.toml; the first part of the program's tags.
+        variables: the view of the program's variables.
+        units: what runs for INIT, CYCLIC and EXIT.
+        execution: CPU time of CYCLIC, one entry per cycle.
+        index: place among all tasks of the controller, in configured order.
+    """
+
+    __slots__ = ("cyclic", "execution", "index", "name", "units", "variables")
+
+    def __init__(self, name: str, variables: Struct, units: dict[Unit, Callable[[], None]]) -> None:
+        self.name = name
+        self.variables = variables
+        self.units = units
+        self.cyclic = units[Unit.CYCLIC]
+        self.execution = Histogram()
+        self.index = 0
+
+
+def task_of(name: str, program: Program) -> Task:
+    """Return the task that runs a Python program under ``name``."""
+    units = {Unit.INIT: program.init, Unit.CYCLIC: program.cyclic, Unit.EXIT: program.exit}
+    return Task(name, program, units)
+
+
+class Cause(Enum):
+    """Who is to blame for a cycle that took too long."""
+
+    PROGRAM = "program"
+    HOST = "host"
+    PREEMPTED = "preempted"
+
+
+class Policy(Enum):
+    """What a cycle time violation leads to."""
+
+    SERVICE = "service"
+    LOG = "log"
+    EXCEPTION = "exception"
+
+
+class Violation(NamedTuple):
+    """One cycle that ended later than cycle time plus tolerance after its release.
+
+    Attributes:
+        task_class: number of the task class.
+        program: the program that used most of the time, "" where none ran.
+        cycle: number of the cycle in its class, from 1.
+        cause: the class' own programs, programs of other classes, or the host.
+        release_ns: grid point the cycle belonged to, since the start of the scan.
+        response_ns: from the release to the end of the cycle.
+        own_ns: CPU time of the class' own programs; wall time of those that waited.
+        others_ns: CPU time of programs of other classes between release and end.
+        limit_ns: cycle time plus tolerance.
+        place: "file:line" where a program that did not return was ended, "" otherwise.
+    """
+
+    task_class: int
+    program: str
+    cycle: int
+    cause: Cause
+    release_ns: int
+    response_ns: int
+    own_ns: int
+    others_ns: int
+    limit_ns: int
+    place: str = ""
+
+
+class TaskClass:
+    """A task class: a cycle time, a tolerance, and tasks that run one after another.
+
+    Attributes:
+        number: 1 to 8; the lower number goes first.
+        cycle_ns: time between releases.
+        tolerance_ns: how much longer a cycle may take before it is a violation.
+        first_release_ns: from the start of the scan to the first release; half the cycle time on
+            the controller.
+        policy: what a violation by a program leads to.
+        host_policy: what a violation by the host leads to.
+        tasks: in configured order.
+        release_ns: the next grid point, on the controller's clock.
+        cycles: cycles begun.
+        missed: grid points skipped because a cycle was still running.
+        in_tolerance: cycles that took longer than the cycle time, but not than the tolerance.
+        violations: number of violations by cause.
+        lateness: from the release to the start of the cycle.
+        execution: CPU time of all programs of one cycle.
+        response: from the release to the end of the cycle.
+    """
+
+    def __init__(
+        self,
+        number: int,
+        cycle_ns: int,
+        tolerance_ns: int,
+        tasks: Sequence[Task],
+        *,
+        first_release_ns: int | None = None,
+        policy: Policy = Policy.SERVICE,
+        host_policy: Policy = Policy.LOG,
+    ) -> None:
+        if not LOWEST_CLASS <= number <= HIGHEST_CLASS:
+            raise ValueError(f"task class {number} is outside {LOWEST_CLASS}..{HIGHEST_CLASS}")
+        if cycle_ns <= 0:
+            raise ValueError(f"task class {number}: the cycle time must be above 0")
+        first_release_ns = cycle_ns // 2 if first_release_ns is None else first_release_ns
+        for what, duration_ns in ("tolerance", tolerance_ns), ("first release", first_release_ns):
+            if duration_ns < 0:
+                raise ValueError(f"task class {number}: the {what} must not be below 0")
+        self.number = number
+        self.cycle_ns = cycle_ns
+        self.tolerance_ns = tolerance_ns
+        self.tasks = tuple(tasks)
+        self.first_release_ns = first_release_ns
+        self.policy = policy
+        self.host_policy = host_policy
+        self.release_ns = 0
+        self.cycles = 0
+        self.missed = 0
+        self.in_tolerance = 0
+        self.violations = dict.fromkeys(Cause, 0)
+        self.lateness = Histogram()
+        self.execution = Histogram()
+        self.response = Histogram()
+        self._used_ns: dict[Task, int] = {}
+
+    def policy_for(self, cause: Cause) -> Policy:
+        """Return what a violation by ``cause`` leads to."""
+        return self.host_policy if cause is Cause.HOST else self.policy
+
+    def lay_grid(self, origin_ns: int) -> None:
+        """Go to the first release of a scan that starts at ``origin_ns``."""
+        self.release_ns = origin_ns + self.first_release_ns
+        self._used_ns.clear()
+
+    def note_use(self, task: Task, start_ns: int, end_ns: int, used_ns: int) -> None:
+        """Note what a program used after the release of this class; before it, it took nothing.
+
+        Args:
+            task: of any class.
+            start_ns: when it ran, on the controller's clock.
+            end_ns: until when.
+            used_ns: CPU time used between the two.
+        """
+        overlap_ns = end_ns - max(start_ns, self.release_ns)
+        if overlap_ns > 0:
+            self._used_ns[task] = self._used_ns.get(task, 0) + min(used_ns, overlap_ns)
+
+    def used_by_own_and_others(self) -> tuple[dict[Task, int], dict[Task, int]]:
+        """Return what the class' own programs and those of others have used since the release."""
+        own = {task: ns for task, ns in self._used_ns.items() if task in self.tasks}
+        return own, {task: ns for task, ns in self._used_ns.items() if task not in own}
+
+    def advance(self, end_ns: int) -> None:
+        """Go to the first grid point after the current one that is not before ``end_ns``.
+
+        The points in between are missed.
+        """
+        passed = max(1, -(-(end_ns - self.release_ns) // self.cycle_ns))
+        self.release_ns += passed * self.cycle_ns
+        self.missed += passed - 1
+        self._used_ns.clear()

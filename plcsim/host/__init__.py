@@ -1,0 +1,1 @@
+"""What the scan takes from the machine: real-time rights, garbage, descriptors."""

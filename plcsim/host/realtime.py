@@ -1,0 +1,149 @@
+"""Real-time rights of the scan process, taken where the host gives them.
+
+With them a cycle waits for nobody: SCHED_FIFO, one processor, memory that is never paged out,
+timers without slack, a processor that does not sleep deeply, and no garbage collection while the
+scan runs.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import re
+import resource
+from pathlib import Path
+from typing import NamedTuple
+
+from plcsim.host import garbage
+
+_MCL_CURRENT, _MCL_FUTURE = 1, 2
+_PR_SET_PDEATHSIG, _PR_SET_TIMERSLACK = 1, 29
+_CAP_IPC_LOCK = 14
+
+PROCESS_STATUS = Path("/proc/self/status")
+
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+class Rights(NamedTuple):
+    """What the host gave and what it refused, in words."""
+
+    granted: tuple[str, ...]
+    refused: tuple[str, ...]
+
+    @property
+    def complete(self) -> bool:
+        """True where the scheduler itself gave way; the rest only narrows the tail."""
+        return any(right.startswith("SCHED_FIFO") for right in self.granted)
+
+
+def die_with_parent(signal_number: int, parent: int | None = None) -> None:
+    """Ask the kernel to send this process a signal when its parent ends.
+
+    Args:
+        signal_number: the signal.
+        parent: the parent's process id; where it has gone already, the signal is sent at once.
+    """
+    _libc.prctl(_PR_SET_PDEATHSIG, signal_number)
+    if parent not in (None, os.getppid()):
+        os.kill(os.getpid(), signal_number)
+
+
+def sharpen_timers() -> None:
+    """Let sleeps of this thread end without the 50 us of slack that Linux allows by default."""
+    _libc.prctl(_PR_SET_TIMERSLACK, 1)
+
+
+def acquire(priority: int, cpu: int | None) -> Rights:
+    """Take what rights there are for the calling thread.
+
+    Args:
+        priority: of SCHED_FIFO, 1 to 98.
+        cpu: the processor to stay on; None takes the last one allowed, if there are several, and so
+            does one that is not there.
+    """
+    granted: list[str] = []
+    missing = missing_cpu(cpu)
+    refused = [missing] if missing else []
+    sharpen_timers()
+    try:
+        # What a program starts (a thread, a process) must not hold the scan up as its equal.
+        policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK
+        os.sched_setscheduler(0, policy, os.sched_param(priority))
+        granted.append(f"SCHED_FIFO {priority}")
+    except OSError as err:
+        refused.append(f"SCHED_FIFO: {err.strerror}")
+        return Rights(tuple(granted), tuple(refused))
+    chosen = scan_cpu(cpu)
+    if chosen is not None:
+        try:
+            os.sched_setaffinity(0, {chosen})
+            granted.append(f"CPU {chosen}")
+        except OSError as err:
+            refused.append(f"CPU {chosen}: {err.strerror}")
+    _lock_memory(granted, refused)
+    _stay_awake(granted, refused)
+    return Rights(tuple(granted), tuple(refused))
+
+
+def scan_cpu(cpu: int | None) -> int | None:
+    """Return the processor for the scan: the given one if it is there, or the last of several."""
+    allowed = sorted(os.sched_getaffinity(0))
+    if cpu in allowed:
+        return cpu
+    return allowed[-1] if len(allowed) > 1 else None
+
+
+def missing_cpu(cpu: int | None) -> str:
+    """Return in words that a processor is not there for this process, "" where it is."""
+    allowed = sorted(os.sched_getaffinity(0))
+    if cpu is None or cpu in allowed:
+        return ""
+    numbers = ", ".join(map(str, allowed))
+    return f"there is no processor {cpu} for the scan, only {numbers}; {allowed[-1]} is taken"
+
+
+def _lock_memory(granted: list[str], refused: list[str]) -> None:
+    """Lock all pages; only where no limit could make a later allocation fail (mlock(2))."""
+    limit = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0]
+    if limit != resource.RLIM_INFINITY and not _has_capability(_CAP_IPC_LOCK):
+        refused.append(f"locked memory: the limit is {limit // 1024} KiB")
+    elif _libc.mlockall(_MCL_CURRENT | _MCL_FUTURE) == 0:
+        granted.append("locked memory")
+    else:
+        refused.append(f"locked memory: {os.strerror(ctypes.get_errno())}")
+
+
+def _has_capability(number: int) -> bool:
+    """Return True where a capability is in effect, False where the kernel does not say."""
+    try:
+        status = PROCESS_STATUS.read_text("utf-8", "replace")
+    except OSError:
+        return False
+    effective = re.search(r"^CapEff:\s*([0-9a-f]+)$", status, re.MULTILINE)
+    return effective is not None and bool(int(effective[1], 16) >> number & 1)
+
+
+def _stay_awake(granted: list[str], refused: list[str]) -> None:
+    """Keep the processors out of deep sleep for as long as this process lives (Linux PM QoS)."""
+    device = Path("/dev/cpu_dma_latency")
+    try:
+        fd = os.open(device, os.O_WRONLY | os.O_CLOEXEC)  # held until the process ends
+        os.write(fd, (0).to_bytes(4, "little"))
+        granted.append("no deep sleep")
+    except OSError as err:
+        refused.append(f"no deep sleep: {err.strerror}")
+
+
+def keep_off(cpu: int | None) -> None:
+    """Keep the calling process off the processor of the scan, where there is another."""
+    others = os.sched_getaffinity(0) - {cpu}
+    if others:
+        with contextlib.suppress(OSError):
+            os.sched_setaffinity(0, others)
+
+
+def settle() -> None:
+    """Call after INIT: what was made so far is no garbage, and nothing is collected in a cycle."""
+    garbage.freeze()

@@ -1,0 +1,1 @@
+"""Tags over Modbus TCP: map, exports, service, command, testing."""

@@ -1,0 +1,68 @@
+"""The extension of the table [modbus]: checks the map, hands it to the Modbus service."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.modbus.map.automatic import write_lock
+from plcsim.modbus.map.load import load_map
+from plcsim.modbus.ports import may_use_privileged_ports, remedy, unprivileged_ports
+from plcsim.modbus.settings import read_settings
+from plcsim.project.extension import Attachment
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from plcsim.core.controller import Controller
+    from plcsim.modbus.settings import ModbusSettings
+    from plcsim.project.table import Table
+
+
+class ModbusProject(NamedTuple):
+    """The settings and the folder of the project they belong to."""
+
+    settings: ModbusSettings
+    folder: Path
+
+
+class ModbusExtension:
+    """`plcsim.project.extension.Extension` of Modbus TCP."""
+
+    def read(self, table: Table, folder: Path) -> ModbusProject:
+        """Return the settings."""
+        return ModbusProject(read_settings(table, folder), folder)
+
+    def service(self, _settings: ModbusProject) -> str:
+        """Return the module that serves the map."""
+        return "plcsim.modbus.service"
+
+    def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
+        """Return the map for the service; addresses given for the first time are locked."""
+        tag_map = load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        if not tag_map.is_locked:
+            write_lock(settings.folder, tag_map.lock)
+        points = tag_map.points
+        return Attachment(
+            {
+                "settings": settings.settings.to_json(),
+                "points": [point.to_json() for point in points],
+                "first_class": controller.classes[0].number,
+            },
+            [controller.tags.find(point.tag) for point in points],
+        )
+
+    def check(self, settings: ModbusProject, controller: Controller) -> list[str]:
+        """Check the map against the tags, and the files of TLS; say where the port needs rights."""
+        load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        if settings.settings.tls is not None:
+            # not at the top: the scan process has no use for ssl and pymodbus
+            from plcsim.modbus.service.tls import server_context  # noqa: PLC0415
+
+            server_context(settings.settings.tls)
+        port = settings.settings.port
+        if 0 < port < unprivileged_ports() and not may_use_privileged_ports():
+            return [f"modbus.port: {remedy(port)}"]
+        return []
+
+
+EXTENSION = ModbusExtension()

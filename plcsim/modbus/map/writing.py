@@ -1,0 +1,118 @@
+"""Writes of registers and bits, turned into commands: whole, or refused."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plcsim.modbus.map.conversion import from_registers, wire_order
+from plcsim.modbus.map.errors import IllegalAddress
+from plcsim.modbus.map.point import Area, Point
+from plcsim.shared_image.command import Command, Mask, Store
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+
+class Writes:
+    """All writes of one map.
+
+    Args:
+        points: of the map.
+    """
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        self._coils: dict[int, list[Point]] = {}
+        self._registers: dict[int, list[Point]] = {}
+        by_area = {Area.COILS.value: self._coils, Area.HOLDING_REGISTERS.value: self._registers}
+        for point in points:
+            used = by_area.get(point.area, {})
+            for address in range(point.offset, point.offset + point.registers):
+                used.setdefault(address, []).append(point)
+
+    def coils(self, address: int, bits: Sequence[bool]) -> Command:
+        """Return the command that writes coils.
+
+        Raises:
+            IllegalAddress: one of them has no tag, or cannot be written.
+        """
+        operations: list[Store | Mask] = []
+        for coil, bit in enumerate(bits, address):
+            for point in _writable(self._coils, coil):
+                operations.append(Store(point.address, b"\1" if bit else b"\0"))
+        return tuple(operations)
+
+    def registers(self, address: int, data: bytes) -> Command:
+        """Return the command that writes holding registers.
+
+        Args:
+            address: of the first register.
+            data: as on the wire, two bytes for each register.
+
+        Raises:
+            IllegalAddress: one of them has no tag, cannot be written, or is part of a tag of which
+                not all registers are written.
+            IllegalValue: a tag cannot take its value.
+        """
+        operations: list[Store | Mask] = []
+        end = address + len(data) // 2
+        done: set[int] = set()
+        for register in range(address, end):
+            for point in _writable(self._registers, register):
+                if id(point) not in done:
+                    done.add(id(point))
+                    operations.extend(_stores(point, address, end, data))
+        return tuple(operations)
+
+    def mask(self, address: int, and_mask: int, or_mask: int) -> Command:
+        """Return the command of function 22; the scan itself reads and changes the register.
+
+        Raises:
+            IllegalAddress: the register holds neither bits nor a word of its own.
+        """
+        operations: list[Store | Mask] = []
+        for point in _writable(self._registers, address):
+            if point.bit >= 0:
+                if not and_mask >> point.bit & 1:
+                    operations.append(Store(point.address, bytes([or_mask >> point.bit & 1])))
+                continue
+            if not point.is_plain or point.registers != 1 or point.is_limited:
+                raise IllegalAddress(f"{point.tag} is not a plain word")
+            swapped = point.order in ("BADC", "DCBA")
+            operations.append(
+                Mask(
+                    point.address,
+                    _swapped(and_mask) if swapped else and_mask,
+                    _swapped(or_mask) if swapped else or_mask,
+                )
+            )
+        return tuple(operations)
+
+
+def _writable(used: dict[int, list[Point]], address: int) -> list[Point]:
+    points = used.get(address)
+    if not points:
+        raise IllegalAddress(f"nothing to write at {address}")
+    for point in points:
+        if not point.is_writable:
+            raise IllegalAddress(f"{point.tag} is read-only")
+    return points
+
+
+def _stores(point: Point, address: int, end: int, data: bytes) -> Iterator[Store]:
+    """Iterate over the stores for the part of ``data`` that belongs to a point."""
+    first = 2 * (point.offset - address)
+    if point.bit >= 0:
+        word = int.from_bytes(data[first : first + 2], "big")
+        yield Store(point.address, bytes([word >> point.bit & 1]))
+    elif first >= 0 and point.offset + point.registers <= end:
+        yield Store(point.address, from_registers(point, data[first : first + 2 * point.registers]))
+    elif point.partial:
+        for i, place in enumerate(wire_order(point.size, point.order)):
+            if 0 <= first + i < len(data):
+                yield Store(point.address + point.size - 1 - place, data[first + i : first + i + 1])
+    else:
+        raise IllegalAddress(f"only part of {point.tag} is written")
+
+
+def _swapped(word: int) -> int:
+    return (word & 0xFF) << 8 | word >> 8

@@ -1,0 +1,95 @@
+"""One request executed: the answer, or a write that waits for the scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from plcsim.modbus.map.point import Area
+from plcsim.modbus.service import pdu as codec
+from plcsim.modbus.service.errors import Code, ModbusException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.modbus.map.writing import Writes
+    from plcsim.modbus.service.device import Device
+    from plcsim.shared_image import Command
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """A write that is queued; ``answer`` gives its response once the scan has shown it.
+
+    ``answer`` may raise ModbusException: the read of function 23 comes after its write.
+    """
+
+    ticket: int
+    answer: Callable[[], bytes]
+
+
+@dataclass(frozen=True)
+class Rights:
+    """What a peer may do; a function it may not use is answered as one that is not there."""
+
+    may_read: bool = True
+    may_write: bool = True
+
+    def allow(self, function: int) -> bool:
+        """Return True where the peer may use a function."""
+        return self.may_write if function in codec.WRITE_FUNCTIONS else self.may_read
+
+
+class Handler:
+    """Executes the requests of one peer on a device."""
+
+    def __init__(self, device: Device, rights: Rights) -> None:
+        self._device = device
+        self._rights = rights
+
+    def handle(self, pdu: bytes) -> bytes | Waiting:
+        """Return the answer to a request, an exception response where it is refused."""
+        if not self._rights.allow(pdu[0]):
+            return codec.encode_exception(pdu[0], Code.ILLEGAL_FUNCTION)
+        try:
+            return self._execute(codec.decode_request(pdu), pdu)
+        except ModbusException as err:
+            return codec.encode_exception(pdu[0], err.code)
+
+    def _execute(self, request: codec.Request, pdu: bytes) -> bytes | Waiting:
+        match request:
+            case codec.Read(function, area, address, quantity):
+                return codec.encode_read(function, self._device.read(area, address, quantity))
+            case codec.WriteCoils(_, address, bits):
+                return self._write(request, lambda writes: writes.coils(address, bits))
+            case codec.WriteRegisters(_, address, data):
+                return self._write(request, lambda writes: writes.registers(address, data))
+            case codec.MaskWrite(_, address, and_mask, or_mask):
+                return self._write(request, lambda writes: writes.mask(address, and_mask, or_mask))
+            case codec.ReadWrite():
+                return self._read_write(request)
+            case codec.ReturnQueryData():
+                return pdu
+            case codec.ReportServerId():
+                running = self._device.is_alive
+                return codec.encode_server_id(self._device.identity.server_id, running=running)
+        return codec.encode_identification(request, self._device.identity.objects)
+
+    def _write(
+        self,
+        request: codec.WriteCoils | codec.WriteRegisters | codec.MaskWrite,
+        make: Callable[[Writes], Command],
+    ) -> Waiting:
+        return Waiting(self._device.write(make), lambda: codec.encode_write(request))
+
+    def _read_write(self, request: codec.ReadWrite) -> Waiting:
+        """Refuse before writing what could not be read afterwards."""
+        device, area = self._device, Area.HOLDING_REGISTERS
+        device.check_read(area, request.read_address, request.read_quantity)
+        ticket = device.write(lambda writes: writes.registers(request.address, request.data))
+
+        def answer() -> bytes:
+            data = device.read(area, request.read_address, request.read_quantity)
+            return codec.encode_read(request.function, data)
+
+        return Waiting(ticket, answer)

@@ -1,0 +1,1 @@
+"""The operator of an HMI, as tests have one."""

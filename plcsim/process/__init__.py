@@ -1,0 +1,1 @@
+"""The processes of a run: parent, scan, services; what they leave behind."""

@@ -1,0 +1,190 @@
+"""The scan process: loads a project, runs it, leaves a result.
+
+`plcsim.process.supervisor` starts it.
+
+``python -m plcsim.process.scan_process ORDER`` where ORDER is a `RunOrder` as JSON.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import io
+import json
+import os
+import signal
+import sys
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plcsim.core.clock import MonotonicClock, VirtualClock
+from plcsim.core.controller import Controller
+from plcsim.core.errors import ConfigurationError, PlcError
+from plcsim.host import realtime
+from plcsim.network import OsNetwork, VirtualNetwork
+from plcsim.process.report import report
+from plcsim.project.extension import extensions, in_process, services_of
+from plcsim.project.plc_toml import FILE_NAME, Project, load_setup, read_project
+from plcsim.shared_image import ImageWriter
+from plcsim.shared_image.status_page import StatusPage
+from st_types.errors import TypeSystemError
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from plcsim.core.clock import Clock
+    from plcsim.core.task import TaskClass
+    from plcsim.network import Network
+
+VIRTUAL_IP = "192.168.0.10"
+"""Address of the controller on the virtual network."""
+
+STALLED = signal.SIGUSR1
+"""The supervisor sends this when a program does not return: it is ended by an exception."""
+
+HELD_BACK = (signal.SIGINT, signal.SIGTERM, STALLED)
+"""The supervisor starts this process with these signals blocked, until it can handle them."""
+
+DUMP = signal.SIGUSR2
+"""The supervisor sends this before it kills: the Python stack goes to the dump file."""
+
+
+@dataclass(frozen=True)
+class RunOrder:
+    """What the supervisor wants run.
+
+    Attributes:
+        parent: process id of the supervisor.
+        project: folder of the project.
+        virtual: on the virtual clock and network.
+        for_ns: how long, None for ever.
+        cycles: how many cycles of the first class, None for ever.
+        status_fd: the status page.
+        result_fd: a file for the result, a JSON object.
+        dump_fd: a file for the Python stack of a program that cannot be interrupted.
+        image_fd: an empty file for the shared image.
+        wake_fds: an eventfd for each service of the project, none on the virtual clock.
+    """
+
+    parent: int
+    project: str
+    virtual: bool
+    for_ns: int | None
+    cycles: int | None
+    status_fd: int
+    result_fd: int
+    dump_fd: int
+    image_fd: int
+    wake_fds: list[int]
+
+    def to_json(self) -> str:
+        """Return the order as the argument of this process."""
+        return json.dumps(asdict(self))
+
+
+class _PageHeartbeat(StatusPage):
+    """The status page, told the time as well."""
+
+    clock: Clock
+    origin_ns = 0
+
+    def finished(self, task_class: TaskClass) -> None:
+        super().finished(task_class)
+        self.ticked(self.clock.now_ns() - self.origin_ns)
+
+
+def main() -> int:
+    """Run the order given as the only argument; the result goes to its file."""
+    order = RunOrder(**json.loads(sys.argv[1]))
+    realtime.die_with_parent(signal.SIGKILL, order.parent)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(line_buffering=True)  # what was printed before a crash is seen
+    faulthandler.enable(file=order.dump_fd, all_threads=False)
+    faulthandler.register(DUMP, file=order.dump_fd, all_threads=False)
+    try:
+        result = _run(order)
+    except (PlcError, TypeSystemError) as err:
+        result = {"error": str(err)}
+    with os.fdopen(order.result_fd, "w", encoding="utf-8") as file:
+        json.dump(result, file)
+    return 0
+
+
+def _run(order: RunOrder) -> dict[str, Any]:
+    project = read_project(Path(order.project))
+    clock: Clock = VirtualClock() if order.virtual else MonotonicClock()
+    network: Network = (
+        VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
+    )
+    page = _PageHeartbeat(order.status_fd)
+    page.clock = clock
+    controller = Controller(load_setup(project), network=network, clock=clock, heartbeat=page)
+    _share(controller, project, order)
+    _handle_signals(controller)
+    rights = _take_rights(project, order)
+    controller.boot()
+    if rights.complete:
+        realtime.settle()
+    controller.start()
+    origin_ns = page.origin_ns = controller.scan.origin_ns
+    controller.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
+    elapsed_ns = clock.now_ns() - origin_ns
+    controller.shutdown()
+    return report(controller, project.name, elapsed_ns, list(rights.granted))
+
+
+def _share(controller: Controller, project: Project, order: RunOrder) -> None:
+    """Let the extensions hook in, and lay out the image that services and watchers read."""
+    given = in_process(project.extensions, VIRTUAL_IP) if order.virtual else project.extensions
+    attached = {
+        name: extensions()[name].attach(settings, controller) for name, settings in given.items()
+    }
+    ImageWriter(
+        order.image_fd,
+        controller,
+        project=project.name,
+        services={name: attached[name].for_service for name in services_of(given)},
+        exports=[tag for attachment in attached.values() for tag in attachment.exports],
+        wake_fds=order.wake_fds,
+    )
+
+
+def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:
+    if order.virtual or project.realtime == "off":
+        realtime.sharpen_timers()
+        return realtime.Rights((), ())
+    rights = realtime.acquire(project.priority, project.cpu)
+    if project.realtime == "require" and not rights.complete:
+        file = project.folder / FILE_NAME
+        raise ConfigurationError(
+            f"{file}: plc.realtime: required, but not given: {'; '.join(rights.refused)}"
+        )
+    return rights
+
+
+def _handle_signals(controller: Controller) -> None:
+    """Stop at SIGINT and SIGTERM; at a second SIGINT, or when stalled, end the running program.
+
+    SIGINT comes from the supervisor only. SIGTERM may come besides, from whoever ends all processes
+    of a service at once, and that is no second request.
+    """
+    interrupts = 0
+
+    def stop(number: int, _frame: FrameType | None) -> None:
+        nonlocal interrupts
+        interrupts += number == signal.SIGINT
+        controller.stop()
+        if interrupts > 1:
+            controller.abort_program("stopped by SIGINT")
+
+    def stalled(_number: int, _frame: FrameType | None) -> None:
+        controller.abort_program("the program did not return")
+
+    signal.signal(signal.SIGINT, stop)
+    signal.signal(signal.SIGTERM, stop)
+    signal.signal(STALLED, stalled)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

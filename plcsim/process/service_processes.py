@@ -1,0 +1,112 @@
+"""The services beside a scan: started when the image is laid out, started again when they end."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+from plcsim.project.extension import ServiceOrder, services_of
+from plcsim.shared_image.layout import HEADER_SIZE, make_file
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Any
+
+FIRST_PAUSE_NS = 100_000_000
+"""Between the end of a service and its next start."""
+
+LONGEST_PAUSE_NS = 10_000_000_000
+"""The pause doubles up to here for a service that gives up by itself, with exit code 1."""
+
+STOP_S = 2.0
+"""A service has this long to end by itself."""
+
+
+class _Service:
+    """One service process and when to start it again."""
+
+    def __init__(self, module: str, order: ServiceOrder) -> None:
+        self.order = order
+        self._module = module
+        self.starts = 0
+        self._process: subprocess.Popen[bytes] | None = None
+        self._next_ns = 0
+        self._pause_ns = FIRST_PAUSE_NS
+
+    def tend(self, now_ns: int) -> None:
+        """Start the process, where it is not running and its pause is over."""
+        if self._process is not None:
+            if self._process.poll() is None:
+                return
+            gave_up = self._process.returncode == 1
+            self._process = None
+            self._pause_ns = (
+                min(2 * self._pause_ns, LONGEST_PAUSE_NS) if gave_up else FIRST_PAUSE_NS
+            )
+            self._next_ns = now_ns + self._pause_ns
+        if now_ns >= self._next_ns:
+            self._start()
+
+    def _start(self) -> None:
+        order = self.order
+        self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
+            [sys.executable, "-P", "-m", self._module, order.to_json()],
+            pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
+            process_group=0,
+            stdin=subprocess.DEVNULL,
+        )
+        self.starts += 1
+
+    def stop(self) -> None:
+        """Ask the process to end; kill it where it does not."""
+        if self._process is None:
+            return
+        self._process.terminate()
+        try:
+            self._process.wait(STOP_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+
+class ServiceProcesses:
+    """The services of a project.
+
+    Args:
+        settings: of the extensions of the project, by table.
+        status_fd: the status page.
+        quiet: the services print nothing but errors.
+
+    Attributes:
+        image_fd: the shared image, for the scan process to lay out.
+        wake_fds: an eventfd for each service, in the order of the tables.
+    """
+
+    def __init__(self, settings: Mapping[str, Any], status_fd: int, *, quiet: bool = False) -> None:
+        self.image_fd = make_file()
+        modules = services_of(settings)
+        self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in modules]
+        self._services = [
+            _Service(module, ServiceOrder(name, self.image_fd, status_fd, wake_fd, quiet))
+            for (name, module), wake_fd in zip(modules.items(), self.wake_fds, strict=True)
+        ]
+
+    def tend(self, now_ns: int) -> None:
+        """Start what is not running, once the scan process has laid the image out."""
+        if self._services and os.fstat(self.image_fd).st_size > HEADER_SIZE:
+            for service in self._services:
+                service.tend(now_ns)
+
+    @property
+    def starts(self) -> dict[str, int]:
+        """How often each service was started, by table."""
+        return {service.order.table: service.starts for service in self._services}
+
+    def close(self) -> None:
+        """End all services and give the descriptors back."""
+        for service in self._services:
+            service.stop()
+        for fd in (self.image_fd, *self.wake_fds):
+            os.close(fd)

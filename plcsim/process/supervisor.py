@@ -1,0 +1,312 @@
+"""The parent of the scan process: starts it, watches it, ends a program that never returns.
+
+The watchdog is a process of its own because a stuck program holds the scan's thread, and with
+real-time rights its processor too. It looks at the status page: the same heartbeat for too long
+while a program is active means that the program does not return. Then it sends a signal, which ends
+the program by an exception; where even that has no effect, because the program is stuck inside a
+call, it takes the Python stack and kills the scan process.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from typing import TYPE_CHECKING, Any, Self
+
+from plcsim.core.duration import format_duration
+from plcsim.core.errors import PlcError, ProgramError
+from plcsim.core.system import State
+from plcsim.core.task import Unit
+from plcsim.host import realtime
+from plcsim.process.report import SCHEMA, fault_report
+from plcsim.process.run_file import Run, announce, withdraw
+from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
+from plcsim.process.service_processes import ServiceProcesses
+from plcsim.shared_image.status_page import StatusPage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.project.plc_toml import Project, TaskClassEntry
+
+POLL_S = 0.02
+"""The watchdog looks this often."""
+
+PATIENCE_NS = 1_000_000_000
+"""After the signal, a program has this long to end before the process is killed."""
+
+DUMP_POLLS = 10
+"""How often the watchdog looks for the stack of a program before it kills."""
+
+_FRAME = re.compile(r'File "(.+)", line (\d+)')
+
+
+class Supervisor:
+    """Runs a project in a scan process of its own.
+
+    Use as a context manager; `wait` returns the result.
+
+    Args:
+        project: what plc.toml says.
+        virtual: run on the virtual clock and network.
+        for_ns: stop after this time of the controller's clock.
+        cycles: stop after as many cycles of the first class.
+        quiet: the services print nothing but errors.
+
+    Attributes:
+        page: the status page.
+        services: the service processes; there are none on the virtual clock.
+    """
+
+    def __init__(
+        self,
+        project: Project,
+        *,
+        virtual: bool = False,
+        for_ns: int | None = None,
+        cycles: int | None = None,
+        quiet: bool = False,
+    ) -> None:
+        self.page = StatusPage()
+        self._project = project
+        self._classes = self._class_of_each_task(project)
+        self._result_fd = os.memfd_create("plcsim-result")
+        self._dump_fd = os.memfd_create("plcsim-dump")
+        self.services = ServiceProcesses(
+            {} if virtual else project.extensions, self.page.fd, quiet=quiet
+        )
+        self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
+        fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)
+        self._process = _start(
+            RunOrder(
+                os.getpid(),
+                str(project.folder),
+                virtual,
+                for_ns,
+                cycles,
+                *fds,
+                self.services.wake_fds,
+            ),
+            (*fds, *self.services.wake_fds),
+        )
+        with contextlib.suppress(OSError, PlcError):  # only `plcsim watch` needs it
+            announce(project.folder, self._run)
+        self._virtual = virtual
+        self._stops = 0
+        self._seen = (-1, 0)
+        self._signalled_ns = 0
+        self._result_seen_ns = 0
+        self._kill_reason = ""
+        self._stopped_while_loading = False
+        self._cpus = os.sched_getaffinity(0)
+        if not virtual and project.realtime != "off":
+            realtime.keep_off(realtime.scan_cpu(project.cpu))
+
+    @staticmethod
+    def _class_of_each_task(project: Project) -> list[TaskClassEntry | None]:
+        classes: list[TaskClassEntry | None] = [c for c in project.classes for _ in c.programs]
+        return [*classes, None] if project.exception_program else classes
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._process.poll() is None:
+            self._process.kill()
+            self._process.wait()
+        withdraw(self._project.folder, self._run)
+        self.services.close()
+        self.page.close()
+        os.close(self._result_fd)
+        os.close(self._dump_fd)
+        os.sched_setaffinity(0, self._cpus)
+
+    def stop(self) -> None:
+        """Ask the scan to stop; the EXITs run.
+
+        A second request ends a program that hangs. A third one, or one while the programs are still
+        being loaded, kills the scan process.
+        """
+        self._stops += 1
+        if self._process.poll() is not None:
+            return
+        if self._is_loading:
+            self._stopped_while_loading = True
+            self._process.kill()
+        elif self._stops > 2:
+            self._kill("killed because it did not stop")
+        else:
+            self._process.send_signal(signal.SIGINT)
+
+    @property
+    def _is_loading(self) -> bool:
+        """The programs are being loaded: nothing of them has run."""
+        return not self.page.heartbeat
+
+    def wait(self, look: Callable[[], None] = lambda: None) -> dict[str, Any]:
+        """Wait for the end of the run, watching over it.
+
+        Args:
+            look: called about every `POLL_S` seconds.
+
+        Returns:
+            the report (see `plcsim.process.report`), or {"error": text} where the project is wrong.
+        """
+        while self._process.poll() is None:
+            now_ns = time.monotonic_ns()
+            self._watch(now_ns)
+            self.services.tend(now_ns)
+            look()
+            time.sleep(POLL_S)  # Popen.wait(timeout) would wake five times as often
+        return self._outcome()
+
+    def stay(self, look: Callable[[], None] = lambda: None) -> None:
+        """Stay up in SERVICE until `stop` is called: services and watchers read the last snapshot.
+
+        It lies in memory that this process holds.
+
+        Args:
+            look: called about every `POLL_S` seconds.
+        """
+        while not self._stops:
+            self.services.tend(time.monotonic_ns())
+            look()
+            time.sleep(POLL_S)
+
+    def _watch(self, now_ns: int) -> None:
+        """Signal, and later kill, what has been running for too long."""
+        if self._result_seen_ns or os.fstat(self._result_fd).st_size:
+            self._watch_end(now_ns)
+            return
+        active = self.page.active  # before the heartbeat, which grows first
+        heartbeat = self.page.heartbeat
+        if heartbeat != self._seen[0] or (active is None and not self._is_loading):
+            self._seen = (heartbeat, now_ns)
+            self._signalled_ns = 0
+        elif self._is_loading:
+            if now_ns - self._seen[1] > self._project.init_timeout_ns:
+                limit = format_duration(self._project.init_timeout_ns)
+                self._kill(f"the programs were not loaded within {limit}")
+        elif self._signalled_ns:
+            if now_ns - self._signalled_ns > PATIENCE_NS:
+                limit = format_duration(self._limit_ns())
+                self._kill(f"did not return within {limit} and could not be interrupted")
+        elif now_ns - self._seen[1] > self._limit_ns():
+            self._process.send_signal(STALLED)
+            self._signalled_ns = now_ns
+
+    def _watch_end(self, now_ns: int) -> None:
+        """Kill a scan process that has left its result and is held up by a program's thread."""
+        self._result_seen_ns = self._result_seen_ns or now_ns
+        if now_ns - self._result_seen_ns > PATIENCE_NS:
+            self._process.kill()
+
+    def _limit_ns(self) -> int:
+        """Return how long the active unit may take."""
+        task_class = self._classes[self.page.active or 0]
+        if self.page.state is not State.RUN or task_class is None:
+            return self._project.init_timeout_ns
+        return max(self._project.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
+
+    def _kill(self, reason: str) -> None:
+        """End a scan process that does not hear; keep where it is stuck."""
+        self._kill_reason = reason
+        self._process.send_signal(DUMP)
+        self._await_dump()
+        self._process.kill()
+
+    def _await_dump(self) -> None:
+        """Wait until the stack is there and grows no more; on a busy host that takes a moment."""
+        size = 0
+        for _ in range(DUMP_POLLS):
+            time.sleep(POLL_S)
+            before, size = size, os.fstat(self._dump_fd).st_size
+            if size and size == before:
+                return
+
+    def _outcome(self) -> dict[str, Any]:
+        try:
+            result: dict[str, Any] = json.loads(_read_all(self._result_fd))
+        except ValueError:  # the scan process has left nothing, or not all
+            return self._outcome_of_death()
+        return result
+
+    def _outcome_of_death(self) -> dict[str, Any]:
+        """Return what is known of a scan process that could leave no report itself."""
+        reason = self._kill_reason or (
+            f"the scan process ended with {_code_name(self._process.returncode)}"
+        )
+        place = self._place_of_death()
+        if self._stopped_while_loading:
+            return self._report_of_death(None)
+        if self._is_loading:
+            return {"error": f"{place or self._project.folder}: {reason}"}
+        return self._report_of_death(self._fault(reason, place))
+
+    def _fault(self, reason: str, place: str) -> ProgramError:
+        """Return the program and the unit that were active, as the fault."""
+        active = self.page.active
+        if active is None:
+            return ProgramError("scan", "", place, reason)
+        unit = {State.BOOT: Unit.INIT, State.RUN: Unit.CYCLIC}.get(self.page.state, Unit.EXIT)
+        return ProgramError(self._project.programs[active].name, unit.value, place, reason)
+
+    def _report_of_death(self, fault: ProgramError | None) -> dict[str, Any]:
+        state = State.SERVICE if fault else State.STOPPED
+        self.page.changed(state)  # the scan process could not say so itself
+        entry = {
+            "time_ns": self.page.elapsed_ns,
+            "severity": "error" if fault else "information",
+            "source": fault.program if fault else "system",
+            "text": str(fault) if fault else "stopped while the programs were being loaded",
+        }
+        return {
+            "schema": SCHEMA,
+            "project": self._project.name,
+            "clock": "virtual" if self._virtual else "monotonic",
+            "realtime_rights": [],
+            "state": state.name,
+            "fault": fault_report(fault),
+            "elapsed_ns": self.page.elapsed_ns,
+            "memory_bytes": 0,
+            "task_classes": [],
+            "violations": [],
+            "logbook": [entry],
+            "logbook_dropped": 0,
+        }
+
+    def _place_of_death(self) -> str:
+        """Return "file:line" of the innermost frame of the project's own files."""
+        folder = str(self._project.folder.resolve()) + os.sep
+        frames = _FRAME.findall(_read_all(self._dump_fd).decode("utf-8", "replace"))
+        return next((f"{file}:{line}" for file, line in frames if file.startswith(folder)), "")
+
+
+def _start(order: RunOrder, fds: tuple[int, ...]) -> subprocess.Popen[bytes]:
+    """Start the scan process, in a group of its own so that Ctrl-C reaches it through us only."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
+    try:
+        return subprocess.Popen(  # noqa: S603  # our own module
+            [sys.executable, "-P", "-m", "plcsim.process.scan_process", order.to_json()],
+            pass_fds=fds,
+            process_group=0,
+            stdin=subprocess.DEVNULL,
+        )
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _read_all(fd: int) -> bytes:
+    return os.pread(fd, os.fstat(fd).st_size, 0)
+
+
+def _code_name(code: int) -> str:
+    if code >= 0:
+        return f"exit code {code}"
+    return next((s.name for s in signal.Signals if s == -code), f"signal {-code}")

@@ -1,0 +1,1 @@
+"""Programs: their declarations, and the languages they are written in."""

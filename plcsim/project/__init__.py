@@ -1,0 +1,1 @@
+"""A project on disk: plc.toml, its tables, its extensions."""

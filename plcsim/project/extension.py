@@ -1,0 +1,184 @@
+"""Extensions: tables of plc.toml beyond [plc], [task_class.N] and [library.NAME].
+
+A package claims a table by an entry point of the group ``plcsim.extensions``: its name is the
+table's, its object is an `Extension`. The extension checks the table when the project is read,
+hooks into the controller before its boot, and may have a service: a process that the supervisor
+starts beside the scan and starts again when it ends.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.metadata import entry_points
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
+    from plcsim.project.table import Table
+
+GROUP = "plcsim.extensions"
+
+
+class Attachment(NamedTuple):
+    """What an extension hands over when it has hooked into a controller.
+
+    Attributes:
+        for_service: what its service process is told, of JSON's types.
+        exports: tags that a snapshot of the shared image must hold.
+    """
+
+    for_service: Any = None
+    exports: Sequence[Tag] = ()
+
+
+class Extension(Protocol):
+    """One table of plc.toml and what it stands for."""
+
+    def read(self, table: Table, folder: Path) -> Any:
+        """Return the settings in the table; called for every command that reads the project.
+
+        Raises:
+            ConfigurationError: something is wrong; file and field are named (`Table.error`).
+        """
+
+    def service(self, settings: Any) -> str:
+        """Return the module that runs as ``python -m MODULE ORDER`` beside the scan, "" for none.
+
+        ORDER is a `ServiceOrder` as JSON.
+        """
+
+    def attach(self, settings: Any, controller: Controller) -> Attachment:
+        """Hook into a controller before its boot, in the scan process.
+
+        Values go in by ``controller.image.inputs`` (LATCH) and out by ``controller.image.watchers``
+        (PUBLISH), or through the shared image by the service.
+
+        Raises:
+            ConfigurationError: the settings do not fit the controller's tags.
+        """
+
+
+@runtime_checkable
+class InProcessExtension(Protocol):
+    """An extension that asks for other settings where no process runs beside the controller."""
+
+    def in_process(self, settings: Any, ip: str) -> Any:
+        """Return the settings for the virtual clock and for tests; called before all but ``read``.
+
+        What happens there must not depend on where it runs.
+
+        Args:
+            settings: of the table.
+            ip: of the controller on a virtual network, which has nothing of this machine; "" where
+                a test uses the network of the host.
+        """
+
+
+@runtime_checkable
+class CheckingExtension(Protocol):
+    """An extension that has something to say in ``plcsim check``."""
+
+    def check(self, settings: Any, controller: Controller) -> Sequence[str]:
+        """Check what `Extension.read` cannot, with a controller that will not run.
+
+        Nothing may be written or opened to the world.
+
+        Returns:
+            what is right in the project but will not work on this host, a line for each.
+
+        Raises:
+            ConfigurationError: the settings do not fit the controller's tags, or a file that they
+                name is wrong.
+        """
+
+
+class _Installed(Mapping[str, "Extension"]):
+    """The installed extensions; one is imported when a project has its table, not before."""
+
+    def __init__(self) -> None:
+        self._entries = {entry.name: entry for entry in entry_points(group=GROUP)}
+
+    def __getitem__(self, name: str) -> Extension:
+        extension: Extension = self._entries[name].load()
+        return extension
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(sorted(self._entries))
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+
+@cache
+def extensions() -> Mapping[str, Extension]:
+    """Return the installed extensions by the table they claim."""
+    return _Installed()
+
+
+def check_settings(settings: Mapping[str, Any], controller: Controller) -> list[str]:
+    """Let the extensions of a project check their settings; return their notes on this host.
+
+    Args:
+        settings: of the extensions, by table.
+        controller: of the project, before its boot.
+
+    Raises:
+        ConfigurationError: something is wrong.
+    """
+    notes: list[str] = []
+    for name, value in settings.items():
+        extension = extensions()[name]
+        if isinstance(extension, CheckingExtension):
+            notes += extension.check(value, controller)
+    return notes
+
+
+def in_process(settings: Mapping[str, Any], ip: str) -> dict[str, Any]:
+    """Return the settings where no process runs beside the controller, by table.
+
+    Args:
+        settings: of the extensions, by table.
+        ip: see `InProcessExtension.in_process`.
+    """
+    here = dict(settings)
+    for name, value in settings.items():
+        extension = extensions()[name]
+        if isinstance(extension, InProcessExtension):
+            here[name] = extension.in_process(value, ip)
+    return here
+
+
+def services_of(settings: Mapping[str, Any]) -> dict[str, str]:
+    """Return the modules of the services of a project, by table."""
+    modules = {name: extensions()[name].service(value) for name, value in settings.items()}
+    return {name: module for name, module in modules.items() if module}
+
+
+@dataclass(frozen=True)
+class ServiceOrder:
+    """What the supervisor tells a service process.
+
+    Attributes:
+        table: of plc.toml; names the service's ring and its part of the directory.
+        image_fd: the shared image.
+        status_fd: the status page.
+        wake_fd: an eventfd, raised when the scan acknowledged commands of this service.
+        quiet: print nothing but errors.
+    """
+
+    table: str
+    image_fd: int
+    status_fd: int
+    wake_fd: int
+    quiet: bool = False
+
+    def to_json(self) -> str:
+        """Return the order as the argument of the process."""
+        return json.dumps(asdict(self))

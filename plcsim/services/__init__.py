@@ -1,1 +1,0 @@
-"""Services: processes beside the scan that talk to the world, and only here asyncio is at home."""

@@ -1,0 +1,133 @@
+"""The status page: one page of shared memory through which the scan is watched from outside.
+
+The scan process writes, its parent reads; neither ever waits. All fields are 64-bit numbers, each
+written in one store, so a reader sees every field whole (not all fields of one moment).
+"""
+
+from __future__ import annotations
+
+import mmap
+import os
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.core.system import State
+
+if TYPE_CHECKING:
+    from plcsim.core.task import Task, TaskClass
+
+MAGIC = 0x504C_4353_494D_0001
+SIZE = 4096
+
+_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME = range(5)
+_CLASSES = 16
+_FIELDS_PER_CLASS = 16
+
+
+class ClassStatus(NamedTuple):
+    """Figures of one task class; durations in nanoseconds."""
+
+    cycles: int
+    missed: int
+    in_tolerance: int
+    by_program: int
+    by_host: int
+    preempted: int
+    execution_ns: int
+    longest_execution_ns: int
+    lateness_ns: int
+    longest_lateness_ns: int
+
+    @property
+    def violations(self) -> int:
+        """Violations of all causes."""
+        return self.by_program + self.by_host + self.preempted
+
+
+class StatusPage:
+    """The page, seen by the writer and by the reader.
+
+    Args:
+        fd: a shared memory file, or None to make one.
+    """
+
+    def __init__(self, fd: int | None = None) -> None:
+        self.fd = os.memfd_create("plcsim-status") if fd is None else fd
+        if fd is None:
+            os.ftruncate(self.fd, SIZE)
+        self._map = mmap.mmap(self.fd, SIZE)
+        self._cells = memoryview(self._map).cast("Q")
+        if fd is None:
+            self._cells[_MAGIC] = MAGIC
+            self._cells[_STATE] = State.BOOT.value
+        elif self._cells[_MAGIC] != MAGIC:
+            raise ValueError("not a status page")
+
+    def close(self) -> None:
+        """Give the memory back."""
+        self._cells.release()
+        self._map.close()
+        os.close(self.fd)
+
+    # the writer's side (plcsim.core.controller.Heartbeat)
+
+    def started(self, task: Task) -> None:
+        """Note that ``task`` is about to run a unit."""
+        cells = self._cells
+        cells[_HEARTBEAT] += 1
+        cells[_ACTIVE] = task.index + 1
+
+    def finished(self, task_class: TaskClass) -> None:
+        """Note the figures of a class whose cycle has ended."""
+        cells = self._cells
+        cells[_ACTIVE] = 0
+        cells[_HEARTBEAT] += 1
+        at = _CLASSES + (task_class.number - 1) * _FIELDS_PER_CLASS
+        cells[at] = task_class.cycles
+        cells[at + 6] = task_class.execution.last_ns
+        cells[at + 7] = task_class.execution.maximum_ns
+        cells[at + 8] = task_class.lateness.last_ns
+        cells[at + 9] = task_class.lateness.maximum_ns
+        if task_class.missed:
+            cells[at + 1] = task_class.missed
+        if task_class.in_tolerance:
+            cells[at + 2] = task_class.in_tolerance
+        for place, count in enumerate(task_class.violations.values(), at + 3):
+            if count:
+                cells[place] = count
+
+    def changed(self, state: State) -> None:
+        """Note a new system state."""
+        self._cells[_ACTIVE] = 0
+        self._cells[_STATE] = state.value
+        self._cells[_HEARTBEAT] += 1
+
+    def ticked(self, elapsed_ns: int) -> None:
+        """Note the time since the start on the controller's clock."""
+        self._cells[_TIME] = elapsed_ns
+
+    # the reader's side
+
+    @property
+    def heartbeat(self) -> int:
+        """Grows with every program that starts and every cycle that ends."""
+        return self._cells[_HEARTBEAT]
+
+    @property
+    def state(self) -> State:
+        """The system state."""
+        return State(self._cells[_STATE])
+
+    @property
+    def active(self) -> int | None:
+        """Index of the task that runs, None where none does."""
+        return self._cells[_ACTIVE] - 1 if self._cells[_ACTIVE] else None
+
+    @property
+    def elapsed_ns(self) -> int:
+        """Time since the start on the controller's clock, at the end of the last cycle."""
+        return self._cells[_TIME]
+
+    def of_class(self, number: int) -> ClassStatus:
+        """Return the figures of task class ``number``."""
+        at = _CLASSES + (number - 1) * _FIELDS_PER_CLASS
+        return ClassStatus(*self._cells[at : at + 10].tolist())

@@ -1,0 +1,1 @@
+"""From syntax trees to data types, constants, variables and functions."""

@@ -1,0 +1,137 @@
+"""What is wrong in a source text, where, and how to show it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from st_types.errors import SourceError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from st_types.syntax.source import Source
+
+MAX_DIAGNOSTICS = 20
+"""Most diagnostics kept of one file; the others are only counted."""
+
+EXCERPT_WIDTH = 100
+"""Most characters of a source line that are shown."""
+
+
+class Severity(StrEnum):
+    """How bad it is: an error makes the file unusable, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    Attributes:
+        severity: error or warning.
+        path: the file, as the user named it.
+        line: from 1.
+        column: from 1, in characters.
+        message: what is wrong and what was expected.
+        hint: how to put it right, may be empty.
+        excerpt: the source line, cut to `EXCERPT_WIDTH` around the column.
+        caret: place of the column in ``excerpt``, from 0.
+    """
+
+    severity: Severity
+    path: str
+    line: int
+    column: int
+    message: str
+    hint: str = ""
+    excerpt: str = ""
+    caret: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}: {self.severity}: {self.message}"
+
+    def render(self) -> str:
+        """Return the finding as lines of text: message, source line, caret, hint."""
+        lines = [str(self)]
+        if self.excerpt:
+            number = f"{self.line:>6} | "
+            lines += [
+                number + self.excerpt,
+                " " * (len(number) - 2) + "| " + " " * self.caret + "^",
+            ]
+        if self.hint:
+            lines.append(f"       hint: {self.hint}")
+        return "\n".join(lines)
+
+
+def render_all(diagnostics: Iterable[Diagnostic], omitted: int = 0) -> str:
+    """Return all findings as text; ``omitted`` is how many more there were."""
+    lines = [diagnostic.render() for diagnostic in diagnostics]
+    if omitted:
+        lines.append(f"... and {omitted} more that are not shown")
+    return "\n".join(lines)
+
+
+def excerpt_of(line: str, column: int) -> tuple[str, int]:
+    """Return at most `EXCERPT_WIDTH` characters of ``line`` around ``column`` and its place there.
+
+    Tabs become one blank and unprintable characters a question mark, so that the caret stands right
+    and a terminal is not upset.
+    """
+    start = max(0, column - 1 - EXCERPT_WIDTH // 2) if len(line) > EXCERPT_WIDTH else 0
+    cut = line[start : start + EXCERPT_WIDTH]
+    shown = "".join(c if c.isprintable() else " " if c == "\t" else "?" for c in cut)
+    head, tail = "..." if start else "", "..." if start + EXCERPT_WIDTH < len(line) else ""
+    return f"{head}{shown}{tail}", column - 1 - start + len(head)
+
+
+class DiagnosticLog:
+    """Collects the findings of one file.
+
+    Attributes:
+        source: the file.
+        records: the first `MAX_DIAGNOSTICS` errors and as many warnings, in the order found.
+        omitted: how many findings were made beyond that.
+        error_count: all errors.
+        warning_count: all warnings.
+    """
+
+    __slots__ = ("error_count", "omitted", "records", "source", "warning_count")
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.records: list[Diagnostic] = []
+        self.omitted = 0
+        self.error_count = 0
+        self.warning_count = 0
+
+    def error(self, offset: int, message: str, hint: str = "") -> None:
+        """Record an error at the character ``offset``."""
+        self.error_count += 1
+        self._add(Severity.ERROR, self.error_count, offset, message, hint)
+
+    def warning(self, offset: int, message: str, hint: str = "") -> None:
+        """Record a warning at the character ``offset``."""
+        self.warning_count += 1
+        self._add(Severity.WARNING, self.warning_count, offset, message, hint)
+
+    def _add(self, severity: Severity, count: int, offset: int, message: str, hint: str) -> None:
+        if count > MAX_DIAGNOSTICS:
+            self.omitted += 1
+            return
+        path, line, column = self.source.location(offset)
+        excerpt, caret = excerpt_of(self.source.line_text(line), column)
+        self.records.append(Diagnostic(severity, path, line, column, message, hint, excerpt, caret))
+
+    def raise_errors(self) -> None:
+        """Raise all findings if one of them is an error.
+
+        Raises:
+            SourceError: there is an error.
+        """
+        if self.error_count:
+            raise SourceError(render_all(self.records, self.omitted), self.records)

@@ -1,0 +1,101 @@
+"""Parser of initial values: expressions, ``[...]`` of arrays, ``(name := ...)`` of structures."""
+
+from __future__ import annotations
+
+from st_types.syntax.expressions import Call, ExpressionParser
+from st_types.syntax.tree import (
+    ArrayInitial,
+    Initial,
+    MemberInitial,
+    RepeatedInitial,
+    StructInitial,
+)
+
+
+class InitialParser(ExpressionParser):
+    """Parses initial values."""
+
+    def initial(self) -> Initial:
+        """Parse what follows ``:=`` in a declaration.
+
+        The brackets of an array may be left out, as in older files: ``:= 1, 2, 3(0);``.
+
+        Raises:
+            UnexpectedTokenError: there is no value here.
+        """
+        at = self.index
+        first = self._initial_item(counts_by_name=False)
+        if isinstance(first, Call) or (self.text != "," and not isinstance(first, RepeatedInitial)):
+            return first
+        items: list[Initial] = [first]
+        while self.accept(","):
+            items.append(self._initial_item(counts_by_name=True))
+        return ArrayInitial(at, items)
+
+    def _initial_item(self, *, counts_by_name: bool) -> Initial:
+        text = self.text
+        if text == "[":
+            return self._array_initial()
+        if text == "(" and self._starts_members():
+            return self._struct_initial()
+        if self.texts[self.index + 1] == "(" and self._is_count(text, by_name=counts_by_name):
+            return self._repeated_initial()
+        return self.expression()
+
+    def _is_count(self, text: str, *, by_name: bool) -> bool:
+        if not text.isascii():
+            return False
+        return text.isdecimal() or (by_name and text.isidentifier() and text.upper() != "NOT")
+
+    def _starts_members(self) -> bool:
+        after = self.texts[self.index + 1 : self.index + 3]
+        return after[0] == ")" or after[1] == ":="
+
+    def _array_initial(self) -> ArrayInitial:
+        at = self._open_initial()
+        items = self._initials("]")
+        self.leave()
+        return ArrayInitial(at, items)
+
+    def _open_initial(self) -> int:
+        self.enter()
+        self.index += 1
+        return self.index - 1
+
+    def _initials(self, closing: str) -> list[Initial]:
+        items: list[Initial] = []
+        while not self.accept(closing):
+            if items:
+                self.expect(",", f"or '{closing}' after an initial value")
+                if self.accept(closing):
+                    break
+            items.append(self._initial_item(counts_by_name=True))
+        return items
+
+    def _repeated_initial(self) -> RepeatedInitial:
+        at = self.index
+        count = self._primary()
+        if self._starts_members() and self.texts[self.index + 1] != ")":
+            return RepeatedInitial(at, count, [self._struct_initial()])
+        self._open_initial()
+        items = self._initials(")")
+        self.leave()
+        return RepeatedInitial(at, count, items)
+
+    def _struct_initial(self) -> StructInitial:
+        at = self._open_initial()
+        members: list[MemberInitial] = []
+        while not self.accept(")"):
+            if members:
+                self.expect(",", "or ')' after the value of a member")
+                if self.accept(")"):
+                    break
+            members.append(self._member_initial())
+        self.leave()
+        return StructInitial(at, members)
+
+    def _member_initial(self) -> MemberInitial:
+        at = self.index
+        name = self.expect_name("of a member")
+        self.expect(":=", f"after the name of the member {name}")
+        return MemberInitial(at, name, self._initial_item(counts_by_name=False))

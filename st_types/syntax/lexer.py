@@ -1,0 +1,179 @@
+"""Lexer of Structured Text and of .typ, .var and .fun files.
+
+One compiled regular expression cuts the whole text into tokens in C. A token is its text; blanks,
+comments and pragmas before it are its trivia. Tokens are numbered, and their offsets are worked out
+only when a place is asked for, which most parses never do.
+
+Comments are ``(* *)``, ``/* */`` and ``//``. Files of Automation Studio do not nest them, but
+hand-written ones may: `unnest_comments` is for texts that do not parse otherwise.
+"""
+
+from __future__ import annotations
+
+import re
+from enum import Enum, auto
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from st_types.syntax.source import Location, Source
+
+MAX_TOKENS = 1_000_000
+"""Tokens of one file that are read; bounds the memory that a hostile file can take."""
+
+LOOKAHEAD = 4
+"""Number of empty tokens behind the last one, so that a parser may look ahead unchecked."""
+
+BLANKS = r"[\s\xa0\ufeff\x1a]"
+"""Blanks: also the no-break space, a byte order mark inside the text and the DOS end of file."""
+
+_TRIVIA = rf"""
+    {BLANKS}*
+    (?: (?: \(\* .*? (?: \*\) | \Z )
+          | // [^\r\n]*
+          | /\* .*? (?: \*/ | \Z )
+          | \{{ [^{{}}]* \}} )
+        {BLANKS}* )*
+"""
+_STRINGS = r"""' [^'$\r\n]* (?: \$. [^'$\r\n]* )* ' | " [^"$\r\n]* (?: \$. [^"$\r\n]* )* \""""
+# The commonest tokens stand first; an identifier before # is part of a literal. One of the last two
+# always matches, so nothing that was taken is given back. Possessive quantifiers would say so, but
+# Python took them wrongly before 3.11.5, and Debian 12 has 3.11.2 (python/cpython issue 106052).
+_LEXEME = rf"""
+    (?: [A-Za-z_] \w* (?![\w\#])
+      | ;
+      | :=?
+      | (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*
+      | [A-Za-z_] \w*
+        (?: \# (?: {_STRINGS}
+                 | [+-]? \d+ \# \w+
+                 | [+-]? \d (?: \w | \.(?=\d) | (?<=[eE])[+-](?=\d) )*
+                 | [A-Za-z_] \w* ) )?
+      | \.\. | => | <> | <= | >= | \*\*
+      | \d+ \# \w+
+      | \d [\d_]* (?: \. (?: \d [\d_]* | (?![.\w]) ) )? (?: [eE] [+-]? \d+ )?
+      | {_STRINGS}
+      | ['"] [^\r\n]*
+      | % (?: "[^"\r\n]*" | [\w.*] )+
+      | \# [A-Za-z] [^\r\n]*
+      | . | \Z )
+"""
+_CUT = re.compile(f"({_TRIVIA})({_LEXEME})", re.VERBOSE | re.DOTALL | re.ASCII)
+_STRING = re.compile(_STRINGS, re.VERBOSE | re.DOTALL)
+
+
+class TokenKind(Enum):
+    """What a token is; keywords are identifiers, for any of them may be a name."""
+
+    END = auto()
+    IDENTIFIER = auto()
+    LITERAL = auto()
+    OPERATOR = auto()
+    ADDRESS = auto()
+    """A direct address such as ``%IX0.1``."""
+    DIRECTIVE = auto()
+    """A preprocessor line such as ``#ifdef NAME``."""
+    UNKNOWN = auto()
+    """A character, or an open string, that belongs nowhere."""
+
+
+OPERATORS = frozenset([":=", "..", "=>", "<>", "<=", ">=", "**", *";:,()[].+-*/=<>&^"])
+"""Operators and separators."""
+
+_KIND_BY_FIRST = {
+    **dict.fromkeys("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_", TokenKind.IDENTIFIER),
+    **dict.fromkeys("0123456789'\"", TokenKind.LITERAL),
+    "%": TokenKind.ADDRESS,
+    "#": TokenKind.DIRECTIVE,
+}
+
+
+def kind_of(text: str) -> TokenKind:
+    """Return the kind of the token ``text``."""
+    if text in OPERATORS:
+        return TokenKind.OPERATOR
+    if not text:
+        return TokenKind.END
+    kind = _KIND_BY_FIRST.get(text[0], TokenKind.UNKNOWN)
+    if kind is TokenKind.IDENTIFIER:
+        return TokenKind.LITERAL if "#" in text else kind
+    if kind is TokenKind.LITERAL:
+        return TokenKind.UNKNOWN if is_open_string(text) else kind
+    return kind if len(text) > 1 else TokenKind.UNKNOWN
+
+
+def is_open_string(text: str) -> bool:
+    """Return True for a token that starts a string and does not end it on its line."""
+    return text[0] in "'\"" and _STRING.fullmatch(text) is None
+
+
+class Tokens:
+    """The tokens of a source.
+
+    Attributes:
+        source: the text they were cut from.
+        texts: one string a token, then empty ones for the end of the text, `LOOKAHEAD` or more.
+        trivia: blanks, comments and pragmas before each token.
+        truncated: True where the text has more than `MAX_TOKENS` tokens; the others were not read.
+    """
+
+    __slots__ = ("_offsets", "source", "texts", "trivia", "truncated")
+
+    def __init__(self, source: Source) -> None:
+        parts = _CUT.split(source.text, maxsplit=MAX_TOKENS)
+        self.source = source
+        self.truncated = bool(parts[-1])
+        self.trivia = parts[1::3] + [""] * LOOKAHEAD
+        self.texts = parts[2::3] + [""] * LOOKAHEAD
+        self._offsets: list[int] | None = None
+
+    @property
+    def end(self) -> int:
+        """Number of the token that stands for the end of the text."""
+        return self.texts.index("")
+
+    def offset(self, index: int) -> int:
+        """Return the offset in the text of the first character of token ``index``."""
+        if self._offsets is None:
+            pairs = zip(self.trivia, self.texts, strict=True)
+            self._offsets = list(accumulate(len(part) for pair in pairs for part in pair))
+        return self._offsets[2 * index]
+
+    def end_offset(self, index: int) -> int:
+        """Return the offset just behind token ``index``."""
+        return self.offset(index) + len(self.texts[index])
+
+    def location(self, index: int) -> Location:
+        """Return the place of token ``index``."""
+        return self.source.location(self.offset(index))
+
+
+_OUTSIDE = re.compile(
+    rf"""\(\* | //[^\r\n]* | /\*.*?(?:\*/|\Z) | {_STRINGS} | ['"] [^\r\n]*""",
+    re.VERBOSE | re.DOTALL,
+)
+_INSIDE = re.compile(r"\(\*|\*\)")
+
+
+def unnest_comments(text: str) -> str | None:
+    """Return ``text`` with the marks of comments inside comments blanked out, offsets kept.
+
+    None if no comment lies inside another one, or if their marks do not pair up: then the text is
+    not meant so, as in ``(* see (* below *)``.
+    """
+    inner: list[int] = []
+    depth = place = 0
+    while match := (_INSIDE if depth else _OUTSIDE).search(text, place):
+        place = match.end()
+        opens = match.group() == "(*"
+        if depth > (0 if opens else 1):
+            inner.append(match.start())
+        if opens or depth:
+            depth += 1 if opens else -1
+    return None if depth or not inner else _blank_marks(text, inner)
+
+
+def _blank_marks(text: str, starts: list[int]) -> str:
+    ends = [0, *(start + 2 for start in starts)]
+    kept = [text[end:start] for end, start in zip(ends, [*starts, len(text)], strict=True)]
+    return "  ".join(kept)

@@ -1,0 +1,245 @@
+"""Derived types: strings, arrays, structures, data blocks, enumerations, references."""
+
+from __future__ import annotations
+
+from enum import Enum, IntEnum
+from math import prod
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from st_types.errors import DeclarationError
+from st_types.types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
+from st_types.types.layout import Layout, lay_out
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+V_co = TypeVar("V_co", covariant=True)
+
+MAX_SIZE = 0x7FFF_FFFF
+"""Bytes; no variable of a 32-bit controller is larger."""
+
+
+class Section(Enum):
+    """The VAR section a member stands in; the values give the order within a data block."""
+
+    INPUT = 0
+    OUTPUT = 1
+    IN_OUT = 2
+    """A reference to the caller's variable."""
+    INTERNAL = 3
+
+
+class Member(NamedTuple):
+    """A member of a STRUCT or a data block; ``initial`` None means the default of its type."""
+
+    name: str
+    data_type: DataType[object]
+    initial: object = None
+    section: Section = Section.INTERNAL
+
+
+class StringType(DataType[str]):
+    """STRING[length]: ``length`` one-byte characters and a terminator."""
+
+    __slots__ = ("length",)
+
+    def __init__(self, length: int) -> None:
+        if not 0 < length < MAX_SIZE:
+            raise DeclarationError(f"STRING[{length}]: the length must be above 0.")
+        super().__init__(f"STRING[{length}]", length + 1, 1)
+        self.length = length
+
+
+class WStringType(DataType[str]):
+    """WSTRING[length]: ``length`` 16-bit characters and a terminator."""
+
+    __slots__ = ("length",)
+
+    def __init__(self, length: int) -> None:
+        if not 0 < length < MAX_SIZE // 2:
+            raise DeclarationError(f"WSTRING[{length}]: the length must be above 0.")
+        super().__init__(f"WSTRING[{length}]", 2 * (length + 1), 2)
+        self.length = length
+
+
+class ArrayType(DataType[V_co]):
+    """ARRAY[low..high, ...] OF element, the last index running fastest.
+
+    Attributes:
+        element: type of one element.
+        bounds: (low, high) of each dimension, both ends included.
+        count: number of elements over all dimensions.
+    """
+
+    __slots__ = ("bounds", "count", "element")
+
+    def __init__(self, element: DataType[object], bounds: Sequence[tuple[int, int]]) -> None:
+        text = ", ".join(f"{low}..{high}" for low, high in bounds)
+        name = f"ARRAY[{text}] OF {element.name}"
+        if not bounds or any(low > high for low, high in bounds):
+            raise DeclarationError(f"{name}: each lower bound must not be above its upper bound.")
+        self.element = element
+        self.bounds = tuple(bounds)
+        self.count = prod(high - low + 1 for low, high in bounds)
+        if self.count * element.size > MAX_SIZE:
+            raise DeclarationError(f"{name}: {self.count * element.size} bytes are too many.")
+        super().__init__(name, self.count * element.size, element.alignment)
+
+    def index_of(self, *indices: int) -> int:
+        """Return the zero-based place of the element at ``indices``.
+
+        Raises:
+            IndexError: the number of indices is wrong, or one is outside its bounds.
+        """
+        if len(indices) != len(self.bounds):
+            raise IndexError(f"{self.name}: {len(self.bounds)} indices wanted, not {len(indices)}.")
+        place = 0
+        for index, (low, high) in zip(indices, self.bounds, strict=True):
+            if not low <= index <= high:
+                raise IndexError(f"{self.name}: index {index} is outside {low}..{high}.")
+            place = place * (high - low + 1) + index - low
+        return place
+
+
+class StructType(DataType[V_co]):
+    """STRUCT: members in the order of declaration.
+
+    Attributes:
+        members: as declared.
+        offsets: bytes from the start, one for each member.
+    """
+
+    __slots__ = ("_places", "members", "offsets")
+
+    def __init__(self, name: str, members: Sequence[Member]) -> None:
+        self.members = tuple(members)
+        layout = self._laid_out()
+        self.offsets = layout.offsets
+        if layout.size > MAX_SIZE:
+            raise DeclarationError(f"{name}: {layout.size} bytes are too many.")
+        super().__init__(name, layout.size, layout.alignment)
+        self._places: dict[str, int] = {}
+        for place, member in enumerate(self.members):
+            if self._places.setdefault(member.name.upper(), place) != place:
+                raise DeclarationError(f"{name}: two members are called {member.name}.")
+
+    def _laid_out(self) -> Layout:
+        """Return the layout, its offsets in the order of declaration."""
+        return lay_out([member.data_type for member in self.members])
+
+    def find(self, name: str) -> tuple[Member, int]:
+        """Return the member ``name`` (case does not matter) and its offset in bytes.
+
+        Raises:
+            KeyError: there is no such member.
+        """
+        place = self._places[name.upper()]
+        return self.members[place], self.offsets[place]
+
+
+class DataBlockType(StructType[V_co]):
+    """The data block of a function block, laid out as the generated C struct."""
+
+    __slots__ = ()
+
+    def _laid_out(self) -> Layout:
+        order = data_block_order(self.members)
+        layout = lay_out([self.members[i].data_type for i in order])
+        offsets = dict(zip(order, layout.offsets, strict=True))
+        return layout._replace(offsets=tuple(offsets[i] for i in range(len(order))))
+
+
+def data_block_order(members: Sequence[Member]) -> tuple[int, ...]:
+    """Return the indices of ``members`` in the order of the generated C struct.
+
+    Analog inputs, analog outputs, references of VAR_IN_OUT, analog internals, then digital (BOOL,
+    ARRAY OF BOOL) inputs, outputs, internals; the order of declaration within each group (read off
+    generated headers such as SG4/AsTCP.h, where ``enable`` comes last).
+    """
+    return tuple(
+        sorted(
+            range(len(members)),
+            key=lambda i: (is_digital(members[i].data_type), members[i].section.value),
+        )
+    )
+
+
+def is_digital(data_type: DataType[object]) -> bool:
+    """Whether a type is BOOL, under another name or in an ARRAY too."""
+    while isinstance(data_type, AliasType | ArrayType):
+        data_type = data_type.target if isinstance(data_type, AliasType) else data_type.element
+    return data_type is BOOL
+
+
+class EnumerationType(DataType[V_co]):
+    """An enumeration: a DINT with named values.
+
+    Attributes:
+        values: value by name, in the order of declaration.
+        members: the IntEnum that Python programs see, None where values are plain integers.
+    """
+
+    __slots__ = ("members", "values")
+
+    def __init__(
+        self, name: str, values: Mapping[str, int], members: type[IntEnum] | None = None
+    ) -> None:
+        super().__init__(name, DINT.size, DINT.alignment)
+        if not values:
+            raise DeclarationError(f"{name}: an enumeration needs at least one value.")
+        for key, value in values.items():
+            if not DINT.minimum <= value <= DINT.maximum:
+                raise DeclarationError(f"{name}.{key}: {value} is not a DINT.")
+        self.values = dict(values)
+        self.members = members
+
+
+class SubrangeType(DataType[int]):
+    """An integer type whose values are meant to stay within minimum..maximum.
+
+    The controller does not check stores, unless the project holds the IecCheck library; initial
+    values are checked.
+    """
+
+    __slots__ = ("base", "maximum", "minimum")
+
+    def __init__(self, name: str, base: ElementaryType[int], minimum: int, maximum: int) -> None:
+        super().__init__(name, base.size, base.alignment)
+        if not base.is_integer:
+            raise DeclarationError(f"{name}: {base.name} cannot have a subrange.")
+        if not base.minimum <= minimum <= maximum <= base.maximum:
+            raise DeclarationError(f"{name}: {minimum}..{maximum} is not a range of {base.name}.")
+        self.base = base
+        self.minimum = minimum
+        self.maximum = maximum
+
+
+class ReferenceType(DataType[int]):
+    """REFERENCE TO target: a 32-bit address, 0 for none.
+
+    ``target`` may be set after construction, for types that refer to themselves.
+    """
+
+    __slots__ = ("target",)
+
+    def __init__(self, target: DataType[object] | None, name: str = "") -> None:
+        super().__init__(name or f"REFERENCE TO {target}", UDINT.size, UDINT.alignment)
+        self.target = target
+
+
+class AliasType(DataType[V_co]):
+    """Another name of ``target``, possibly with an initial value of its own."""
+
+    __slots__ = ("initial", "target")
+
+    def __init__(self, name: str, target: DataType[V_co], initial: object = None) -> None:
+        super().__init__(name, target.size, target.alignment)
+        self.target = target
+        self.initial = initial
+
+
+def resolve_alias(data_type: DataType[V_co]) -> DataType[V_co]:
+    """Return the type behind any number of aliases."""
+    while isinstance(data_type, AliasType):
+        data_type = data_type.target
+    return data_type

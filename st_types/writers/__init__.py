@@ -1,0 +1,1 @@
+"""Data types as C headers and as Python."""

@@ -1,0 +1,257 @@
+"""A Python module of typed views from declarations, for programs, editors and mypy.
+
+Each STRUCT becomes a `Struct` class, each function block's data a `DataBlock` class, an enumeration
+an IntEnum, a constant a module constant, the variables of VAR blocks a class ``Variables``. The
+module imports only `st_types` and passes ``mypy --strict``.
+"""
+
+from __future__ import annotations
+
+import keyword
+import re
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+from st_types.types.derived import (
+    AliasType,
+    ArrayType,
+    DataBlockType,
+    EnumerationType,
+    Member,
+    ReferenceType,
+    Section,
+    StringType,
+    StructType,
+    SubrangeType,
+    WStringType,
+    resolve_alias,
+)
+from st_types.types.elementary import ELEMENTARY, DataType, ElementaryType
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from st_types.resolve.table import TypeTable
+    from st_types.resolve.variables import Variable
+
+_MAKERS = {
+    Section.INPUT: "var_input",
+    Section.OUTPUT: "var_output",
+    Section.IN_OUT: "var_in_out",
+    Section.INTERNAL: "var",
+}
+_IMPORTED = frozenset(
+    [
+        *("ARRAY", "ENUM", "STRING", "WSTRING", "DataBlock", "Struct", *_MAKERS.values()),
+        *("AliasType", "EnumerationType", "ReferenceType", "SubrangeType", *ELEMENTARY),
+        *("Final", "IntEnum", "locals"),
+    ]
+)
+"""Names that the module itself uses; a declaration of such a name gets another one."""
+
+_RESERVED = frozenset([*dir(IntEnum), *keyword.kwlist, "name", "value", "mro"])
+"""Names that an IntEnum cannot give to its members."""
+
+
+_QUOTED = "'[^']*'"
+
+
+def python_source(table: TypeTable, title: str) -> str:
+    """Return the text of a module with views of all declarations of ``table``.
+
+    Args:
+        table: resolved declarations; what has no layout is left out.
+        title: first line of the module's docstring.
+    """
+    module = _Module(table)
+    body = "".join(f"\n\n{block}\n" for block in module.blocks())
+    head = f'"""{_one_line(title)}"""\n\nfrom __future__ import annotations\n'
+    return head + _imports(module.imports) + body
+
+
+def _imports(used: set[tuple[str, str]]) -> str:
+    """Return the import statements, those of the standard library first."""
+    groups = {True: "", False: ""}
+    for place in sorted({place for place, _ in used}):
+        names = sorted(name for found, name in used if found == place)
+        line = f"from {place} import {', '.join(names)}\n"
+        if len(line) > 100:
+            line = f"from {place} import (\n" + "".join(f"    {n},\n" for n in names) + ")\n"
+        groups[place.startswith("st_types")] += line
+    return "".join("\n" + groups[ours] for ours in (False, True) if groups[ours])
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'").rstrip(".") + "."
+
+
+class _Module:
+    """Writes the blocks of a module and remembers what they import."""
+
+    def __init__(self, table: TypeTable) -> None:
+        self._table = table
+        self._names: dict[DataType[object], str] = {}
+        self._taken: set[str] = set(keyword.kwlist) | _IMPORTED
+        self.imports: set[tuple[str, str]] = set()
+
+    def blocks(self) -> Iterator[str]:
+        """Yield constants, then types in the order they need one another, then variables."""
+        constants = [v for v in self._table.variables if "CONSTANT" in v.block.qualifiers]
+        if lines := [line for v in constants if (line := self._constant(v))]:
+            yield "\n".join(lines)
+        for data_type in [data_type for _, data_type in self._table.types()]:
+            yield from self._named(data_type)
+        variables = [v for v in self._table.variables if "CONSTANT" not in v.block.qualifiers]
+        members = [Member(v.name, v.data_type, v.initial) for v in variables if v.data_type]
+        for member in members:
+            yield from self._needed(member.data_type)
+        if members:
+            doc = "Variables of the VAR blocks."
+            yield self._class(self._free("Variables"), "Struct", doc, members)
+
+    def _use(self, name: str, place: str = "st_types") -> str:
+        self.imports.add((place, name))
+        return name
+
+    def _free(self, name: str) -> str:
+        while name in self._taken:
+            name += "_"
+        self._taken.add(name)
+        return name
+
+    def _constant(self, variable: Variable) -> str:
+        if not isinstance(variable.initial, bool | int | float | str):
+            return ""
+        final = self._use("Final", "typing")
+        return f"{self._free(variable.name)}: {final} = {variable.initial!r}"
+
+    def _needed(self, data_type: DataType[object]) -> Iterator[str]:
+        """Yield the types that must stand before a member of ``data_type``."""
+        match data_type:
+            case ArrayType(element=element):
+                yield from self._needed(element)
+            case StructType() | EnumerationType() | AliasType() | SubrangeType():
+                yield from self._named(data_type)
+
+    def _named(self, data_type: DataType[object]) -> Iterator[str]:
+        """Yield the declaration of a type, after those that it needs."""
+        if data_type in self._names:
+            return
+        match data_type:
+            case StructType():
+                for member in data_type.members:
+                    yield from self._needed(member.data_type)
+                name = self._names[data_type] = self._free(data_type.name)
+                base = "DataBlock" if isinstance(data_type, DataBlockType) else "Struct"
+                kind = "Data block" if base == "DataBlock" else "STRUCT"
+                yield self._class(name, base, f"{kind} {data_type.name}.", data_type.members)
+            case EnumerationType():
+                yield self._enumeration(data_type)
+            case AliasType(target=target):
+                yield from self._needed(target)
+                yield self._alias(data_type)
+            case SubrangeType():
+                yield self._assignment(data_type, self._subrange(data_type))
+
+    def _assignment(self, data_type: DataType[object], value: str) -> str:
+        name = self._names[data_type] = self._free(data_type.name)
+        return f"{name} = {value}"
+
+    def _enumeration(self, data_type: EnumerationType[object]) -> str:
+        if any(name in _RESERVED or name.startswith("_") for name in data_type.values):
+            made = self._use("EnumerationType", "st_types.types.derived")
+            value = f"{made}[int]({data_type.name!r}, {dict(data_type.values)!r})"
+            return self._assignment(data_type, value)
+        base = self._use("IntEnum", "enum")
+        name = self._free(data_type.name)
+        lines = [f"class {name}({base}):", f'    """Enumeration {data_type.name}."""', ""]
+        lines += [f"    {key} = {value}" for key, value in data_type.values.items()]
+        type_name = self._names[data_type] = self._free(f"{name}_TYPE")
+        return "\n".join([*lines, "", "", f"{type_name} = {self._use('ENUM')}({name})"])
+
+    def _alias(self, data_type: AliasType[object]) -> str:
+        target = resolve_alias(data_type)
+        if isinstance(target, StructType):
+            return self._struct_alias(data_type, target)
+        made = self._use("AliasType", "st_types.types.derived")
+        initial = f", {_literal(data_type.initial)}" if data_type.initial is not None else ""
+        text = f"{made}({data_type.name!r}, {self._type(data_type.target)}{initial})"
+        return self._assignment(data_type, text)
+
+    def _struct_alias(self, data_type: AliasType[object], target: StructType[object]) -> str:
+        """Return a class of its own: views know no other name of a class."""
+        given: dict[str, object] = {}
+        link: DataType[object] = data_type
+        while isinstance(link, AliasType):
+            if isinstance(link.initial, dict):
+                given = link.initial | given
+            link = link.target
+        members = [m._replace(initial=given.get(m.name, m.initial)) for m in target.members]
+        name = self._names[data_type] = self._free(data_type.name)
+        base = "DataBlock" if isinstance(target, DataBlockType) else "Struct"
+        return self._class(name, base, f"{data_type.name}: as {target.name}.", members)
+
+    def _class(self, name: str, base: str, doc: str, members: Sequence[Member]) -> str:
+        types = [f"{self._use(_MAKERS[m.section])}({self._type(m.data_type)}" for m in members]
+        used = set(re.findall(r"\w+", re.sub(_QUOTED, "", " ".join(types))))
+        lines = []
+        for hidden in sorted(used & {member.name for member in members}):
+            # In a class body a member hides a type of its name from the members below it.
+            alias = self._free(f"_{hidden}")
+            lines.append(f"{alias} = {hidden}")
+            types = [_renamed(text, hidden, alias) for text in types]
+        lines += ["", ""] if lines else []
+        lines += [f"class {name}({self._use(base)}):", f'    """{doc}"""']
+        lines += [""] if members else []
+        pairs = zip(members, types, strict=True)
+        return "\n".join([*lines, *(f"    {self._member(*pair)}" for pair in pairs)])
+
+    def _member(self, member: Member, made: str) -> str:
+        initial = f", {_literal(member.initial)}" if member.initial is not None else ""
+        value = f"{made}{initial})"
+        if keyword.iskeyword(member.name) or member.name.startswith("__"):
+            return f"locals()[{member.name!r}] = {value}"  # read it with getattr()
+        return f"{member.name} = {value}"
+
+    def _type(self, data_type: DataType[object]) -> str:
+        """Return a Python expression for a type."""
+        if data_type in self._names:
+            return self._names[data_type]
+        match data_type:
+            case ElementaryType(name=name):
+                return self._use(name)
+            case StringType(length=length):
+                return f"{self._use('STRING')}({length})"
+            case WStringType(length=length):
+                return f"{self._use('WSTRING')}({length})"
+            case ArrayType(element=element, bounds=bounds):
+                ranges = ", ".join(f"({low}, {high})" for low, high in bounds)
+                return f"{self._use('ARRAY')}({self._type(element)}, {ranges})"
+            case SubrangeType():
+                return self._subrange(data_type)
+            case ReferenceType():
+                made = self._use("ReferenceType", "st_types.types.derived")
+                return f"{made}(None, {data_type.name!r})"
+        raise TypeError(f"{data_type} has no Python form.")
+
+    def _subrange(self, data_type: SubrangeType) -> str:
+        made = self._use("SubrangeType", "st_types.types.derived")
+        bounds = f"{data_type.minimum}, {data_type.maximum}"
+        return f"{made}({data_type.name!r}, {self._use(data_type.base.name)}, {bounds})"
+
+
+def _renamed(text: str, name: str, new_name: str) -> str:
+    """Return Python code with another name for ``name``, strings left alone."""
+    pattern = rf"({_QUOTED})|\b{name}\b"
+    return re.sub(pattern, lambda match: match[1] or new_name, text)
+
+
+def _literal(value: object) -> str:
+    match value:
+        case dict():
+            return "{" + ", ".join(f"{key!r}: {_literal(v)}" for key, v in value.items()) + "}"
+        case [first, _, *_] if all(other == first for other in value):
+            return f"[{_literal(first)}] * {len(value)}"
+        case list():
+            return "[" + ", ".join(map(_literal, value)) + "]"
+    return repr(value)

@@ -1,0 +1,55 @@
+"""Nodes of programs in a project without a table [ros]: the environment counts."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from crosnode.plc.project import OPTIONS, SharedTypes, Surroundings, create_node, surroundings
+from crosnode.plc.settings import read_settings
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
+from plcsim.network import VirtualNetwork
+from plcsim.project.table import Table
+
+
+def test_without_a_table_the_environment_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_MASTER_URI", "http://10.0.0.1:5/")
+    monkeypatch.setenv("ROS_NAMESPACE", "/cell")
+    context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+    assert surroundings(context) is None
+    node = create_node(context, "x", "__name:=y")
+    assert node.name == "/cell/y"
+    assert node.core.master.uri == "http://10.0.0.1:5/"
+
+
+def test_nodes_of_one_controller_share_their_types() -> None:
+    context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+    one, two = create_node(context, "one"), create_node(context, "two")
+    assert one.types is two.types is context.library(SharedTypes)
+
+
+def test_the_namespace_of_the_table_goes_before_the_environment_that_before_the_program() -> None:
+    def name(namespace: str, environment: Mapping[str, str]) -> str:
+        context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+        values = {"namespace": namespace} if namespace else {}
+        settings = read_settings(Table(Path("plc.toml"), "ros", values), Path(), environment)
+        context.options[OPTIONS] = {"surroundings": Surroundings(settings, 0, lambda: 0)}
+        return create_node(context, "x", namespace="/mine").name
+
+    assert name("/table", {"ROS_NAMESPACE": "/desk"}) == "/table/x"
+    assert name("", {"ROS_NAMESPACE": "/desk"}) == "/desk/x"
+    assert name("", {}) == "/mine/x"
+
+
+def test_beside_a_node_in_exit_goes_on_what_a_test_has_there() -> None:
+    context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+    settings = read_settings(Table(Path("plc.toml"), "ros", {}), Path(), {})
+    steps: list[int] = []
+    found = Surroundings(settings, 0, lambda: 0)
+    context.options[OPTIONS] = {"surroundings": found}
+    node = create_node(context, "x")
+    context.options[OPTIONS] = {"surroundings": found._replace(beside=lambda: steps.append(1))}
+    node.set_param("/a", 1)  # waits for the master
+    node.destroy(steps=3)
+    assert steps

@@ -1,0 +1,58 @@
+import pytest
+
+from plcsim.core.context import Context
+from plcsim.core.memory import PAGE, Memory
+
+
+class Library:
+    def __init__(self, context):
+        self.context = context
+        self.closed = 0
+
+    def close(self):
+        self.closed += 1
+
+
+@pytest.fixture
+def context():
+    return Context(Memory(2 * PAGE), network="network", options={"astcp": {"idents": 4}})
+
+
+def test_a_context_starts_at_release_0_with_what_it_was_given(context):
+    assert (context.release_ns, context.network) == (0, "network")
+    assert context.options == {"astcp": {"idents": 4}}
+    assert Context(context.memory, network=None).options == {}
+
+
+def test_a_library_is_made_once_by_the_first_block_that_asks(context):
+    assert context.libraries() == ()
+    library = context.library(Library)
+    assert library.context is context
+    assert context.library(Library) is library
+    other = context.library(list_of_context)
+    assert other == [context]
+    assert context.libraries() == (library, other)
+
+
+def list_of_context(context):
+    return [context]
+
+
+def test_contexts_do_not_share_libraries(context):
+    other = Context(context.memory, network=None)
+    assert other.library(Library) is not context.library(Library)
+
+
+def test_restart_closes_the_libraries_and_forgets_them(context):
+    library = context.library(Library)
+    context.library(list_of_context)
+    context.restart()
+    assert (library.closed, context.libraries()) == (1, ())
+    assert context.library(Library) is not library
+    context.restart()
+    assert library.closed == 1
+
+
+def test_a_context_has_no_other_attributes(context):
+    with pytest.raises(AttributeError):
+        context.now_ns = 1

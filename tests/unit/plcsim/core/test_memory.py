@@ -1,0 +1,322 @@
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plcsim.core.errors import ConfigurationError, PageFault
+from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE, Memory, adr, find, sizeof
+from st_types import (
+    ARRAY,
+    BOOL,
+    INT,
+    LREAL,
+    REAL,
+    STRING,
+    UDINT,
+    UINT,
+    Struct,
+    ValueRangeError,
+    var,
+)
+from st_types.types.derived import AliasType, Member, StructType
+from st_types.types.views import context_of, type_of, view_class
+
+
+class Axis(Struct):
+    on = var(BOOL)
+    speed = var(REAL, 1.5)
+
+
+class Cell(Struct):
+    number = var(INT, -3)
+    main = var(Axis)
+    axes = var(ARRAY(Axis, (1, 3)))
+    grid = var(ARRAY(INT, (0, 1), (-1, 1)))
+    name = var(STRING(5), "cell")
+
+
+@pytest.fixture
+def memory():
+    return Memory(4 * PAGE)
+
+
+def test_the_first_variable_lies_on_the_second_page(memory):
+    assert (memory.used, memory.allocate(1), memory.used) == (PAGE, PAGE, PAGE + 1)
+
+
+@pytest.mark.parametrize(("alignment", "address"), [(1, 1), (2, 2), (4, 4), (8, 8)])
+def test_allocation_keeps_the_alignment(memory, alignment, address):
+    memory.allocate(1)
+    assert memory.allocate(4, alignment) == PAGE + address
+
+
+def test_a_full_memory_says_so_and_stays_usable(memory):
+    with pytest.raises(ConfigurationError) as caught:
+        memory.allocate(3 * PAGE + 1)
+    assert str(caught.value) == (
+        "the PLC memory of 16384 bytes is full: 12289 more bytes do not fit."
+    )
+    assert memory.allocate(3 * PAGE) == PAGE
+    with pytest.raises(ConfigurationError):
+        memory.allocate(1)
+
+
+@pytest.mark.parametrize("size", [0, PAGE, PAGE + 1, 2 * PAGE - 1, MAX_SIZE + PAGE, -PAGE])
+def test_an_impossible_size_is_refused(size):
+    with pytest.raises(ConfigurationError, match=f"memory of {size} bytes"):
+        Memory(size)
+
+
+def test_default_size():
+    assert Memory().size == DEFAULT_SIZE == 1 << 24
+
+
+# Page faults: addresses are valid from the second page to the end of the last page allocated.
+
+
+@pytest.mark.parametrize(
+    ("address", "size"),
+    [
+        (0, 1),
+        (0, 0),
+        (1, 4),
+        (PAGE - 1, 1),
+        (PAGE - 1, 2),
+        (2 * PAGE, 1),
+        (2 * PAGE - 3, 4),
+        (-1, 1),
+        (2**32 - 1, 1),
+        (2**32 + PAGE, 1),
+        (PAGE, PAGE + 1),
+        (PAGE, -1),
+    ],
+)
+def test_a_wild_address_is_a_page_fault(memory, address, size):
+    memory.allocate(10)
+    with pytest.raises(PageFault) as caught:
+        memory.check(address, size)
+    assert (caught.value.address, caught.value.size) == (address, size)
+    with pytest.raises(PageFault):
+        memory.read(address, size)
+
+
+@pytest.mark.parametrize("address", [0, PAGE - 1, 2 * PAGE - type_of(Cell).size + 1, 2**32 - 4])
+def test_access_to_a_wild_address_is_a_page_fault(memory, address):
+    memory.allocate(10)
+    with pytest.raises(PageFault):
+        memory.access(Cell, address)
+
+
+def test_a_page_fault_says_where():
+    fault = PageFault(0x1A2B, 4)
+    assert str(fault) == "page fault: 4 bytes at address 16#00001A2B"
+
+
+def test_before_the_first_allocation_nothing_is_valid(memory):
+    with pytest.raises(PageFault):
+        memory.read(PAGE, 1)
+
+
+def test_addresses_are_valid_to_the_end_of_the_page(memory):
+    memory.allocate(10)
+    memory.write(2 * PAGE - 2, b"ab")
+    assert memory.read(2 * PAGE - 2, 2) == b"ab"
+    assert memory.read(2 * PAGE, 0) == b""
+    memory.allocate(PAGE)
+    memory.write(3 * PAGE - 1, b"c")
+
+
+def test_a_write_that_faults_stores_nothing(memory):
+    memory.allocate(10)
+    with pytest.raises(PageFault):
+        memory.write(2 * PAGE - 2, b"abc")
+    assert memory.read(2 * PAGE - 2, 2) == b"\0\0"
+
+
+@given(
+    st.integers(-(2**33), 2**33) | st.integers(0, 5 * PAGE),
+    st.integers(-5, 5 * PAGE),
+    st.integers(1, 3 * PAGE),
+)
+def test_an_access_is_good_or_a_page_fault(address, size, allocated):
+    memory = Memory(4 * PAGE)
+    memory.allocate(allocated)
+    valid = set(range(PAGE, PAGE + -(-allocated // PAGE) * PAGE + 1))
+    if size >= 0 and {address, address + size} <= valid:
+        assert memory.read(address, size) == bytes(size)
+        memory.write(address, b"x" * size)
+        assert memory.read(address, size) == b"x" * size
+    else:
+        with pytest.raises(PageFault):
+            memory.read(address, size)
+
+
+@pytest.mark.parametrize(
+    ("data", "limit", "found"),
+    [(b"ab\0c", 10, b"ab"), (b"abc\0", 2, b"ab"), (b"\0", 10, b""), (b"abc\0", 3, b"abc")],
+)
+def test_a_string_ends_at_its_nul_or_at_the_limit(memory, data, limit, found):
+    address = memory.allocate(100)
+    memory.write(address, data)
+    assert memory.string(address, limit) == found
+
+
+def test_a_string_must_not_run_into_an_invalid_address(memory):
+    memory.allocate(10)
+    memory.write(2 * PAGE - 3, b"abc")
+    assert memory.string(2 * PAGE - 3, 3) == b"abc"
+    with pytest.raises(PageFault):
+        memory.string(2 * PAGE - 3, 4)
+    memory.write(2 * PAGE - 1, b"\0")
+    assert memory.string(2 * PAGE - 3, 1000) == b"ab"
+    for address in (0, PAGE - 1, 2 * PAGE):
+        with pytest.raises(PageFault):
+            memory.string(address, 5)
+
+
+# Variables
+
+
+def test_a_new_variable_is_aligned_and_has_its_initial_values(memory):
+    memory.allocate(1)
+    cell = memory.new(Cell, "context")
+    assert adr(cell) == PAGE + 4
+    assert (cell.number, cell.main.speed, cell.axes[3].speed, cell.name) == (-3, 1.5, 1.5, "cell")
+    assert context_of(cell.axes[2]) == "context"
+    assert memory.used == adr(cell) + type_of(Cell).size
+
+
+def test_view_and_memory_are_the_same_bytes(memory):
+    cell = memory.new(Cell)
+    cell.axes[2].speed = 2.5
+    assert memory.get(REAL, adr(cell, "axes[2].speed")) == 2.5
+    memory.set(INT, adr(cell, "grid[1, -1]"), 7)
+    assert cell.grid[1, -1] == 7
+    with pytest.raises(ValueRangeError):
+        memory.set(INT, adr(cell), 40000)
+    with pytest.raises(PageFault):
+        memory.get(LREAL, 8)
+    with pytest.raises(PageFault):
+        memory.set(LREAL, 8, 1.0)
+
+
+def test_access_gives_a_view_of_the_same_variable(memory):
+    cell = memory.new(Cell)
+    memory.access(Axis, adr(cell, "axes[3]")).on = True
+    memory.access(type_of(Cell).find("grid")[0].data_type, adr(cell, "grid"))[0, 0] = 9
+    memory.access(AliasType("Other", type_of(Axis)), adr(cell.main)).speed = 4.0
+    assert (cell.axes[3].on, cell.grid[0, 0], cell.main.speed) == (True, 9, 4.0)
+    assert adr(memory.access(Axis, adr(cell.main))) == adr(cell.main)
+
+
+def test_a_declared_struct_may_have_a_member_called_bind(memory):
+    view = memory.new(view_class(StructType("Odd", [Member("bind", INT, 5)])))
+    assert view.bind == 5
+    assert memory.access(type_of(view), adr(view)).bind == 5
+
+
+# Paths: the offsets of Cell are number 0, main 4, axes 12, grid 36, name 48.
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "offset"),
+    [
+        ("", "Cell", 0),
+        ("number", "INT", 0),
+        ("NUMBER", "INT", 0),
+        ("main.speed", "REAL", 8),
+        ("axes", "ARRAY[1..3] OF Axis", 12),
+        ("axes[1]", "Axis", 12),
+        ("axes[3].Speed", "REAL", 32),
+        ("grid[0,-1]", "INT", 36),
+        ("grid[1, 0]", "INT", 44),
+        ("name", "STRING[5]", 48),
+    ],
+)
+def test_find(path, name, offset):
+    data_type, found = find(type_of(Cell), path)
+    assert (data_type.name, found) == (name, offset)
+
+
+def test_find_starts_at_an_array_and_sees_through_aliases():
+    rows = AliasType("Rows", ARRAY(ARRAY(AliasType("Speed", UINT), (1, 2)), (0, 1)))
+    assert find(rows, "[1][2]") == (UINT, 6)
+    assert find(rows, "") == (rows.target, 0)
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("speed", "Cell has no member speed"),
+        ("main.torque", "Axis has no member torque"),
+        ("axes[4]", "[4]: ARRAY[1..3] OF Axis: index 4 is outside 1..3."),
+        ("axes[1,1]", "[1,1]: ARRAY[1..3] OF Axis: 1 indices wanted, not 2."),
+        ("grid[0]", "[0]: ARRAY[0..1, -1..1] OF INT: 2 indices wanted, not 1."),
+        ("axes[x]", "[x]: "),
+        ("axes[]", "[]: "),
+        ("axes.on", "ARRAY[1..3] OF Axis has no members (on)"),
+        ("number.x", "INT has no members (x)"),
+        ("number[0]", "INT has no elements ([0])"),
+        ("name[0]", "STRING[5] has no elements ([0])"),
+    ],
+)
+def test_a_wrong_path_says_which_step(path, message):
+    with pytest.raises(KeyError) as caught:
+        find(type_of(Cell), path)
+    assert caught.value.args[0].startswith(message)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [".", "main.", ".main", "main..speed", "axes[1", "axes1]", "axes[[1]]", "axes.[1]", "a b"],
+)
+def test_what_is_not_a_path_is_refused(path):
+    with pytest.raises(KeyError) as caught:
+        find(type_of(Cell), path)
+    assert caught.value.args[0] == f"{path} is not a path such as axes[3].name"
+
+
+STEPS = ["axes", "grid", "main", "on", "name", "[", "]", "[2]", "[0,1]", "1", "-", ",", ".", ".on"]
+
+
+@given(st.lists(st.sampled_from(STEPS), max_size=5).map("".join) | st.text())
+def test_any_text_is_a_path_or_a_key_error(path):
+    try:
+        data_type, offset = find(type_of(Cell), path)
+    except KeyError:
+        return
+    assert 0 <= offset <= sizeof(Cell) - data_type.size
+
+
+def test_adr_of_a_variable_and_its_parts(memory):
+    cell = memory.new(Cell)
+    base = adr(cell)
+    assert adr(cell, "axes[2].speed") == base + 12 + 8 + 4
+    assert adr(cell.axes) == base + 12
+    assert adr(cell.axes[2]) == adr(cell, "axes[2]") == adr(cell.axes, "[2]") == base + 20
+    with pytest.raises(KeyError, match="no member torque"):
+        adr(cell, "torque")
+
+
+def test_adr_outside_plc_memory_is_a_page_fault():
+    for view in (Cell(), Cell().main, Cell().axes):
+        with pytest.raises(PageFault) as caught:
+            adr(view)
+        assert (caught.value.address, caught.value.size) == (0, type_of(view).size)
+
+
+def test_sizeof(memory):
+    cell = memory.new(Cell)
+    assert [sizeof(v) for v in (cell, Cell, cell.main, cell.axes, UDINT)] == [56, 56, 8, 24, 4]
+    assert [sizeof(cell, p) for p in ("name", "axes[1]", "grid")] == [6, 8, 12]
+    with pytest.raises(KeyError):
+        sizeof(Cell, "torque")
+
+
+def test_variables_never_overlap():
+    memory = Memory(16 * PAGE)
+    views = [memory.new(view) for view in (Axis, Cell, Axis, Cell)]
+    ranges = [range(adr(v), adr(v) + sizeof(v)) for v in views]
+    for before, after in pairwise(ranges):
+        assert before.stop <= after.start

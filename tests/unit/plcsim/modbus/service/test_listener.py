@@ -1,0 +1,108 @@
+import asyncio
+import resource
+import socket
+from collections.abc import Awaitable, Callable
+
+import pytest
+
+from plcsim.modbus.service import listener
+from plcsim.modbus.service.listener import Listener, place
+
+
+class Greeter(asyncio.Protocol):
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.Transport)
+        transport.write(b"welcome")
+
+
+Client = Callable[[Listener], Awaitable[None]]
+
+
+def listen(client: Client, host: str = "127.0.0.1", most: int = 100) -> tuple[list[str], list[str]]:
+    """Run a client; return the addresses that asked for admission, and the failures."""
+    asked: list[str] = []
+    failures: list[str] = []
+
+    def admit(address: str, _port: int) -> asyncio.Protocol | None:
+        asked.append(address)
+        return Greeter() if len(asked) <= most else None
+
+    async def run() -> None:
+        made = Listener(host, 0, None, admit, lambda _name, text: failures.append(text))
+        try:
+            await asyncio.wait_for(client(made), 10)
+        finally:
+            made.close()
+
+    asyncio.run(run())
+    return asked, failures
+
+
+async def greeting(port: int, host: str = "127.0.0.1") -> bytes:
+    reader, writer = await asyncio.open_connection(host, port)
+    try:
+        return await reader.read(7)
+    except ConnectionResetError:
+        return b""
+    finally:
+        writer.close()
+
+
+def test_who_is_not_admitted_is_closed_at_once() -> None:
+    async def client(made: Listener) -> None:
+        assert await greeting(made.port) == b"welcome"
+        assert await greeting(made.port) == b""
+
+    assert listen(client, most=1) == (["127.0.0.1", "127.0.0.1"], [])
+
+
+def test_two_colons_are_all_addresses_of_both_kinds() -> None:
+    if not socket.has_dualstack_ipv6():
+        pytest.skip("this host has no IPv6")
+
+    async def client(made: Listener) -> None:
+        assert await greeting(made.port, "127.0.0.1") == b"welcome"
+        assert await greeting(made.port, "::1") == b"welcome"
+
+    asked, _ = listen(client, host="::")
+    assert asked == ["::ffff:127.0.0.1", "::1"]
+
+
+def test_without_descriptors_nobody_gets_in_until_there_are_some_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(listener, "PAUSE_S", 0.05)
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+
+    async def client(made: Listener) -> None:
+        waiting = socket.socket()
+        waiting.settimeout(0)
+        probe = socket.socket()
+        free = probe.fileno()
+        probe.close()
+        resource.setrlimit(resource.RLIMIT_NOFILE, (free, limits[1]))
+        try:
+            waiting.connect_ex(("127.0.0.1", made.port))
+            await asyncio.sleep(0.3)
+        finally:
+            resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+        loop = asyncio.get_running_loop()
+        assert await asyncio.wait_for(loop.sock_recv(waiting, 7), 5) == b"welcome"
+        waiting.close()
+
+    asked, failures = listen(client)
+    assert asked == ["127.0.0.1"]
+    assert 2 <= len(failures) <= 8
+    assert "Too many open files" in failures[0]
+
+
+@pytest.mark.parametrize(
+    ("host", "written"),
+    [
+        ("10.0.0.1", "10.0.0.1:502"),
+        ("fe80::1", "[fe80::1]:502"),
+        ("::ffff:10.0.0.1", "10.0.0.1:502"),
+    ],
+)
+def test_addresses_are_written_as_people_write_them(host: str, written: str) -> None:
+    assert place(host, 502) == written

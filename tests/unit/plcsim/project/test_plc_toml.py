@@ -1,0 +1,310 @@
+"""plc.toml: what it says, and every way in which it can be wrong."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from plcsim.core.clock import VirtualClock
+from plcsim.core.controller import Controller
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.task import Policy
+from plcsim.project.plc_toml import ProgramEntry, load_setup, read_project
+
+MS = 1_000_000
+
+PROGRAM = """
+    from plcsim import Program
+    from st_types import UINT, var
+
+    class Main(Program):
+        count = var(UINT)
+
+        def cyclic(self) -> None:
+            self.count += 1
+"""
+
+CLASS = "[task_class.1]\n"
+MAIN = CLASS + 'programs = ["main"]\n'
+
+
+@pytest.fixture
+def read(project):
+    """``read(text)``: the project with this plc.toml and a program ``main``."""
+
+    def read(text, **files):
+        return read_project(project({"plc.toml": text, "main/main.py": PROGRAM} | files))
+
+    return read
+
+
+def test_the_defaults(read):
+    found = read(MAIN)
+    assert (found.name, found.folder.name) == ("cell", "cell")
+    assert (found.tick_ns, found.memory_size) == (MS, 16 * 1024 * 1024)
+    assert (found.watchdog_ns, found.init_timeout_ns) == (500 * MS, 10_000 * MS)
+    assert (found.realtime, found.priority, found.cpu) == ("auto", 50, None)
+    assert found.exception_program is None
+    (first,) = found.classes
+    assert (first.number, first.cycle_ns, first.tolerance_ns) == (1, 10 * MS, 10 * MS)
+    assert first.first_release_ns == 5 * MS
+    assert (first.policy, first.host_policy) == (Policy.SERVICE, Policy.LOG)
+    assert first.programs == (ProgramEntry("main", "main"),)
+
+
+@pytest.mark.parametrize(
+    ("number", "cycle_ms", "tolerance_ms"),
+    [
+        (1, 10, 10),
+        (2, 20, 20),
+        (3, 50, 50),
+        (4, 100, 100),
+        (5, 200, 200),
+        (6, 500, 500),
+        (7, 1000, 1000),
+        (8, 10, 30_000),
+    ],
+)
+def test_the_times_of_a_new_automation_studio_project(read, number, cycle_ms, tolerance_ms):
+    (found,) = read(f'[task_class.{number}]\nprograms = ["main"]').classes
+    assert (found.cycle_ns, found.tolerance_ns) == (cycle_ms * MS, tolerance_ms * MS)
+
+
+def test_everything_that_can_be_set(read):
+    found = read(
+        """
+        [plc]
+        name = "Cell 7"
+        tick = "500us"
+        memory = "64KiB"
+        watchdog = "2s"
+        init_timeout = "1min"
+        realtime = "off"
+        priority = 98
+        cpu = 0
+        exception_program = "alarm"
+
+        [task_class.4]
+        programs = ["main"]
+
+        [task_class.2]
+        cycle = "2.5ms"
+        tolerance = "0ms"
+        first_release = "0ms"
+        on_violation = "exception"
+        on_host_violation = "service"
+        programs = ["a", { name = "b", source = "lines/b" }, { name = "c" }]
+
+        [library.astcp]
+        max_idents = 7
+        """
+    )
+    assert (found.name, found.tick_ns, found.memory_size) == ("Cell 7", 500_000, 65536)
+    assert (found.watchdog_ns, found.init_timeout_ns) == (2_000 * MS, 60_000 * MS)
+    assert (found.realtime, found.priority, found.cpu) == ("off", 98, 0)
+    assert [c.number for c in found.classes] == [2, 4]
+    second = found.classes[0]
+    assert (second.cycle_ns, second.tolerance_ns, second.first_release_ns) == (2_500_000, 0, 0)
+    assert (second.policy, second.host_policy) == (Policy.EXCEPTION, Policy.SERVICE)
+    assert [p.name for p in found.programs] == ["a", "b", "c", "main", "alarm"]
+    assert second.programs[1] == ProgramEntry("b", "lines/b")
+    assert found.options == {"astcp": {"max_idents": 7}}
+
+
+def test_the_file_may_be_named_instead_of_the_folder(read):
+    found = read(MAIN)
+    assert read_project(found.folder / "plc.toml") == found
+
+
+@pytest.mark.parametrize(
+    ("text", "error"),
+    [
+        ("", "task_class: at least one, [task_class.1], is needed"),
+        ("[task_class]", "task_class: at least one, [task_class.1], is needed"),
+        ("= 1", "Invalid statement"),
+        ("[plc]\nname = 1\n" + MAIN, "plc.name: 1 is not a string"),
+        ("plc = 3\n" + MAIN, "plc: 3 is not a table"),
+        ("task_class = 3", "task_class: 3 is not a table"),
+        ("[task_class]\n1 = 3", "task_class.1: a table is expected"),
+        ("library = 3\n" + MAIN, "library: 3 is not a table"),
+        ("[library]\nastcp = 3\n" + MAIN, "library.astcp: a table is expected"),
+        ("[plcs]\n" + MAIN, "plcs: unknown key; did you mean plc?"),
+        ("[plc]\ntikc = '1ms'\n" + MAIN, "plc.tikc: unknown key; did you mean tick?"),
+        ("[plc]\ntick = ''\n" + MAIN, "plc.tick: '' is not a duration"),
+        ("[plc]\ntick = '0ms'\n" + MAIN, "plc.tick: must be above 0"),
+        ("[plc]\ntick = 1\n" + MAIN, "plc.tick: 1 is not a string"),
+        ("[plc]\nwatchdog = 'soon'\n" + MAIN, "plc.watchdog: 'soon' is not a duration"),
+        ("[plc]\nmemory = '16 potatoes'\n" + MAIN, "plc.memory: '16 potatoes' is not a size"),
+        ("[plc]\nmemory = '5000'\n" + MAIN, "plc.memory: '5000' must be a multiple of 4096"),
+        ("[plc]\nmemory = '4096MiB'\n" + MAIN, "plc.memory: '4096MiB' must be a multiple of"),
+        ("[plc]\nrealtime = 'yes'\n" + MAIN, "plc.realtime: 'yes' is not \"auto\""),
+        ("[plc]\nrealtime = true\n" + MAIN, "plc.realtime: True is not a string"),
+        ("[plc]\npriority = 99\n" + MAIN, "plc.priority: 99 is outside 1..98"),
+        ("[plc]\npriority = true\n" + MAIN, "plc.priority: True is not a whole number"),
+        ("[plc]\npriority = 1.5\n" + MAIN, "plc.priority: 1.5 is not a whole number"),
+        ("[plc]\ncpu = -2\n" + MAIN, "plc.cpu: -2 is outside"),
+        ("[plc]\ncpu = 1000000000000\n" + MAIN, "plc.cpu: 1000000000000 is outside"),
+        (
+            "[plc]\nexception_program = '../main'\n" + MAIN,
+            "plc.exception_program: '../main' is not",
+        ),
+        ("[plc]\nexception_program = 'main'\n" + MAIN, "programs: two programs are called main"),
+        (
+            "[task_class.9]\nprograms = ['main']",
+            "task_class.9: task classes are [task_class.1] to [task_class.8]",
+        ),
+        (
+            "[task_class.0]\nprograms = ['main']",
+            "task_class.0: task classes are [task_class.1] to [task_class.8]",
+        ),
+        (
+            "[task_class.fast]\nprograms = ['main']",
+            "task_class.fast: task classes are [task_class.1] to [task_class.8]",
+        ),
+        (CLASS, "task_class.1.programs: at least one program is needed"),
+        (CLASS + "programs = []", "task_class.1.programs: at least one program is needed"),
+        (CLASS + "programs = 'main'", "task_class.1.programs: 'main' is not a list"),
+        (CLASS + "programs = [3]", "task_class.1.programs: 3 is neither a name nor {name="),
+        (CLASS + "programs = [{}]", "task_class.1.programs: {} is neither a name nor"),
+        (CLASS + "programs = ['a b']", "task_class.1.programs: 'a b' is not an identifier"),
+        (CLASS + "programs = ['a.b']", "task_class.1.programs: 'a.b' is not an identifier"),
+        (CLASS + "programs = ['']", "task_class.1.programs: '' is not an identifier"),
+        (
+            CLASS + "programs = [{name='a', sorce='b'}]",
+            "task_class.1.programs: a: unknown key sorce",
+        ),
+        (
+            CLASS + "programs = [{name='a', source='/b'}]",
+            "task_class.1.programs: a: source '/b' is not a folder of the",
+        ),
+        (
+            CLASS + "programs = [{name='a', source='b/../..'}]",
+            "task_class.1.programs: a: source 'b/../..' is not a folder",
+        ),
+        (
+            CLASS + "programs = [{name='a', source=1}]",
+            "task_class.1.programs: a: source 1 is not a folder of the project",
+        ),
+        (CLASS + "programs = ['main', 'main']", "programs: two programs are called main; give one"),
+        (CLASS + "programs = ['main', 'MAIN']", "programs: two programs are called MAIN; give one"),
+        (MAIN + "cycle = '1.0005ms'", "task_class.1.cycle: 1000500 ns is not a multiple of the"),
+        (MAIN + "cycle = '0ms'", "task_class.1.cycle: must be above 0"),
+        (MAIN + "cycle = 10", "task_class.1.cycle: 10 is not a string such as"),
+        (MAIN + "cycle = '1m'", "task_class.1.cycle: '1m' is a minute or more, too long for a "),
+        (MAIN + "cycle = '1min'", "task_class.1.cycle: '1min' is a minute or more, too long for"),
+        (MAIN + "cycle = '-1ms'", "task_class.1.cycle: '-1ms' is not a duration"),
+        (MAIN + "cycle = ''", "task_class.1.cycle: '' is not a duration"),
+        (MAIN + "tolerance = '1'", "task_class.1.tolerance: '1' is not a duration"),
+        (MAIN + "first_release = 'x'", "task_class.1.first_release: 'x' is not a duration"),
+        (MAIN + "on_violation = 'stop'", "task_class.1.on_violation: 'stop' is not \"service\""),
+        (MAIN + "on_violation = 'exception'", "task_class.1: the policy exception needs plc.exc"),
+        (MAIN + "on_host_violation = 1", "task_class.1.on_host_violation: 1 is not a string"),
+        (MAIN + "cycel = '1ms'", "task_class.1.cycel: unknown key; did you mean cycle?"),
+        (MAIN + "x = 1", "task_class.1.x: unknown key; known are cycle, tolerance, first_release"),
+        ("a = " + "[" * 5000 + "]" * 5000, ""),
+    ],
+)
+def test_what_is_wrong_is_named_with_file_and_field(read, tmp_path, text, error):
+    with pytest.raises(ConfigurationError) as raised:
+        read(text)
+    message = str(raised.value)
+    assert message.startswith(f"{tmp_path / 'cell' / 'plc.toml'}: {error}")
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize("text", ["20m", " 20 M "])
+def test_minutes_for_a_cycle_are_taken_for_misspelt_milliseconds(read, text):
+    with pytest.raises(ConfigurationError, match=r'too long .*; did you mean "20ms"\?$'):
+        read(MAIN + f"cycle = '{text}'")
+
+
+def test_a_cycle_that_is_no_multiple_of_the_tick_is_shown_exactly(read):
+    with pytest.raises(ConfigurationError, match="10000001 ns is not a multiple of the tick"):
+        read(MAIN + "cycle = '10.000001ms'")
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(ConfigurationError, match=re.escape(f"{tmp_path / 'plc.toml'}: there is")):
+        read_project(tmp_path)
+
+
+def test_near_projects_are_named_where_one_is_missing(project, monkeypatch):
+    folder = project({"plc.toml": MAIN, "main/main.py": PROGRAM})
+    for path in (folder / "main", folder / "main" / "main.py", folder / "none" / "at" / "all"):
+        with pytest.raises(ConfigurationError, match=re.escape(f"; did you mean {folder}?")):
+            read_project(path)
+    for path in (folder.parent, folder.parent / "none", folder.parent / "none" / "plc.toml"):
+        with pytest.raises(ConfigurationError) as raised:
+            read_project(path)
+        hint = "" if path.name == "plc.toml" else f"; there are projects in {folder}"
+        assert str(raised.value).endswith(hint or "; a project has one")
+    monkeypatch.chdir(folder / "main")
+    with pytest.raises(ConfigurationError, match=re.escape("plc.toml: there is no such file; did")):
+        read_project(Path())
+
+
+@pytest.mark.parametrize("path", ["a\0b", "x" * 300])
+def test_what_can_be_no_path_is_an_error(path):
+    with pytest.raises(ConfigurationError, match="cannot be read"):
+        read_project(Path(path))
+
+
+def test_a_misspelt_key_is_told_before_what_is_missing(read):
+    with pytest.raises(
+        ConfigurationError, match=r"task_clas: unknown key; did you mean task_class"
+    ):
+        read("[task_clas.1]\nprograms = ['main']")
+    with pytest.raises(ConfigurationError, match=r"1\.program: unknown key; did you mean programs"):
+        read("[task_class.1]\nprogram = ['main']")
+
+
+@pytest.mark.parametrize("make", ["directory", "latin"])
+def test_a_file_that_cannot_be_read_is_named(tmp_path, make):
+    file = tmp_path / "plc.toml"
+    if make == "directory":
+        file.mkdir()
+    else:
+        file.write_bytes(b'[plc]\nname = "\xe4"\n')
+    with pytest.raises(ConfigurationError, match=r"plc\.toml: cannot be read"):
+        read_project(tmp_path)
+
+
+# loading
+
+
+def test_a_loaded_project_runs(read):
+    setup = load_setup(read("[plc]\nmemory = '64KiB'\n" + MAIN))
+    controller = Controller(setup, network=None, clock=VirtualClock())
+    controller.boot()
+    controller.run(cycles=3)
+    assert controller.tags.read(controller.tags.find("main.count")) == 3
+    assert controller.memory.size == 65536
+
+
+def test_a_program_under_two_names_has_two_sets_of_variables(read):
+    text = CLASS + 'programs = ["main", {name = "second", source = "main"}]'
+    controller = Controller(load_setup(read(text)), network=None, clock=VirtualClock())
+    controller.boot()
+    controller.tags.write(controller.tags.find("second.count"), 100)
+    controller.run(cycles=3)
+    values = [controller.tags.read(controller.tags.find(f"{n}.count")) for n in ("main", "second")]
+    assert values == [3, 103]
+
+
+def test_a_program_that_is_not_there_is_named_with_those_that_are(read, tmp_path):
+    with pytest.raises(ConfigurationError) as raised:
+        load_setup(read(CLASS + 'programs = ["mian"]'))
+    folder = tmp_path / "cell" / "mian"
+    assert str(raised.value) == f"{folder}: no such program folder; there are main"
+
+
+@pytest.mark.parametrize("source", ["x" * 300, "a\\u0000b"])
+def test_a_source_that_can_be_no_folder_is_named(read, source):
+    text = CLASS + f'programs = [{{name = "a", source = "{source}"}}]'
+    with pytest.raises(ConfigurationError, match="no such program folder"):
+        load_setup(read(text))
+
+
+def test_an_option_that_a_library_does_not_know_is_named(read, tmp_path):
+    with pytest.raises(ConfigurationError, match=r"plc\.toml: library\.astcp"):
+        load_setup(read(MAIN + "[library.astcp]\nmax_indents = 3"))

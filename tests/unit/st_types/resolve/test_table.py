@@ -1,0 +1,386 @@
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from st_types import DeclarationError
+from st_types.resolve.table import TypeTable, resolve
+from st_types.syntax.declarations import parse_declarations, parse_text
+from st_types.syntax.source import Source
+from st_types.types.derived import (
+    AliasType,
+    DataBlockType,
+    EnumerationType,
+    ReferenceType,
+    StructType,
+    resolve_alias,
+)
+from st_types.types.elementary import DINT, INT
+from st_types.types.values import decode, encode, initial_image
+
+
+def table_of(*texts: str, strict: bool = True) -> TypeTable:
+    files = [parse_text(text, f"{number}.typ") for number, text in enumerate(texts)]
+    table = resolve(files, strict=strict)
+    for file in files:
+        file.diagnostics.raise_errors()
+    return table
+
+
+def findings(*texts: str, strict: bool = False) -> list[str]:
+    files = [parse_text(text, f"{number}.typ") for number, text in enumerate(texts)]
+    resolve(files, strict=strict)
+    return [str(record) for file in files for record in file.diagnostics.records]
+
+
+def layout_of(table: TypeTable, name: str) -> list[tuple[int, str]]:
+    data_type = table.find_type(name)
+    assert isinstance(data_type, StructType)
+    names = [member.name for member in data_type.members]
+    return sorted(zip(data_type.offsets, names, strict=True))
+
+
+LIBRARY = Path(__file__).parents[4] / "plcsim" / "library"
+INTERNALS = ["i_state", "i_result", "i_tmp", "enable"]
+TRANSFER = ["ident", "pData", "datalen"]
+"""Sizes and offsets as measured with gcc -m32 on B&R's AsTCP.h."""
+AS_TCP = {
+    "TcpOpen": (
+        32,
+        [0, 4, 8, 12, 16, 20, 22, 24, 28],
+        ["pIfAddr", "port", "options", "status", "ident", *INTERNALS],
+    ),
+    "TcpOpenSsl": (
+        36,
+        [0, 4, 8, 12, 16, 20, 24, 26, 28, 32],
+        ["pIfAddr", "port", "sslCfgIdent", "options", "status", "ident", *INTERNALS],
+    ),
+    "TcpServer": (
+        36,
+        [0, 4, 8, 12, 16, 20, 22, 24, 28, 32],
+        ["ident", "backlog", "pIpAddr", "status", "identclnt", "portclnt", *INTERNALS],
+    ),
+    "TcpClient": (
+        24,
+        [0, 4, 8, 10, 12, 14, 16, 20],
+        ["ident", "pServer", "portserv", "status", *INTERNALS],
+    ),
+    "TcpClose": (24, [0, 4, 8, 10, 12, 16, 20], ["ident", "how", "status", *INTERNALS]),
+    "TcpSend": (
+        36,
+        [0, 4, 8, 12, 16, 20, 24, 26, 28, 32],
+        [*TRANSFER, "flags", "status", "sentlen", *INTERNALS],
+    ),
+    "TcpRecv": (
+        36,
+        [0, 4, 8, 12, 16, 20, 24, 26, 28, 32],
+        ["ident", "pData", "datamax", "flags", "status", "recvlen", *INTERNALS],
+    ),
+    "TcpIoctl": (
+        36,
+        [0, 4, 8, 12, 16, 20, 24, 26, 28, 32],
+        ["ident", "ioctl", "pData", "datalen", "status", "outlen", *INTERNALS],
+    ),
+    "tcpLINGER_typ": (8, [0, 4], ["lOnOff", "lLinger"]),
+    "tcpSO_ADDRESS_typ": (8, [0, 4], ["pPort", "pIpAddr"]),
+    "TON": (
+        20,
+        [0, 4, 8, 12, 16, 17, 18],
+        ["PT", "ET", "StartTime", "Restart", "IN", "Q", "M"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", AS_TCP)
+def test_library_blocks_lie_as_in_the_vendors_header(name: str) -> None:
+    paths = [p for p in sorted(LIBRARY.rglob("*")) if p.suffix in (".fun", ".typ", ".var")]
+    table = resolve([parse_declarations(Source.read(path)) for path in paths], strict=True)
+    size, offsets, names = AS_TCP[name]
+    data_type = table.find_type(name)
+    assert data_type is not None
+    assert data_type.size == size
+    assert layout_of(table, name) == list(zip(offsets, names, strict=True))
+
+
+def test_forward_references_between_types_and_files() -> None:
+    table = table_of(
+        "TYPE A : STRUCT b : b; n : ARRAY[0..MAX] OF Colour; END_STRUCT; END_TYPE",
+        "TYPE B : STRUCT x : LREAL; y : BOOL; END_STRUCT; Colour : (red, green := MAX); END_TYPE",
+        "VAR CONSTANT Max : UINT := HALF * 2; half : UINT := 2; END_VAR",
+    )
+    assert layout_of(table, "A") == [(0, "b"), (12, "n")]
+    found = table.find_type("a")
+    assert found is not None
+    assert found.size == 32
+    colour = table.find_type("COLOUR")
+    assert isinstance(colour, EnumerationType)
+    assert colour.values == {"red": 0, "green": 4}
+
+
+def test_types_that_refer_to_themselves() -> None:
+    table = table_of(
+        "TYPE Node : STRUCT next : REFERENCE TO Node; all : REFERENCE TO ARRAY[0..3] OF Node; "
+        "END_STRUCT; END_TYPE"
+    )
+    node = table.find_type("Node")
+    assert isinstance(node, StructType)
+    assert node.size == 8
+    reference = node.members[0].data_type
+    assert isinstance(reference, ReferenceType)
+    assert reference.target is node
+    assert reference.name == "REFERENCE TO Node"
+
+
+def test_a_long_chain_of_references_is_no_nesting() -> None:
+    types = "".join(f"T{i} : STRUCT r : REFERENCE TO T{i + 1}; END_STRUCT; " for i in range(3000))
+    assert findings(f"TYPE {types} T3000 : INT; END_TYPE") == []
+
+
+def test_data_blocks() -> None:
+    table = table_of(
+        "FUNCTION_BLOCK F VAR s : INT; END_VAR VAR_OUTPUT q : BOOL; o : UDINT; END_VAR "
+        "VAR_IN_OUT io : BOOL; END_VAR VAR_INPUT e : BOOL; i : LREAL; END_VAR "
+        "VAR CONSTANT N : INT := 3; END_VAR VAR a : ARRAY[1..N] OF INT; END_VAR "
+        "VAR_TEMP t : INT; END_VAR END_FUNCTION_BLOCK"
+    )
+    block = table.find_type("F")
+    assert isinstance(block, DataBlockType)
+    assert layout_of(table, "F") == [
+        *[(0, "i"), (8, "o"), (12, "io"), (16, "s"), (18, "a")],
+        *[(24, "e"), (25, "q")],
+    ]
+
+
+def test_a_block_inside_a_block_with_initial_values() -> None:
+    table = table_of(
+        "FUNCTION_BLOCK Inner VAR_INPUT PT : TIME := T#1s; IN : BOOL; END_VAR END_FUNCTION_BLOCK "
+        "FUNCTION_BLOCK Outer VAR t : Inner := (pt := T#5s, in := TRUE); END_VAR "
+        "END_FUNCTION_BLOCK"
+    )
+    outer = table.find_type("Outer")
+    assert outer is not None
+    assert decode(outer, initial_image(outer)) == {"t": {"PT": 5000, "IN": True}}
+
+
+def test_kinds_of_named_types() -> None:
+    table = table_of(
+        "TYPE Alias : INT := 5; Text : STRING[MAX]; Low : USINT(2..9) := 3; Names : ARRAY[-1..1] "
+        "OF Text := [2('a')]; Mode : (off, on) := on; S : STRUCT x : Low; END_STRUCT := (x := 4); "
+        "Empty : STRUCT END_STRUCT; Plain : STRING; END_TYPE VAR CONSTANT MAX : INT := 3; END_VAR"
+    )
+    alias = table.find_type("Alias")
+    assert isinstance(alias, AliasType)
+    assert (alias.target, alias.initial) == (INT, 5)
+    images = {e.node.name: decode(t, initial_image(t)) for e, t in table.types()}
+    assert images == {
+        "Alias": 5,
+        "Text": "",
+        "Low": 3,
+        "Names": ["a", "a", ""],
+        "Mode": 1,
+        "S": {"x": 4},
+        "Empty": {},
+        "Plain": "",
+    }
+    plain = table.find_type("Plain")
+    assert plain is not None
+    assert plain.size == 81
+
+
+def test_variables() -> None:
+    table = table_of(
+        "VAR RETAIN x : INT := N; END_VAR VAR CONSTANT N : INT := 7; END_VAR "
+        "VAR a, b : ARRAY[0..1] OF BOOL := [1, TRUE]; END_VAR"
+    )
+    assert [(v.name, str(v.data_type), v.initial) for v in table.variables] == [
+        ("x", "INT", 7),
+        ("N", "INT", 7),
+        ("a", "ARRAY[0..1] OF BOOL", [True, True]),
+        ("b", "ARRAY[0..1] OF BOOL", [True, True]),
+    ]
+    assert table.variables[0].block.qualifiers == ("RETAIN",)
+    assert str(table.variables[2].file.location(table.variables[2].node)).endswith(":1:73")
+
+
+def test_functions() -> None:
+    table = table_of(
+        "FUNCTION Scale : REAL VAR_INPUT x : ANY_NUM; a : ARRAY[0..N] OF INT; END_VAR "
+        "VAR_IN_OUT s : INT; END_VAR VAR CONSTANT N : INT := 1; END_VAR END_FUNCTION "
+        "FUNCTION Nothing END_FUNCTION"
+    )
+    scale = table.functions["SCALE"]
+    assert str(scale.result) == "REAL"
+    assert [(v.name, v.data_type and v.data_type.size) for v in scale.variables] == [
+        *[("x", None), ("a", 4), ("s", 2), ("N", 2)],
+    ]
+    assert table.functions["NOTHING"].result is None
+
+
+def test_library_files_only_lend_their_names() -> None:
+    library = parse_text("TYPE T : INT; Bad : ARRAY[1..0] OF INT; END_TYPE", "lib.typ")
+    file = parse_text("TYPE U : T; END_TYPE", "own.typ")
+    table = resolve([file], [library], strict=True)
+    assert [entry.node.name for entry, _ in table.types()] == ["U"]
+    assert resolve_alias(table.find_type("U")) is INT
+    assert file.diagnostics.records == library.diagnostics.records == []
+
+
+def test_an_unknown_name_is_a_warning_and_strictly_an_error() -> None:
+    text = "TYPE A : STRUCT x : Lib; y : Lib; END_STRUCT; B : ARRAY[0..MAX] OF A; END_TYPE"
+    expected = [
+        "0.typ:1:21: {}: no type is called Lib in the checked files",
+        "0.typ:1:60: {}: no constant is called MAX in the checked files",
+    ]
+    assert findings(text) == [line.format("warning") for line in expected]
+    assert findings(text, strict=True) == [line.format("error") for line in expected]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("TYPE A : A; END_TYPE", ["1:10: error: A contains itself: A -> A"]),
+        (
+            "TYPE A : STRUCT b : B; END_STRUCT; B : ARRAY[0..1] OF A; END_TYPE",
+            ["1:55: error: A contains itself: A -> B -> A"],
+        ),
+        ("TYPE A : INT; a : BOOL; END_TYPE", ["1:15: error: a is declared twice; first at 0.typ"]),
+        ("FUNCTION F END_FUNCTION FUNCTION f END_FUNCTION", ["1:34: error: f is declared twice"]),
+        (
+            "TYPE A : STRUCT x : INT; X : INT; END_STRUCT; END_TYPE",
+            ["1:26: error: A declares X tw"],
+        ),
+        ("TYPE A : (x, y, x); END_TYPE", ["1:17: error: A declares x twice"]),
+        ("VAR x : INT; END_VAR VAR X : INT; END_VAR", ["1:26: error: the file declares X twice"]),
+        (
+            "FUNCTION_BLOCK F VAR_INPUT x : INT; END_VAR VAR X : INT; END_VAR END_FUNCTION_BLOCK",
+            ["1:49: error: F declares X twice"],
+        ),
+        ("FUNCTION F VAR x, x : INT; END_VAR END_FUNCTION", ["1:19: error: F declares x twice"]),
+        (
+            "TYPE A : ARRAY[5..1] OF INT; END_TYPE",
+            ["1:19: error: the upper bound 1 is below the lo"],
+        ),
+        (
+            "TYPE A : ARRAY[0..1.5] OF INT; END_TYPE",
+            ["1:19: error: expected a whole number, found"],
+        ),
+        (
+            "TYPE A : ARRAY[0..2147483647] OF LREAL; END_TYPE",
+            ["1:10: error: ARRAY[0..2147483647] OF"],
+        ),
+        ("TYPE A : STRING[0]; END_TYPE", ["1:17: error: STRING[0]: the length must be above 0"]),
+        ("TYPE A : WSTRING[-1]; END_TYPE", ["1:18: error: WSTRING[-1]: the length must be"]),
+        ("TYPE A : INT(3..1); END_TYPE", ["1:17: error: the upper bound 1 is below"]),
+        ("TYPE A : INT(0..40000); END_TYPE", ["1:10: error: A: 0..40000 is not a range of INT"]),
+        ("TYPE B : (x, y); A : B(0..1); END_TYPE", ["1:22: error: B cannot have a subrange"]),
+        ("TYPE A : ARRAY[0..1/0] OF INT; END_TYPE", ["1:20: error: division by zero"]),
+        ("TYPE A : (); END_TYPE", ["1:10: warning: the enumeration has no values"]),
+        ("VAR CONSTANT A : INT := B; B : INT := A; END_VAR", ["1:39: error: A depends on itself"]),
+        ("VAR CONSTANT A : INT := SIZEOF(x); END_VAR", ["1:31: warning: the value is not known"]),
+    ],
+)
+def test_findings(text: str, expected: list[str]) -> None:
+    file = parse_declarations(Source("0.typ", text))
+    resolve([file])
+    found = [str(record) for record in file.diagnostics.records]
+    assert len(found) == len(expected), found
+    for message, start in zip(found, expected, strict=True):
+        assert message.startswith(f"0.typ:{start}")
+
+
+def test_values_of_an_enumeration_go_on_from_the_last_one_and_wrap() -> None:
+    table = table_of(
+        "TYPE E : (a := 16#7FFFFFFF, b, c := a - 1, d := E2.x, e); E2 : (x := -5); END_TYPE"
+    )
+    found = table.find_type("E")
+    assert isinstance(found, EnumerationType)
+    assert found.values == {"a": 2**31 - 1, "b": -(2**31), "c": 2**31 - 2, "d": -5, "e": -4}
+
+
+def test_an_enumeration_without_values_is_a_dint() -> None:
+    file = parse_text("TYPE A : (); B : STRUCT a : A; END_STRUCT; END_TYPE")
+    assert resolve_alias(resolve([file]).find_type("A")) is DINT
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_too_many_types_one_inside_the_other(order: int) -> None:
+    types = [f"T{i} : STRUCT x : T{i + 1}; END_STRUCT;" for i in range(60)][::order]
+    found = findings(f"TYPE T60 : INT; {' '.join(types)} END_TYPE")
+    assert found
+    assert all("more than 50" in message for message in found)
+
+
+def test_arrays_of_arrays_are_counted_as_nesting() -> None:
+    array = "ARRAY[0..0] OF " * 30
+    found = findings(
+        f"TYPE A : {array} INT; B : {array} A; C : STRUCT x : {array} INT; y : {array} "
+        "INT; END_STRUCT; END_TYPE"
+    )
+    assert found == ["0.typ:1:466: error: B: more than 50 types lie one inside the other"]
+
+
+def test_a_long_chain_of_constants_in_order_is_fine() -> None:
+    constants = "".join(f"C{i} : DINT := C{i - 1} + 1; " for i in range(1, 500))
+    table = table_of(f"VAR CONSTANT C0 : DINT := 0; {constants} END_VAR")
+    assert table.variables[-1].initial == 499
+
+
+WORDS = [
+    "A",
+    "B",
+    "C",
+    "MAX",
+    "INT",
+    "REAL",
+    "STRING[3]",
+    "5",
+    "-1",
+    "'abcd'",
+    "(x := 1)",
+    "[1, 2]",
+]
+SPECIFICATIONS = ["A", "B", "INT", "BOOL", "STRING[MAX]", "ARRAY[0..MAX] OF B", "REFERENCE TO A"]
+SPECIFICATIONS += [
+    "STRUCT x : B; END_STRUCT",
+    "(red, green := MAX)",
+    "USINT(1..MAX)",
+    "ARRAY[1..0] OF C",
+]
+INITIALS = [
+    "",
+    ":= 1",
+    ":= -1",
+    ":= 'abcd'",
+    ":= [2(1)]",
+    ":= (x := 1)",
+    ":= MAX",
+    ":= red",
+    ":= (0)",
+]
+INITIALS += [":= T#1s", ":= 1.5", ":= [2000000000(1)]", ":= [1, [2, 3]]", ":= TRUE", ":= B"]
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.sampled_from("ABC"), st.sampled_from(SPECIFICATIONS), st.sampled_from(INITIALS)
+        ),
+        max_size=5,
+    ),
+    st.sampled_from(["3", "A", "MAX", "-1", "2 ** 40"]),
+)
+def test_any_declarations_resolve_or_are_reported(
+    types: list[tuple[str, str, str]], maximum: str
+) -> None:
+    declarations = " ".join(f"{name} : {spec} {initial};" for name, spec, initial in types)
+    text = f"TYPE {declarations} END_TYPE VAR CONSTANT MAX : INT := {maximum}; END_VAR"
+    file = parse_declarations(Source("a.typ", text))
+    table = resolve([file])
+    for _, data_type in table.types():
+        if data_type.size < 10_000:
+            image = initial_image(data_type)
+            assert encode(data_type, decode(data_type, image)) == image
+    with suppress(DeclarationError):
+        file.diagnostics.raise_errors()
