@@ -1,7 +1,7 @@
 """Writes the state diagrams of the documentation from the transition tables of the code.
 
-``python tools/state_diagrams.py`` writes them anew; a test says when that was forgotten. A page asks
-for a diagram by two comments, and what stands between them is written here::
+``python tools/state_diagrams.py`` writes them anew; a test says when that was forgotten. A page
+asks for a diagram by two comments, and what stands between them is written here::
 
     <!-- states of plcsim.core.system:TRANSITIONS -->
     <!-- end of states -->
@@ -15,13 +15,13 @@ from __future__ import annotations
 
 import re
 import sys
-from enum import Enum
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from enum import Enum
 
     Table = Mapping[Enum, Mapping[Enum, Enum]]
 
