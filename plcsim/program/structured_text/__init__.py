@@ -1,0 +1,1 @@
+"""Structured Text: parser, checker and compiler to WebAssembly."""
