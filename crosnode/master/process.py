@@ -73,7 +73,6 @@ class MasterProcess:
             step=UNPACED,
         )
         self.server = MasterServer(self._context, options)
-        self._stop = _Stop()
         self._step()
 
     @property
@@ -97,18 +96,19 @@ class MasterProcess:
         self._context.release_ns = time.monotonic_ns()
         self.server.step()
 
-    def run(self, until_ns: int | None = None, look: Callable[[], None] = lambda: None) -> None:
-        """Serve until SIGINT or SIGTERM, a shutdown by the API, or a time.
+    def run(self, goes_on: Callable[[], bool], until_ns: int | None = None) -> None:
+        """Serve until asked to stop, a shutdown by the API, or a time.
 
         Args:
+            goes_on: asked after each step.
             until_ns: of the monotonic clock, None for ever.
-            look: called after each step.
         """
-        while not self._stop.is_asked and not self.server.master.is_shut_down:
+        while not self.server.master.is_shut_down:
             self._step()
             if until_ns is not None and self._context.release_ns >= until_ns:
                 break
-            look()
+            if not goes_on():
+                break
             time.sleep(REST_S)
         self.server.close()
 
@@ -134,12 +134,14 @@ def run(arguments: argparse.Namespace) -> int:
     start_ns = time.monotonic_ns()
     text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
     host = _host(arguments.host)
+    stop = _Stop()
     process = MasterProcess(host, arguments.port, arguments.bind, parse_hosts(text))
     if process.refusal:
         raise ConfigurationError(f"--{process.refusal.field}: {process.refusal.text}")
     sys.stdout.write(f"ROS_MASTER_URI={process.server.uri}\n")
     sys.stdout.flush()
-    process.run(None if arguments.for_s is None else start_ns + int(arguments.for_s * 1e9))
+    until_ns = None if arguments.for_s is None else start_ns + int(arguments.for_s * 1e9)
+    process.run(lambda: not stop.is_asked, until_ns)
     return 0
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from plcsim.project.plc_toml import Project
 
+SERVICE_NEVER_SERVED = 1
 ENDED_IN_SERVICE = 3
 
 
@@ -34,7 +35,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="run a project",
         description="Run a project until Ctrl-C, a limit, or a fault. Ctrl-C runs the EXITs; a "
         "second one ends a program that hangs.",
-        epilog="Exit codes: 0 ran and stopped, 1 configuration error, 3 ended in SERVICE.",
+        epilog="Exit codes: 0 ran and stopped, 1 configuration error or a service (Modbus, the "
+        "embedded master) that could not serve at any time, 3 ended in SERVICE.",
     )
     parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
     parser.add_argument(
@@ -97,6 +99,7 @@ def run(options: argparse.Namespace) -> int:
     with supervisor, _signals_forwarded(supervisor):
         result = _wait(supervisor, project, options)
         code = _finish(result, options)  # a late Ctrl-C shall not cost the report
+        code = code or _judge_services(supervisor.services.never_served)
         if options.stay and code == ENDED_IN_SERVICE:
             _stay(supervisor, options)
         return code
@@ -145,6 +148,13 @@ def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
         if not options.quiet or in_service:
             _show(result)
     return ENDED_IN_SERVICE if in_service else 0
+
+
+def _judge_services(never_served: list[str]) -> int:
+    """Say which services were not there at any time of the run; return the exit code for it."""
+    for table in never_served:
+        print(f"plcsim: [{table}] never served; the reason stands above", file=sys.stderr)
+    return SERVICE_NEVER_SERVED if never_served else 0
 
 
 def _show(result: dict[str, Any]) -> None:

@@ -34,7 +34,7 @@ class ModbusExtension:
 
     def service(self, _settings: ModbusProject) -> str:
         """Return the module that serves the map."""
-        return "plcsim.modbus.service"
+        return "plcsim.modbus.service.process"
 
     def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
         """Return the map for the service; addresses given for the first time are locked."""

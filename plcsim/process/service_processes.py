@@ -7,12 +7,18 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
-from plcsim.project.extension import ServiceOrder, services_of
+from plcsim.process.service_main import ServiceOrder
+from plcsim.project.extension import services_of
 from plcsim.shared_image.layout import HEADER_SIZE, make_file
+from plcsim.shared_image.status_page import ServiceState
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
+
+    from plcsim.shared_image.status_page import StatusPage
+
+MAIN = "plcsim.process.service_main"
 
 FIRST_PAUSE_NS = 100_000_000
 """Between the end of a service and its next start."""
@@ -27,9 +33,10 @@ STOP_S = 2.0
 class _Service:
     """One service process and when to start it again."""
 
-    def __init__(self, module: str, order: ServiceOrder) -> None:
+    def __init__(self, module: str, order: ServiceOrder, page: StatusPage) -> None:
         self.order = order
         self._module = module
+        self._page = page
         self.starts = 0
         self._process: subprocess.Popen[bytes] | None = None
         self._next_ns = 0
@@ -42,6 +49,7 @@ class _Service:
                 return
             gave_up = self._process.returncode == 1
             self._process = None
+            self._page.note_service(self.order.number, ServiceState.FAILING)
             self._pause_ns = (
                 min(2 * self._pause_ns, LONGEST_PAUSE_NS) if gave_up else FIRST_PAUSE_NS
             )
@@ -52,12 +60,19 @@ class _Service:
     def _start(self) -> None:
         order = self.order
         self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
-            [sys.executable, "-P", "-m", self._module, order.to_json()],
+            [sys.executable, "-P", "-m", MAIN, self._module, order.to_json()],
             pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
             process_group=0,
             stdin=subprocess.DEVNULL,
         )
         self.starts += 1
+
+    @property
+    def never_served(self) -> bool:
+        """It had its chance: it ended by itself or said why it could not."""
+        number = self.order.number
+        failing = self._page.service_state(number) is ServiceState.FAILING
+        return failing and not self._page.has_served(number)
 
     def stop(self) -> None:
         """Ask the process to end; kill it where it does not."""
@@ -76,7 +91,7 @@ class ServiceProcesses:
 
     Args:
         settings: of the extensions of the project, by table.
-        status_fd: the status page.
+        page: the status page.
         quiet: the services print nothing but errors.
 
     Attributes:
@@ -84,13 +99,21 @@ class ServiceProcesses:
         wake_fds: an eventfd for each service, in the order of the tables.
     """
 
-    def __init__(self, settings: Mapping[str, Any], status_fd: int, *, quiet: bool = False) -> None:
+    def __init__(
+        self, settings: Mapping[str, Any], page: StatusPage, *, quiet: bool = False
+    ) -> None:
         self.image_fd = make_file()
         modules = services_of(settings)
         self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in modules]
         self._services = [
-            _Service(module, ServiceOrder(name, self.image_fd, status_fd, wake_fd, quiet))
-            for (name, module), wake_fd in zip(modules.items(), self.wake_fds, strict=True)
+            _Service(
+                module,
+                ServiceOrder(name, number, os.getpid(), self.image_fd, page.fd, wake_fd, quiet),
+                page,
+            )
+            for number, ((name, module), wake_fd) in enumerate(
+                zip(modules.items(), self.wake_fds, strict=True)
+            )
         ]
 
     def tend(self, now_ns: int) -> None:
@@ -103,6 +126,11 @@ class ServiceProcesses:
     def starts(self) -> dict[str, int]:
         """How often each service was started, by table."""
         return {service.order.table: service.starts for service in self._services}
+
+    @property
+    def never_served(self) -> list[str]:
+        """Tables of the services that could not serve at any time of the run."""
+        return [service.order.table for service in self._services if service.never_served]
 
     def close(self) -> None:
         """End all services and give the descriptors back."""

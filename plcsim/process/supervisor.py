@@ -79,7 +79,7 @@ class Supervisor:
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
         self.services = ServiceProcesses(
-            {} if virtual else project.extensions, self.page.fd, quiet=quiet
+            {} if virtual else project.extensions, self.page, quiet=quiet
         )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)

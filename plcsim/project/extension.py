@@ -8,9 +8,7 @@ starts beside the scan and starts again when it ends.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
@@ -49,9 +47,9 @@ class Extension(Protocol):
         """
 
     def service(self, settings: Any) -> str:
-        """Return the module that runs as ``python -m MODULE ORDER`` beside the scan, "" for none.
+        """Return the module that serves in a process beside the scan, "" for none.
 
-        ORDER is a `ServiceOrder` as JSON.
+        `plcsim.process.service_main` calls its function ``serve``.
         """
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
@@ -159,26 +157,3 @@ def services_of(settings: Mapping[str, Any]) -> dict[str, str]:
     """Return the modules of the services of a project, by table."""
     modules = {name: extensions()[name].service(value) for name, value in settings.items()}
     return {name: module for name, module in modules.items() if module}
-
-
-@dataclass(frozen=True)
-class ServiceOrder:
-    """What the supervisor tells a service process.
-
-    Attributes:
-        table: of plc.toml; names the service's ring and its part of the directory.
-        image_fd: the shared image.
-        status_fd: the status page.
-        wake_fd: an eventfd, raised when the scan acknowledged commands of this service.
-        quiet: print nothing but errors.
-    """
-
-    table: str
-    image_fd: int
-    status_fd: int
-    wake_fd: int
-    quiet: bool = False
-
-    def to_json(self) -> str:
-        """Return the order as the argument of the process."""
-        return json.dumps(asdict(self))

@@ -1,6 +1,7 @@
 """The status page: one page of shared memory through which the scan is watched from outside.
 
-The scan process writes, its parent reads; neither ever waits. All fields are 64-bit numbers, each
+The scan process writes, and each service whether it serves; their parent reads. Nobody ever waits.
+All fields are 64-bit numbers, each
 written in one store, so a reader sees every field whole (not all fields of one moment).
 """
 
@@ -8,6 +9,7 @@ from __future__ import annotations
 
 import mmap
 import os
+from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.system import State
@@ -21,6 +23,16 @@ SIZE = 4096
 _MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME = range(5)
 _CLASSES = 16
 _FIELDS_PER_CLASS = 16
+_SERVICES = 160
+_CELLS_PER_SERVICE = 2
+
+
+class ServiceState(Enum):
+    """How a service does."""
+
+    STARTING = 0
+    SERVING = 1
+    FAILING = 2
 
 
 class ClassStatus(NamedTuple):
@@ -105,7 +117,24 @@ class StatusPage:
         """Note the time since the start on the controller's clock."""
         self._cells[_TIME] = elapsed_ns
 
+    # a service's side
+
+    def note_service(self, number: int, state: ServiceState) -> None:
+        """Note how a service does."""
+        at = _SERVICES + number * _CELLS_PER_SERVICE
+        self._cells[at] = state.value
+        if state is ServiceState.SERVING:
+            self._cells[at + 1] = True
+
     # the reader's side
+
+    def service_state(self, number: int) -> ServiceState:
+        """Return how service ``number`` does, in the order of the project's services."""
+        return ServiceState(self._cells[_SERVICES + number * _CELLS_PER_SERVICE])
+
+    def has_served(self, number: int) -> bool:
+        """Return True once service ``number`` was there for its clients."""
+        return bool(self._cells[_SERVICES + number * _CELLS_PER_SERVICE + 1])
 
     @property
     def heartbeat(self) -> int:

@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from plcsim.modbus.service.errors import ModbusException
-    from plcsim.modbus.testing.modbus import Modbus
     from plcsim.testing.errors import (
         ControllerFault,
         ExpectationFailed,
@@ -29,8 +27,6 @@ __all__ = [
     "ControllerFault",
     "ExpectationFailed",
     "Interleaving",
-    "Modbus",
-    "ModbusException",
     "PlantError",
     "Plc",
     "PlcMachine",
@@ -49,8 +45,6 @@ __getattr__ = lazy_names(
         "ControllerFault": "plcsim.testing.errors",
         "ExpectationFailed": "plcsim.testing.errors",
         "Interleaving": "plcsim.testing.interleavings",
-        "Modbus": "plcsim.modbus.testing.modbus",
-        "ModbusException": "plcsim.modbus.service.errors",
         "PlantError": "plcsim.testing.errors",
         "Plc": "plcsim.testing.plc",
         "PlcMachine": "plcsim.testing.machine",

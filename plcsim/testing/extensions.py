@@ -24,7 +24,7 @@ class Extensions:
     """What plc.toml says beyond the controller itself, hooked into the controller under test.
 
     No service process is started; what it would read and write, the shared image, is there, and a
-    client such as `plcsim.modbus.testing.modbus.Modbus` takes the place of the service.
+    client of the test, such as the fixture ``modbus``, takes the place of the service.
 
     Args:
         settings: by table.

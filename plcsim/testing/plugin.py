@@ -14,7 +14,6 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
 
-    from plcsim.modbus.testing.modbus import Modbus
     from plcsim.testing.plc import Plc
 
 __tracebackhide__ = True
@@ -114,14 +113,6 @@ def plc(request: pytest.FixtureRequest, _plc_seed_step: int) -> Iterator[Plc]:
     The project is the one that the test's folder belongs to, or what @pytest.mark.plc names.
     """
     yield from _session().open_for(request, _plc_seed_step)
-
-
-@pytest.fixture
-def modbus(plc: Plc) -> Modbus:
-    """Give a Modbus master that is connected to the controller; the project has [modbus]."""
-    with _session().plain_errors():
-        master: Modbus = import_module("plcsim.modbus.testing.modbus").Modbus(plc)
-    return master
 
 
 @pytest.hookimpl(tryfirst=True)

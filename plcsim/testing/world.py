@@ -7,12 +7,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.modbus.testing.peer import Peer
 from plcsim.network import Address, VirtualNetwork
 from plcsim.program.python.place import describe, place_of
 from plcsim.testing.errors import PlantError, PlcTestError
 from plcsim.testing.faults import Faults
 from plcsim.testing.forces import Forces
+from plcsim.testing.peer import Peer
 from plcsim.testing.plant import Plant
 from plcsim.testing.schedule import Schedule
 from plcsim.testing.stimulus import listed_stimuli, read_stimuli

@@ -34,7 +34,6 @@ _READ_AREAS: Final = {
     3: Area.HOLDING_REGISTERS,
     4: Area.INPUT_REGISTERS,
 }
-READ_FUNCTIONS: Final = frozenset(_READ_AREAS)
 WRITE_FUNCTIONS: Final = frozenset((5, 6, 15, 16, 22, 23))
 _MEI_IDENTIFICATION: Final = 0x0E
 

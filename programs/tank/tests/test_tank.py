@@ -2,7 +2,8 @@
 
 import pytest
 
-from plcsim.testing import Modbus, ModbusException, Plc
+from plcsim.modbus.testing import Modbus, ModbusException
+from plcsim.testing import Plc
 
 
 def fill_by_hand(plc: Plc) -> None:

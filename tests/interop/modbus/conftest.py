@@ -63,7 +63,7 @@ class Running:
         (found,) = [
             child
             for child in children
-            if "services.modbus" in Path(f"/proc/{child}/cmdline").read_text()
+            if "plcsim.modbus.service" in Path(f"/proc/{child}/cmdline").read_text()
         ]
         return int(found)
 

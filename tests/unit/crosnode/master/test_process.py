@@ -94,5 +94,5 @@ def test_a_shutdown_by_the_api_ends_it() -> None:
         port = probe.getsockname()[1]
     process = MasterProcess("localhost", port, "127.0.0.1", {})
     process.server.master.is_shut_down = True
-    process.run()
+    process.run(lambda: True)
     assert not process.server.is_open

@@ -10,6 +10,7 @@ import pytest
 
 from plcsim.cli import run
 from plcsim.cli.main import main
+from plcsim.process.service_processes import ServiceProcesses
 
 GOOD = """
     from plcsim import Program
@@ -182,3 +183,12 @@ def test_the_end_of_the_terminal_stops_the_run_unless_under_nohup(project_of, tm
         assert running.wait(20) == 0
     assert (folder / "main" / "exited").exists()
     assert json.loads(report.read_text())["state"] == "STOPPED"
+
+
+def test_a_service_that_never_served_is_exit_code_1(project_of, monkeypatch, capsys):
+    folder = str(project_of(GOOD))
+    monkeypatch.setattr(ServiceProcesses, "never_served", property(lambda _: ["modbus"]))
+    assert main(["run", folder, *VIRTUAL, "--quiet"]) == 1
+    assert capsys.readouterr().err == ("plcsim: [modbus] never served; the reason stands above\n")
+    project_of(FAILS)
+    assert main(["run", folder, *VIRTUAL, "--quiet"]) == 3

@@ -1,17 +1,21 @@
 """A controller in virtual time with a Modbus map, and frames to talk to it."""
 
+import os
 import struct
 from pathlib import Path
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
 from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.system import State
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
 from plcsim.modbus.service.connection import Connection, Limits
-from plcsim.modbus.service.handler import Rights
-from plcsim.modbus.service.in_process import VirtualServer
+from plcsim.modbus.service.device import Device
+from plcsim.modbus.service.handler import Handler, Rights
 from plcsim.network import VirtualNetwork
+from plcsim.shared_image import ImageReader, ImageWriter
+from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, INT, REAL, UDINT, UINT, var
 from st_types.types.derived import SubrangeType
 
@@ -59,17 +63,32 @@ class World:
         self.plc = Controller(setup, network=network, clock=self.clock)
         more = "".join(f"p.words[{i}],hr,{i + 100},,,,,\n" for i in range(4, 150))
         points = resolve(read_rows(MAP + more, FILE), self.plc.tags.find, FILE, "ABCD")
-        self.server = VirtualServer(self.plc, points, limits, strict_holes=strict_holes)
+        self._limits = limits or Limits()
+        fd = make_file()
+        ImageWriter(fd, self.plc, project="virtual", services={"modbus": None})
+        self.device = Device(ImageReader(fd, "modbus"), points, strict_holes)
+        os.close(fd)
         self.plc.boot()
         self.plc.run(cycles=1)
 
     def connect(self, rights: Rights | None = None) -> Connection:
-        return self.server.connect(rights)
+        handler = Handler(self.device, rights or Rights())
+        return Connection(handler, self.device, self._limits, self.clock.now_ns())
+
+    def exchange(self, connection: Connection, data: bytes) -> bytes:
+        """Hand requests over and return the answers; the scan runs while writes wait for it."""
+        connection.receive(data)
+        answers = [connection.step(self.clock.now_ns())]
+        while connection.is_waiting or connection.has_more:
+            if connection.is_waiting and self.plc.run(cycles=1) is not State.RUN:
+                self.device.is_alive = False
+            answers.append(connection.step(self.clock.now_ns()))
+        return b"".join(answers)
 
     def ask(self, pdu: str | bytes, connection: Connection | None = None, unit: int = 1) -> str:
         """Return the PDU of the answer as hexadecimal."""
         data = bytes.fromhex(pdu) if isinstance(pdu, str) else pdu
-        answer = self.server.exchange(connection or self.connect(), frame(data, 7, unit))
+        answer = self.exchange(connection or self.connect(), frame(data, 7, unit))
         ((transaction, answered, body),) = frames(answer)
         assert (transaction, answered) == (7, unit)
         return body.hex()

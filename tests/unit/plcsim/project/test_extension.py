@@ -1,7 +1,4 @@
-import os
-import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,13 +6,11 @@ import pytest
 
 from plcsim.core.controller import Controller
 from plcsim.core.errors import ConfigurationError
-from plcsim.process.service_processes import ServiceProcesses
 from plcsim.project import extension
 from plcsim.project import plc_toml as project
 from plcsim.project.extension import Attachment, check_settings, services_of
 from plcsim.project.plc_toml import read_project
 from plcsim.project.table import Table
-from plcsim.shared_image.layout import HEADER_SIZE
 
 TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
 
@@ -80,63 +75,6 @@ def test_the_settings_say_whether_an_extension_has_a_service() -> None:
 
 def test_in_process_an_extension_may_have_other_settings() -> None:
     assert extension.in_process({"quiet": 1, "web": 2}, "ip") == {"quiet": 3, "web": 2}
-
-
-@pytest.fixture
-def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ServiceProcesses]:
-    (tmp_path / "service_for_tests.py").write_text("import time\ntime.sleep(60)\n")
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
-    monkeypatch.setattr(sys, "executable", sys.executable)
-    status = os.memfd_create("status")
-    made = ServiceProcesses({"web": 1}, status)
-    yield made
-    made.close()
-    os.close(status)
-
-
-def wait_for_end(processes: ServiceProcesses, *, kill: bool = True) -> None:
-    process = processes._services[0]._process
-    assert process is not None
-    if kill:
-        process.kill()
-    deadline = time.monotonic() + 10
-    while process.poll() is None:
-        assert time.monotonic() < deadline
-        time.sleep(0.001)
-
-
-def test_a_service_starts_when_the_image_is_there_and_again_within_a_second(
-    processes: ServiceProcesses,
-) -> None:
-    processes.tend(0)
-    assert processes.starts == {"web": 0}
-    os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
-    processes.tend(1)
-    processes.tend(2)
-    assert processes.starts == {"web": 1}
-    wait_for_end(processes)
-    ended_ns = 5_000_000_000
-    processes.tend(ended_ns)
-    assert processes.starts == {"web": 1}
-    processes.tend(ended_ns + 100_000_000)
-    assert processes.starts == {"web": 2}
-
-
-def test_a_service_that_gives_up_is_started_less_and_less_often(
-    processes: ServiceProcesses, tmp_path: Path
-) -> None:
-    (tmp_path / "service_for_tests.py").write_text("raise SystemExit(1)\n")
-    os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
-    now_ns, pauses = 0, []
-    for _ in range(4):
-        processes.tend(now_ns)
-        wait_for_end(processes, kill=False)
-        before, starts = now_ns, processes.starts["web"]
-        while processes.starts["web"] == starts:
-            now_ns += 10_000_000
-            processes.tend(now_ns)
-        pauses.append((now_ns - before) // 1_000_000)
-    assert pauses == [210, 410, 810, 1610]
 
 
 class Careful(Web):

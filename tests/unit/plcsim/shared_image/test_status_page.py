@@ -9,7 +9,7 @@ import pytest
 
 from plcsim.core.system import State
 from plcsim.core.task import Cause, TaskClass
-from plcsim.shared_image.status_page import SIZE, ClassStatus, StatusPage
+from plcsim.shared_image.status_page import SIZE, ClassStatus, ServiceState, StatusPage
 
 MS = 1_000_000
 
@@ -135,3 +135,15 @@ def test_closing_gives_the_descriptor_back():
     page.close()
     with pytest.raises(OSError, match="Bad file descriptor"):
         os.fstat(page.fd)
+
+
+def test_how_the_services_do(pages):
+    writer, reader = pages
+    assert reader.service_state(7) is ServiceState.STARTING
+    writer.note_service(7, ServiceState.FAILING)
+    assert reader.service_state(7) is ServiceState.FAILING
+    assert not reader.has_served(7)
+    writer.note_service(7, ServiceState.SERVING)
+    writer.note_service(7, ServiceState.FAILING)
+    assert reader.has_served(7)
+    assert not reader.has_served(6)

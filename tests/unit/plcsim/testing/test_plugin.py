@@ -242,8 +242,12 @@ def test_a_test_imports_no_extension_that_its_project_does_not_use(pytester):
         import sys
 
         def test_it(plc):
-            found = [m for m in sys.modules if m.startswith(("crosnode", "pymodbus"))]
-            assert set(found) <= {"crosnode", "crosnode.testing", "crosnode.testing.plugin"}
+            houses = ("crosnode", "plcsim.modbus", "pymodbus")
+            found = [m for m in sys.modules if m.startswith(houses)]
+            assert set(found) <= {
+                "crosnode", "crosnode.testing", "crosnode.testing.plugin",
+                "plcsim.modbus", "plcsim.modbus.testing", "plcsim.modbus.testing.plugin",
+            }
         """
     )
     result = pytester.runpytest_subprocess(*QUICK, *pytester.path.glob("test_*.py"))
@@ -263,27 +267,6 @@ def test_extensions_that_step_with_the_scan_do_so_in_tests(pytester):
     )
     result = pytester.runpytest_subprocess(*QUICK, *pytester.path.glob("test_*.py"))
     result.assert_outcomes(passed=1)
-
-
-def test_the_fixture_modbus_is_an_hmi_of_the_project(pytester):
-    shutil.copytree(PROGRAMS / "tank", pytester.path, dirs_exist_ok=True)
-    pytester.makepyfile(
-        """
-        def test_it(plc, modbus):
-            modbus.write("control.setpoint", 2.5)
-            assert plc["control.setpoint"] == 2.5
-        """
-    )
-    result = pytester.runpytest_inprocess(*QUICK, *pytester.path.glob("test_*.py"))
-    result.assert_outcomes(passed=1)
-
-
-def test_without_the_table_the_fixture_modbus_says_so_and_nothing_else(pytester):
-    shutil.copytree(PROGRAMS / "blinky", pytester.path, dirs_exist_ok=True)
-    pytester.makepyfile("def test_it(plc, modbus): pass\n")
-    result = pytester.runpytest_inprocess(*QUICK, *pytester.path.glob("test_*.py"))
-    result.assert_outcomes(errors=1)
-    result.stdout.fnmatch_lines(["the project has no table *modbus* in its plc.toml"])
 
 
 def test_a_run_without_plc_tests_imports_nothing_of_plcsim():

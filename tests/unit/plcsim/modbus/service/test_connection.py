@@ -40,7 +40,7 @@ def test_requests_are_answered_in_order_however_their_bytes_arrive(
     cuts = sorted(data.draw(st.lists(st.integers(0, len(stream)), max_size=8)))
     peer, answers = WORLD.connect(), b""
     for start, end in zip([0, *cuts], [*cuts, len(stream)], strict=True):
-        answers += WORLD.server.exchange(peer, stream[start:end])
+        answers += WORLD.exchange(peer, stream[start:end])
     found = frames(answers)
     assert [transaction for transaction, _, _ in found] == list(range(len(pdus)))
     assert [pdu[0] & 0x7F for _, _, pdu in found] == [pdu[0] for pdu in pdus]
@@ -52,7 +52,7 @@ def test_requests_are_answered_in_order_however_their_bytes_arrive(
 def test_any_bytes_are_answered_or_close_the_connection(pieces: list[bytes]) -> None:
     peer, answers = WORLD.connect(), b""
     for piece in pieces:
-        answers += WORLD.server.exchange(peer, piece)
+        answers += WORLD.exchange(peer, piece)
     frames(answers)
     if not peer.fault:
         assert len(peer._buffer) < 260
@@ -62,7 +62,7 @@ def test_any_bytes_are_answered_or_close_the_connection(pieces: list[bytes]) -> 
 def test_any_pdu_is_answered_under_its_transaction_unit_and_function(
     transaction: int, unit: int, pdu: bytes
 ) -> None:
-    answer = WORLD.server.exchange(WORLD.connect(), frame(pdu, transaction, unit))
+    answer = WORLD.exchange(WORLD.connect(), frame(pdu, transaction, unit))
     ((answered, answered_unit, body),) = frames(answer)
     assert (answered, answered_unit) == (transaction, unit)
     assert body[0] in (pdu[0], pdu[0] | 0x80)
@@ -87,20 +87,20 @@ def test_what_is_not_modbus_closes_the_connection_and_is_not_answered(
     data: str, fault: str
 ) -> None:
     peer = WORLD.connect()
-    assert WORLD.server.exchange(peer, bytes.fromhex(data)) == b""
+    assert WORLD.exchange(peer, bytes.fromhex(data)) == b""
     assert fault in peer.fault
-    assert WORLD.server.exchange(peer, frame(READ)) == b""
+    assert WORLD.exchange(peer, frame(READ)) == b""
 
 
 def test_requests_before_a_fault_are_answered() -> None:
     peer = WORLD.connect()
-    answers = WORLD.server.exchange(peer, frame(READ, 5) + bytes(7))
+    answers = WORLD.exchange(peer, frame(READ, 5) + bytes(7))
     assert [f[0] for f in frames(answers)] == [5]
     assert peer.fault
 
 
 def test_thirty_requests_in_one_segment_are_all_answered() -> None:
-    answers = WORLD.server.exchange(WORLD.connect(), b"".join(frame(READ, i) for i in range(30)))
+    answers = WORLD.exchange(WORLD.connect(), b"".join(frame(READ, i) for i in range(30)))
     assert [f[0] for f in frames(answers)] == list(range(30))
 
 
@@ -148,7 +148,7 @@ def test_only_so_many_writes_are_in_flight() -> None:
 
 def test_a_refused_write_is_answered_behind_those_before_it() -> None:
     world = World()
-    answers = world.server.exchange(
+    answers = world.exchange(
         world.connect(), frame(write(1), 1) + frame(write(101, 4), 2) + frame(write(3), 3)
     )
     assert [(f[0], f[2].hex()) for f in frames(answers)] == [
@@ -172,7 +172,7 @@ def test_a_write_is_answered_failed_when_the_scan_dies() -> None:
     peer = world.connect()
     peer.receive(frame(write(1)))
     peer.step(0)
-    world.server.device.is_alive = False
+    world.device.is_alive = False
     assert frames(peer.step(1))[0][2].hex() == "8604"
 
 
@@ -203,9 +203,9 @@ def test_every_write_is_audited_with_its_result() -> None:
     world = World()
     records: list[WriteRecord] = []
     plain = world.connect()
-    peer = Connection(plain._handler, world.server.device, Limits(), 0, records.append)
+    peer = Connection(plain._handler, world.device, Limits(), 0, records.append)
     pdus = [write(1), READ, write(101, 4), bytes.fromhex("17 0000 0001 0000 0001 02 0009")]
-    world.server.exchange(peer, b"".join(frame(pdu) for pdu in pdus))
+    world.exchange(peer, b"".join(frame(pdu) for pdu in pdus))
     assert sorted((r.pdu.hex(), r.result) for r in records) == [
         ("0600000001", 0),
         ("0600040065", 3),
@@ -225,12 +225,26 @@ def test_the_last_request_is_remembered_but_not_half_of_one() -> None:
 def test_a_write_to_a_unit_that_is_not_served_is_audited_and_answered_in_its_turn() -> None:
     world = World(limits=Limits(unit_ids=frozenset({1})))
     records: list[WriteRecord] = []
-    handler = Handler(world.server.device, Rights())
+    handler = Handler(world.device, Rights())
     limits = Limits(unit_ids=frozenset({1}))
-    peer = Connection(handler, world.server.device, limits, 0, records.append)
+    peer = Connection(handler, world.device, limits, 0, records.append)
     peer.receive(frame(write(1), 1) + frame(write(2), 2, unit=9) + frame(write(3), 3))
     assert peer.step(0) == b""
     world.plc.run(cycles=1)
     answers = frames(peer.step(0))
     assert [(t, pdu.hex()[:4]) for t, _, pdu in answers] == [(1, "0600"), (2, "860b"), (3, "0600")]
     assert sorted((r.unit, r.result) for r in records) == [(1, 0), (1, 0), (9, 11)]
+
+
+def test_a_write_takes_the_cycles_it_needs() -> None:
+    world = World()
+    cycles = world.tag("p.cycles")
+    data = b"".join(frame(bytes.fromhex("06 0000 0001"), i) for i in range(40))
+    assert len(frames(world.exchange(world.connect(), data))) == 40
+    assert world.tag("p.cycles") == cycles + 3  # type: ignore[operator]  # a UDINT; 16 in flight
+
+
+def test_a_write_to_a_stopped_controller_fails_instead_of_waiting() -> None:
+    world = World()
+    world.plc.shutdown()
+    assert world.ask("06 0000 0001") == "8604"

@@ -118,11 +118,19 @@ def test_strict_holes(world: World) -> None:
 
 
 def test_a_scan_that_stands_still_is_a_device_failure(world: World) -> None:
-    world.server.device.tick(0)
-    world.server.device.tick(10_000_000_000)
+    world.device.tick(0)
+    world.device.tick(10_000_000_000)
     assert world.ask("03 0000 0001") == "8304"
     assert world.ask("06 0000 0001") == "8604"
     assert world.ask("11") == "1107706c6373696d00"
     world.plc.run(cycles=1)
-    world.server.device.tick(10_000_000_001)
+    world.device.tick(10_000_000_001)
     assert world.ask("03 0000 0001") == "03020000"
+
+
+def test_no_time_passes_for_reads() -> None:
+    world = World()
+    before_ns = world.clock.now_ns()
+    for _ in range(50):
+        world.ask("03 0000 0006")
+    assert world.clock.now_ns() == before_ns

@@ -4,8 +4,6 @@ import os
 import signal
 import socket
 import struct
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -45,8 +43,8 @@ def free_port() -> int:
 class Site:
     """A project that runs under its supervisor in a thread."""
 
-    def __init__(self, folder: Path) -> None:
-        self.port = free_port()
+    def __init__(self, folder: Path, port: int = 0) -> None:
+        self.port = port or free_port()
         (folder / "echo").mkdir()
         (folder / "echo" / "main.py").write_text(PROGRAM)
         rows = ["echo.wanted,hr,0", "echo.seen,hr,1", "echo.cycles,hr,2"]
@@ -229,13 +227,14 @@ def test_a_stopped_run_leaves_neither_process_nor_port(site: Site) -> None:
         socket.create_connection(("127.0.0.1", site.port), 5)
 
 
-def test_a_service_without_an_image_says_so() -> None:
-    fd = os.memfd_create("empty")
-    order = f'{{"table": "modbus", "image_fd": {fd}, "status_fd": {fd}, "wake_fd": -1}}'
-    done = subprocess.run(
-        [sys.executable, "-m", "plcsim.modbus.service", order],
-        pass_fds=[fd], capture_output=True, text=True, check=False, timeout=30,
-    )  # fmt: skip
-    os.close(fd)
-    assert done.returncode == 1
-    assert done.stderr == "plcsim: the scan process has not made the image yet\n"
+def test_a_run_whose_service_never_served_is_an_error(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        made = Site(tmp_path, port)
+        with made.supervisor:
+            deadline = time.monotonic() + 20
+            while not made.supervisor.services.never_served:
+                assert time.monotonic() < deadline
+                time.sleep(0.01)
+            made.stop()
+            assert made.supervisor.services.never_served == ["modbus"]

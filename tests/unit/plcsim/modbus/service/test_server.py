@@ -61,7 +61,7 @@ def serve(
 
     async def run() -> Server:
         with AuditLog(audit) as log:
-            server = Server(world.server.device, settings, log)
+            server = Server(world.device, settings, log)
             await server.start()
             try:
                 await asyncio.wait_for(client(server), 20)
@@ -168,7 +168,7 @@ def test_only_the_allowed_networks_are_served(
 
 
 def test_an_ipv4_peer_of_an_ipv6_socket_is_known_by_its_ipv4_address(world: World) -> None:
-    server = Server(world.server.device, replace(SETTINGS, allow=("10.0.0.0/8",)), AuditLog(""))
+    server = Server(world.device, replace(SETTINGS, allow=("10.0.0.0/8",)), AuditLog(""))
     assert server.admits("::ffff:10.1.2.3")
     assert server.admits("10.1.2.3")
     assert not server.admits("::ffff:11.1.2.3")
@@ -248,7 +248,7 @@ def test_a_port_in_use_is_a_configuration_error(world: World) -> None:
         taken = replace(SETTINGS, port=server.port)
         text = f"modbus: cannot listen on 127.0.0.1:{server.port}: Address already in use$"
         with pytest.raises(ConfigurationError, match=text):
-            await Server(world.server.device, taken, AuditLog("")).start()
+            await Server(world.device, taken, AuditLog("")).start()
 
     serve(world, client)
 
@@ -261,7 +261,7 @@ def test_a_port_that_needs_rights_gets_the_remedy(
 
     async def start() -> None:
         low = replace(SETTINGS, port=502)
-        await Server(world.server.device, low, AuditLog("")).start()
+        await Server(world.device, low, AuditLog("")).start()
 
     monkeypatch.setattr(socket, "create_server", denied)
     with pytest.raises(ConfigurationError, match=r"127.0.0.1:502: 502 needs root.*port = 1502"):

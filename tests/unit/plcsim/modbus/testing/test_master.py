@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.modbus.service.errors import Code, ModbusException
-from plcsim.modbus.testing.modbus import Modbus
+from plcsim.modbus.testing.master import Modbus
 from plcsim.testing.errors import ControllerFault, PlcTestError
 from plcsim.testing.target import open_plc
 
