@@ -80,4 +80,5 @@ def _base(node: Expression) -> str:
 def _argument(node: Argument) -> str:
     value = print_expression(node.value) if node.value is not None else ""
     sign = " => " if node.is_output else " := "
-    return f"{node.name}{sign}{value}".rstrip() if node.name else value
+    name = f"NOT {node.name}" if node.is_negated else node.name
+    return f"{name}{sign}{value}".rstrip() if node.name else value

@@ -1,8 +1,10 @@
 """Expressions of Structured Text: syntax tree and parser.
 
-The parser climbs precedences, tightest first: ``**``, then ``-`` and NOT, ``* / MOD``, ``+ -``,
-``< > <= >=``, ``= <>``, AND, XOR, OR (IEC 61131-3 edition 2, table 55; B&R's TM246 has the same
-order). Operators of one precedence associate to the left.
+Precedences, tightest first: ``**``, then ``-`` and NOT, ``* / MOD``, ``+ -``, ``< > <= >=``,
+``= <>``, AND, XOR, OR (IEC 61131-3 edition 2, table 55; B&R's TM246 has the same order). Operators
+of one precedence associate to the left. AND_THEN and OR_ELSE are AND and OR of CODESYS that leave
+out what need not be evaluated. A stack holds the operands that wait for a looser operator, so only
+what stands in brackets nests.
 
 Nodes compare equal without regard to their place in the text. ``at`` is the number of a token;
 the `Tokens` of the file know its place.
@@ -11,20 +13,15 @@ the `Tokens` of the file know its place.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
 
-from st_types.syntax.lexer import TokenKind, kind_of
-from st_types.syntax.literals import (
-    MAX_DIGITS,
-    TYPED_PREFIXES,
-    Constant,
-    LiteralError,
-    parse_literal,
-)
+from st_types.syntax.lexer import NAME, KeyTable
+from st_types.syntax.literals import TYPED_PREFIXES, Constant, LiteralError, parse_literal
 from st_types.syntax.reader import TokenReader, UnexpectedTokenError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
 MAX_OPERATORS = 400
 """Most operators, brackets and parts of a path in one expression; bounds the depth of its tree."""
@@ -101,11 +98,15 @@ class Dereference(Node):
 
 @dataclass(slots=True)
 class Argument(Node):
-    """An argument of a call: a value, ``name := value`` or ``name => variable``."""
+    """An argument of a call: a value, ``name := value``, ``name => variable``, ``NOT name => ...``.
+
+    ``value`` is None where nothing follows the sign.
+    """
 
     name: str
     value: Expression | None
     is_output: bool = False
+    is_negated: bool = False
 
 
 @dataclass(slots=True)
@@ -121,9 +122,9 @@ Expression = (
 )
 
 PRECEDENCE = {
-    **dict.fromkeys(["OR"], 1),
+    **dict.fromkeys(["OR", "OR_ELSE"], 1),
     **dict.fromkeys(["XOR"], 2),
-    **dict.fromkeys(["AND", "&"], 3),
+    **dict.fromkeys(["AND", "&", "AND_THEN"], 3),
     **dict.fromkeys(["=", "<>"], 4),
     **dict.fromkeys(["<", ">", "<=", ">="], 5),
     **dict.fromkeys(["+", "-"], 6),
@@ -134,16 +135,30 @@ PRECEDENCE = {
 
 UNARY_PRECEDENCE = 8
 
-
-_ENDS = frozenset([";", ",", "]", ")", ".."])
-_TRUTH_VALUES = frozenset(["TRUE", "FALSE"])
-_PREFIX_OPERATORS = frozenset(["-", "+", "NOT"])
+_ENDS = frozenset([";", ",", ")", "]", "THEN", "DO", "OF", "TO", ".."])
+_SIMPLE = frozenset([NAME, "literal"])
+_POSTFIXES = frozenset([".", "[", "^", "("])
+_PREFIXES = frozenset(["-", "+", "NOT"])
+_ARGUMENT_SIGNS = (":=", "=>")
+_OPERATOR_WORDS = frozenset(["OR", "OR_ELSE", "XOR", "AND", "AND_THEN", "MOD", "NOT"])
 
 
 class ExpressionParser(TokenReader):
-    """Parses expressions; statement and declaration parsers build on it."""
+    """Parses expressions; statement and declaration parsers build on it.
 
+    Attributes:
+        reserved: keywords that are no names of variables, whatever stands beside them.
+        key_table: the keys of tokens; with the keywords of statements in the parser of those.
+    """
+
+    reserved: ClassVar[frozenset[str]] = _OPERATOR_WORDS
+    key_table: ClassVar[KeyTable] = KeyTable(_OPERATOR_WORDS)
     _operators = 0
+
+    @cached_property
+    def keys(self) -> list[str]:
+        """The keys of all tokens."""
+        return self.key_table.keys_of(self.texts)
 
     def expression(self) -> Expression:
         """Parse one expression.
@@ -152,27 +167,32 @@ class ExpressionParser(TokenReader):
             UnexpectedTokenError: there is none here, or it is nested too deep or too long.
         """
         index = self.index
-        if self.texts[index + 1] in _ENDS:
-            text = self.texts[index]
-            if text.isdecimal() and text.isascii() and len(text) <= MAX_DIGITS:
-                self.index = index + 1
-                return Literal(index, text, parse_literal(text))
-            if text.isidentifier() and text.isascii() and text.upper() not in _TRUTH_VALUES:
-                self.index = index + 1
-                return Name(index, text)
+        keys = self.keys
+        if keys[index + 1] in _ENDS and keys[index] in _SIMPLE:
+            if keys[index] == "literal":
+                return self.literal(self.texts[index])
+            self.index = index + 1
+            return Name(index, self.texts[index])
         self._operators = 0
-        return self._binary(0)
+        return self._operation()
 
-    def _binary(self, minimum: int) -> Expression:
-        self.enter()
-        left = self._unary()
-        while (precedence := PRECEDENCE.get(self.keyword, 0)) > minimum:
-            operator = self.keyword
-            at = self._step()
-            left = Binary(
-                at, "AND" if operator == "&" else operator, left, self._binary(precedence)
-            )
-        self.leave()
+    def _operation(self) -> Expression:
+        left = self._operand()
+        precedence = PRECEDENCE.get(self.keys[self.index])
+        return left if precedence is None else self._operations(left, precedence)
+
+    def _operations(self, left: Expression, precedence: int) -> Expression:
+        """Parse what follows the first operand; ``precedence`` is that of its operator."""
+        keys = self.keys
+        waiting: list[tuple[int, int, Expression]] = []  # precedence, operator, left operand
+        while precedence:
+            waiting.append((precedence, self._step(), left))
+            left = self._operand()
+            precedence = PRECEDENCE.get(keys[self.index], 0)
+            while waiting and waiting[-1][0] >= precedence:
+                _, at, first = waiting.pop()
+                operator = keys[at]
+                left = Binary(at, "AND" if operator == "&" else operator, first, left)
         return left
 
     def _step(self) -> int:
@@ -182,32 +202,50 @@ class ExpressionParser(TokenReader):
         self.index += 1
         return self.index - 1
 
-    def _unary(self) -> Expression:
-        operator = self.keyword
-        if operator in _PREFIX_OPERATORS:
-            return Unary(self._step(), operator, self._binary(UNARY_PRECEDENCE))
-        takes_postfix = kind_of(self.text) in (TokenKind.IDENTIFIER, TokenKind.OPERATOR)
-        operand = self._primary()
-        return self._postfix(operand) if takes_postfix else operand
+    def _operand(self) -> Expression:
+        at = self.index
+        keys = self.keys
+        key = keys[at]
+        if key == NAME:
+            self.index = at + 1
+            name = Name(at, self.texts[at])
+            return self.postfix(name) if keys[at + 1] in _POSTFIXES else name
+        if key == "literal":
+            return self.literal(self.texts[at])
+        if key in _PREFIXES:
+            return self._prefix(key)
+        if key == "(":
+            return self.postfix(self._parenthesised())
+        return self._rare_operand(key)
 
-    def _primary(self) -> Expression:
-        at, text = self.index, self.text
-        if text == "(":
-            return self._parenthesised()
-        kind = kind_of(text)
-        if kind is TokenKind.LITERAL or text.upper() in _TRUTH_VALUES:
-            return self.literal(text)
-        if text == "." and self.texts[at + 1][:1].isdecimal() and not self.tokens.trivia[at + 1]:
+    def _prefix(self, operator: str) -> Expression:
+        at = self._step()
+        self.enter()
+        operand = self._operand()
+        while self.keys[self.index] == "**":
+            operand = Binary(self._step(), "**", operand, self._operand())
+        self.leave()
+        return Unary(at, operator, operand)
+
+    def _rare_operand(self, key: str) -> Expression:
+        at = self.index
+        text = self.texts[at]
+        if key == "address":
+            self.index += 1
+            return DirectAddress(at, text)
+        if key == "." and self.texts[at + 1][:1].isdecimal() and not self.tokens.trivia[at + 1]:
             self.index += 1
             return self.literal(f".{self.text}")
-        if kind not in (TokenKind.IDENTIFIER, TokenKind.ADDRESS):
+        if key != text.upper() or not text.isidentifier() or key in self.reserved:
             self.fail("expected a value")
         self.index += 1
-        return Name(at, text) if kind is TokenKind.IDENTIFIER else DirectAddress(at, text)
+        return self.postfix(Name(at, text))  # a keyword as a name
 
     def _parenthesised(self) -> Expression:
         self._step()
-        inner = self._binary(0)
+        self.enter()
+        inner = self._operation()
+        self.leave()
         self.expect(")", "to close the parenthesis")
         return inner
 
@@ -219,66 +257,76 @@ class ExpressionParser(TokenReader):
         Raises:
             UnexpectedTokenError: it is malformed.
         """
-        prefix, _, name = text.partition("#")
-        if name.isidentifier() and prefix.upper() not in TYPED_PREFIXES and prefix.isidentifier():
-            self.index += 1
-            return MemberAccess(self.index - 1, Name(self.index - 1, prefix), name)
         try:
             constant = parse_literal(text)
         except LiteralError as err:
+            prefix, _, name = text.partition("#")
+            is_value = name.isidentifier() and prefix.isidentifier()
+            if is_value and prefix.upper() not in TYPED_PREFIXES:
+                self.index += 1
+                return MemberAccess(self.index - 1, Name(self.index - 1, prefix), name)
             offset = self.tokens.offset(self.index)
             raise UnexpectedTokenError(offset, str(err)) from None
         self.index += 1
         return Literal(self.index - 1, text, constant)
 
-    def _postfix(self, base: Expression) -> Expression:
-        while self.text in _POSTFIX_RULES:
-            base = _POSTFIX_RULES[self.text](self, base)
+    def postfix(self, base: Expression) -> Expression:
+        """Parse the members, indices, ``^`` and arguments that follow ``base``."""
+        keys = self.keys
+        while (key := keys[self.index]) in _POSTFIXES:
+            if key == ".":
+                base = self._member(base)
+            elif key == "[":
+                base = self._index(base)
+            elif key == "(":
+                base = self._call(base)
+            else:
+                base = Dereference(self._step(), base)
         return base
 
     def _member(self, base: Expression) -> Expression:
-        self._step()
-        text = self.text
-        if not (text.isdecimal() and text.isascii()) and kind_of(text) is not TokenKind.IDENTIFIER:
+        at = self._step() + 1
+        text = self.texts[at]
+        if self.keys[at] != NAME and not is_member(text):
             self.fail("expected the name of a member or the number of a bit after '.'")
-        self.index += 1
-        return MemberAccess(self.index - 1, base, text)
+        self.index = at + 1
+        return MemberAccess(at, base, text)
 
     def _index(self, base: Expression) -> Expression:
         at = self._step()
-        indices = [self._binary(0)]
+        self.enter()
+        indices = [self._operation()]
         while self.accept(","):
-            indices.append(self._binary(0))
+            indices.append(self._operation())
+        self.leave()
         self.expect("]", "to close the index")
         return Index(at, base, indices)
 
-    def _dereference(self, base: Expression) -> Expression:
-        return Dereference(self._step(), base)
-
     def _call(self, base: Expression) -> Expression:
-        return Call(self._step(), base, self._arguments())
-
-    def _arguments(self) -> list[Argument]:
+        at = self._step()
+        self.enter()
         arguments: list[Argument] = []
         while not self.accept(")"):
             if arguments:
                 self.expect(",", "or ')' after an argument")
             arguments.append(self._argument())
-        return arguments
+        self.leave()
+        return Call(at, base, arguments)
 
     def _argument(self) -> Argument:
-        at, name = self.index, self.text
-        sign = self.texts[at + 1]
-        if sign not in (":=", "=>") or kind_of(name) is not TokenKind.IDENTIFIER:
-            return Argument(at, "", self._binary(0))
-        self.index += 2
-        is_empty = self.text in (",", ")")
-        return Argument(at, name, None if is_empty else self._binary(0), sign == "=>")
+        at = self.index
+        keys = self.keys
+        is_negated = keys[at] == "NOT" and keys[at + 2] == "=>"
+        if is_negated:
+            at += 1
+        sign = keys[at + 1]
+        if sign not in _ARGUMENT_SIGNS or not self.texts[at].isidentifier():
+            return Argument(at, "", self._operation())
+        self.index = at + 2
+        value = None if keys[self.index] in (",", ")") else self._operation()
+        return Argument(at, self.texts[at], value, sign == "=>", is_negated)
 
 
-_POSTFIX_RULES: dict[str, Callable[[ExpressionParser, Expression], Expression]] = {
-    ".": ExpressionParser._member,
-    "[": ExpressionParser._index,
-    "^": ExpressionParser._dereference,
-    "(": ExpressionParser._call,
-}
+def is_member(text: str) -> bool:
+    """Return True for what may follow a dot: a name, the number of a bit, ``%X3``."""
+    return text.isascii() and (text.isidentifier() or text.isdecimal() or text[:1] == "%")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from st_types.syntax.expressions import Call, ExpressionParser
+from st_types.syntax.expressions import Call, Expression, ExpressionParser, Name
 from st_types.syntax.tree import (
     ArrayInitial,
     Initial,
@@ -47,6 +47,14 @@ class InitialParser(ExpressionParser):
             return False
         return text.isdecimal() or (by_name and text.isidentifier() and text.upper() != "NOT")
 
+    def _count(self) -> Expression:
+        """Parse the number before ``(``, or the name of a constant."""
+        at, text = self.index, self.text
+        if not text.isidentifier():
+            return self.literal(text)
+        self.index += 1
+        return Name(at, text)
+
     def _starts_members(self) -> bool:
         after = self.texts[self.index + 1 : self.index + 3]
         return after[0] == ")" or after[1] == ":="
@@ -74,7 +82,7 @@ class InitialParser(ExpressionParser):
 
     def _repeated_initial(self) -> RepeatedInitial:
         at = self.index
-        count = self._primary()
+        count = self._count()
         if self._starts_members() and self.texts[self.index + 1] != ")":
             return RepeatedInitial(at, count, [self._struct_initial()])
         self._open_initial()

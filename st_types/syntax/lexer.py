@@ -16,6 +16,8 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
     from st_types.syntax.source import Location, Source
 
 MAX_TOKENS = 1_000_000
@@ -100,6 +102,59 @@ def kind_of(text: str) -> TokenKind:
     if kind is TokenKind.LITERAL:
         return TokenKind.UNKNOWN if is_open_string(text) else kind
     return kind if len(text) > 1 else TokenKind.UNKNOWN
+
+
+NAME = "name"
+"""Key of an identifier that is no keyword of the parser."""
+
+_KEY_BY_KIND = {
+    TokenKind.END: "",
+    TokenKind.IDENTIFIER: NAME,
+    TokenKind.LITERAL: "literal",
+    TokenKind.ADDRESS: "address",
+    TokenKind.DIRECTIVE: "directive",
+    TokenKind.UNKNOWN: "unknown",
+}
+
+
+class KeyTable(dict[str, str]):
+    """Key by token: what a parser decides by.
+
+    The key of a keyword is the keyword in capitals, of an operator the operator itself, of other
+    tokens `NAME` or the kind in lower case, of the end of the text the empty string.
+    """
+
+    def __init__(self, keywords: Iterable[str]) -> None:
+        self._keywords = frozenset(keywords)
+        super().__init__(zip(OPERATORS, OPERATORS, strict=True))
+        for keyword in self._keywords:
+            self.update(dict.fromkeys((keyword, keyword.lower(), keyword.capitalize()), keyword))
+        self.update(dict.fromkeys(("TRUE", "FALSE", "true", "false", "True", "False"), "literal"))
+
+    def keys_of(self, texts: Sequence[str]) -> list[str]:
+        """Return the keys of tokens, those of an own copy: a file's names are not kept."""
+        return list(map(_FileKeys(self, self._keywords).__getitem__, texts))
+
+
+class _FileKeys(dict[str, str]):
+    """The keys of one file."""
+
+    __slots__ = ("_keywords",)
+
+    def __init__(self, known: Mapping[str, str], keywords: frozenset[str]) -> None:
+        super().__init__(known)
+        self._keywords = keywords
+
+    def __missing__(self, text: str) -> str:
+        upper = text.upper()
+        if upper in self._keywords:
+            key = upper
+        elif upper in ("TRUE", "FALSE"):
+            key = "literal"
+        else:
+            key = _KEY_BY_KIND[kind_of(text)]
+        self[text] = key
+        return key
 
 
 def is_open_string(text: str) -> bool:

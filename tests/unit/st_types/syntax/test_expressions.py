@@ -69,6 +69,8 @@ def shape(node: Expression) -> str:
         ("T#1s + t", "(T#1s + t)"),
         ("TRUE AND x", "(TRUE AND x)"),
         (".5 + -.25E3", "(.5 + (- .25E3))"),
+        ("a OR_ELSE b AND_THEN c and_then d", "(a OR_ELSE ((b AND_THEN c) AND_THEN d))"),
+        ("a AND b + 1 * 2 ** 3 > 4 OR c", "((a AND ((b + (1 * (2 ** 3))) > 4)) OR c)"),
     ],
 )
 def test_precedence(text: str, expected: str) -> None:
@@ -83,6 +85,8 @@ def literal(text: str) -> Literal:
     ("text", "expected"),
     [
         ("a.b.3", MemberAccess(0, MemberAccess(0, Name(0, "a"), "b"), "3")),
+        ("a.%X3", MemberAccess(0, Name(0, "a"), "%X3")),
+        ("exit.TYPE", MemberAccess(0, Name(0, "exit"), "TYPE")),
         ("a[1, i].x", MemberAccess(0, Index(0, Name(0, "a"), [literal("1"), Name(0, "i")]), "x")),
         ("p^.x", MemberAccess(0, Dereference(0, Name(0, "p")), "x")),
         ("%IX0.1", DirectAddress(0, "%IX0.1")),
@@ -90,7 +94,7 @@ def literal(text: str) -> Literal:
         ("f()", Call(0, Name(0, "f"), [])),
         ("ADR('x')", Call(0, Name(0, "ADR"), [Argument(0, "", literal("'x'"))])),
         (
-            "fb(IN := a, PT := , Q => b)",
+            "fb(IN := a, PT := , Q => b, NOT M => c)",
             Call(
                 0,
                 Name(0, "fb"),
@@ -98,6 +102,7 @@ def literal(text: str) -> Literal:
                     Argument(0, "IN", Name(0, "a")),
                     Argument(0, "PT", None),
                     Argument(0, "Q", Name(0, "b"), is_output=True),
+                    Argument(0, "M", Name(0, "c"), is_output=True, is_negated=True),
                 ],
             ),
         ),

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.syntax import lexer
-from st_types.syntax.lexer import OPERATORS, TokenKind, Tokens, kind_of, unnest_comments
+from st_types.syntax.lexer import OPERATORS, KeyTable, TokenKind, Tokens, kind_of, unnest_comments
 from st_types.syntax.source import Source
 
 
@@ -157,3 +157,11 @@ def test_a_text_with_too_many_tokens_is_cut(monkeypatch: pytest.MonkeyPatch) -> 
     assert tokens.truncated
     assert tokens.texts[: tokens.end] == ["a", "b", "c"]
     assert not Tokens(Source("a", "a b")).truncated
+
+
+def test_a_key_says_what_a_parser_decides_by() -> None:
+    table = KeyTable(["IF", "END_IF"])
+    found = ["if", "If", "iF", "END_If", "x", "TrUe", "1.5", "INT#5", "%IX0", "#if a", "'a", ":="]
+    keys = ["IF", "IF", "IF", "END_IF", "name", "literal", "literal", "literal", "address"]
+    assert table.keys_of([*found, "é", ""]) == [*keys, "directive", "unknown", ":=", "unknown", ""]
+    assert "x" not in table  # names of one file are not kept for the next
