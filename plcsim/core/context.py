@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
+from plcsim.core.system_area import RELEASE
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -20,14 +22,11 @@ class Context:
     Attributes:
         memory: where all variables lie.
         network: what the AsTCP blocks talk over.
-        release_ns: release time of the running task class, nanoseconds on the controller's clock.
-            It is the only time a function block knows, so all timers of a cycle agree. The scan
-            sets it before the first program of a cycle runs.
         violation: the violation an exception program was called for, None before the first.
         options: settings of controller libraries: table [library.NAME] of plc.toml by NAME.
     """
 
-    __slots__ = ("_libraries", "memory", "network", "options", "release_ns", "violation")
+    __slots__ = ("_libraries", "_system", "memory", "network", "options", "violation")
 
     def __init__(
         self,
@@ -37,10 +36,23 @@ class Context:
     ) -> None:
         self.memory = memory
         self.network = network
-        self.release_ns = 0
+        self._system = memory.system.cells
         self.violation: Violation | None = None
         self.options = dict(options or {})
         self._libraries: dict[object, object] = {}
+
+    @property
+    def release_ns(self) -> int:
+        """Release time of the running task class, nanoseconds on the controller's clock.
+
+        It is the only time a function block knows, so all timers of a cycle agree. The scan sets it
+        before the first program of a cycle runs; compiled code reads the same cell.
+        """
+        return self._system[RELEASE]
+
+    @release_ns.setter
+    def release_ns(self, time_ns: int) -> None:
+        self._system[RELEASE] = time_ns
 
     def library(self, factory: Callable[[Context], T]) -> T:
         """Return a library's state of this controller, made by ``factory`` at the first call.

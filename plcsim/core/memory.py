@@ -1,60 +1,95 @@
 """The linear memory of the controller: 32-bit addresses, every access through one is checked.
 
-All variables of all programs lie in one mapping. Address 0 is nil and the first page is never
-valid, so a forgotten pointer is found at once; what lies above the last allocated page is not valid
-either.
+All variables of all programs lie in one mapping::
+
+    0                nil: never valid, so a forgotten pointer is found at once, a member of it too
+    SYSTEM_AREA - s  the stack of compiled programs, s bytes where one was opened; it grows
+                     downwards, and what overflows it runs into nil
+    SYSTEM_AREA      one page for compiled code (`plcsim.core.system_area`)
+    FIRST            the variables, up to the last allocated page
+    above            not valid
+
+Compiled programs have the same bytes at the same addresses, guarded by the processor
+(`plcsim.machine`); so pages are as large as any Linux system has them, and a page of WebAssembly.
 """
 
 from __future__ import annotations
 
+import ctypes
 import mmap
 import re
 from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 
 from plcsim.core.errors import ConfigurationError, PageFault
+from plcsim.core.system_area import SystemArea
 from st_types.types.derived import ArrayType, StructType, resolve_alias
 from st_types.types.layout import align_up
 from st_types.types.values import decode, encode, initial_image
 from st_types.types.views import Struct, address_of, type_of, view_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from st_types.types.arrays import Array
     from st_types.types.elementary import DataType
 
 V = TypeVar("V")
 S = TypeVar("S", bound=Struct)
 
-PAGE = 4096
+PAGE = 0x1_0000
 """Bytes; the unit in which addresses become valid."""
 
-DEFAULT_SIZE = 16 * 1024 * 1024
-"""Bytes of memory of a controller where plc.toml does not say otherwise."""
+SYSTEM_AREA = 0x10_0000
+"""Address of the page that the controller shares with compiled code."""
 
-MAX_SIZE = 1 << 31
-"""Bytes; the mapping must be able to lie below 2 GiB for C units."""
+FIRST = SYSTEM_AREA + PAGE
+"""Address of the first variable."""
+
+MAX_STACK = SYSTEM_AREA - PAGE
+"""Bytes; a page of nil must stay below the stack."""
+
+DEFAULT_SIZE = 16 * 1024 * 1024
+"""Bytes for the variables of a controller where plc.toml does not say otherwise."""
+
+MAX_SIZE = (1 << 31) - FIRST
+"""Bytes; every address must be positive as a DINT too."""
 
 
 class Memory:
     """The memory of one controller.
 
     Args:
-        size: bytes, a multiple of the page size.
+        size: bytes for variables, a multiple of the page size.
+        system_fd: file of a system area that is watched from outside; None makes one of its own.
+
+    Attributes:
+        size: bytes for variables.
+        system: the page at `SYSTEM_AREA`.
+        stack: lowest address of the stack of compiled programs, which ends at `SYSTEM_AREA`.
     """
 
-    def __init__(self, size: int = DEFAULT_SIZE) -> None:
-        if size % PAGE or not 2 * PAGE <= size <= MAX_SIZE:
+    def __init__(self, size: int = DEFAULT_SIZE, system_fd: int | None = None) -> None:
+        if size % PAGE or not PAGE <= size <= MAX_SIZE:
             raise ConfigurationError(
                 f"memory of {size} bytes: must be a multiple of {PAGE}, at most {MAX_SIZE}."
             )
-        self._map = mmap.mmap(-1, size)
-        self._top = PAGE
-        self._limit = PAGE
+        self._map = mmap.mmap(-1, FIRST + size)
+        self._top = FIRST
+        self._limit = FIRST
+        self._followers: list[Callable[[], None]] = []
+        self.stack = SYSTEM_AREA
         self.size = size
+        self.system = SystemArea(system_fd)
 
     @property
     def used(self) -> int:
-        """Bytes allocated, the first page included."""
-        return self._top
+        """Bytes allocated, from `FIRST`."""
+        return self._top - FIRST
+
+    @property
+    def limit(self) -> int:
+        """First address above the variables that is not valid, a multiple of `PAGE`."""
+        return self._limit
 
     def allocate(self, size: int, alignment: int = 4) -> int:
         """Reserve ``size`` zeroed bytes and return their address.
@@ -63,13 +98,39 @@ class Memory:
             ConfigurationError: the memory is full.
         """
         address = align_up(self._top, alignment)
-        if address + size > self.size:
+        if address + size > FIRST + self.size:
             raise ConfigurationError(
                 f"the PLC memory of {self.size} bytes is full: {size} more bytes do not fit."
             )
         self._top = address + size
-        self._limit = align_up(self._top, PAGE)
+        limit = align_up(self._top, PAGE)
+        if limit != self._limit:
+            self._limit = limit
+            self._tell()
         return address
+
+    def open_stack(self, size: int) -> None:
+        """Make at least ``size`` bytes below `SYSTEM_AREA` valid as stack of compiled programs.
+
+        Raises:
+            ConfigurationError: it is more than `MAX_STACK`.
+        """
+        if not 0 <= size <= MAX_STACK:
+            raise ConfigurationError(f"stack of {size} bytes: at most {MAX_STACK} can be had.")
+        self.stack = min(self.stack, SYSTEM_AREA - align_up(size, PAGE))
+        self._tell()
+
+    def follow(self, moved: Callable[[], None]) -> None:
+        """Have ``moved`` called whenever `limit` or `stack` has moved."""
+        self._followers.append(moved)
+
+    def _tell(self) -> None:
+        for moved in self._followers:
+            moved()
+
+    def host_address(self) -> int:
+        """Return where address 0 lies in this process, for a second mapping of the memory."""
+        return ctypes.addressof(ctypes.c_char.from_buffer(self._map))
 
     def new(self, view: type[S], context: object = None) -> S:
         """Allocate a variable of a Struct class, give it its initial values, return its view."""
@@ -80,7 +141,11 @@ class Memory:
 
     def check(self, address: int, size: int) -> None:
         """Raise PageFault unless all ``size`` bytes at ``address`` are valid."""
-        if size < 0 or not PAGE <= address <= self._limit - size:
+        if size < 0 or not FIRST <= address <= self._limit - size:
+            self._check_stack(address, size)
+
+    def _check_stack(self, address: int, size: int) -> None:
+        if size < 0 or not self.stack <= address < SYSTEM_AREA or size > SYSTEM_AREA - address:
             raise PageFault(address, size)
 
     def read(self, address: int, size: int) -> bytes:
@@ -117,7 +182,7 @@ class Memory:
             PageFault: the string runs into an address that is not valid.
         """
         self.check(address, 1)
-        end = min(address + limit, self._limit)
+        end = min(address + limit, self._limit if address >= FIRST else SYSTEM_AREA)
         found = self._map.find(b"\0", address, end)
         if found < 0:
             self.check(address, limit)

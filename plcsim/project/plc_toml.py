@@ -223,7 +223,7 @@ def _memory_size(text: str) -> int:
     if match is None:
         raise ValueError(f'{text!r} is not a size such as "16MiB"')
     size = int(match[1]) * {"KiB": 1024, "MiB": 1024 * 1024, None: 1}[match[2]]
-    if size % PAGE or not 2 * PAGE <= size <= MAX_SIZE:
+    if size % PAGE or not PAGE <= size <= MAX_SIZE:
         raise ValueError(f"{text!r} must be a multiple of {PAGE} bytes, at most {MAX_SIZE}")
     return size
 

@@ -14,7 +14,7 @@ from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, PageFault
-from plcsim.core.memory import PAGE
+from plcsim.core.memory import FIRST
 from plcsim.shared_image import layout
 from plcsim.shared_image.command import Mask, Scatter, decode_command
 from plcsim.shared_image.directory import Directory, Variables, hash_of
@@ -96,7 +96,7 @@ class ImageWriter:
         wake_fds: Sequence[int] = (),
     ) -> None:
         self._memory = controller.memory
-        self._bytes = self._memory.view(PAGE, self._memory.used - PAGE)
+        self._bytes = self._memory.view(FIRST, self._memory.used)
         self._spans = _spans(controller, exports)
         self.directory = Directory(
             project,
@@ -178,8 +178,8 @@ class ImageWriter:
         """Raise PageFault for an operation outside the memory."""
         match operation:
             case Scatter(addresses=addresses):
-                low, high = min(addresses, default=PAGE), max(addresses, default=PAGE)
-                if not PAGE <= low <= high < PAGE + len(self._bytes):
+                low, high = min(addresses, default=FIRST), max(addresses, default=FIRST)
+                if not FIRST <= low <= high < FIRST + len(self._bytes):
                     raise PageFault(low, high - low + 1)
             case Mask(address=address):
                 self._memory.check(address, 2)
@@ -193,7 +193,7 @@ class ImageWriter:
                 case Scatter(addresses, data):
                     stored = self._bytes
                     for address, value in zip(addresses, data, strict=True):
-                        stored[address - PAGE] = value
+                        stored[address - FIRST] = value
                 case Mask(address=address):
                     word = int.from_bytes(memory.read(address, 2), "little")
                     memory.write(address, operation.applied_to(word).to_bytes(2, "little"))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.core.memory import PAGE
+from plcsim.core.memory import FIRST
 from plcsim.testing.diagram import draw, foot_of, step_for, table
 from plcsim.testing.trace import Row, Trace
 from plcsim.testing.values import text_of, value_in
@@ -45,7 +45,7 @@ class History:
         self._memory = controller.memory
         self._scan = controller.scan
         self._context = controller.context
-        self._size = controller.memory.used - PAGE
+        self._size = controller.memory.used
         length = max(SHOWN, min(MOST_CYCLES, MOST_BYTES // max(1, self._size)))
         self._rings: dict[int, deque[Cycle]] = {
             c.number: deque(maxlen=length) for c in controller.classes
@@ -60,7 +60,7 @@ class History:
     def add(self, task_class: TaskClass) -> None:
         """Copy the memory; called in PUBLISH."""
         time_ns = self._context.release_ns - self._scan.origin_ns
-        image = self._memory.read(PAGE, self._size)
+        image = self._memory.read(FIRST, self._size)
         number = task_class.number
         self._rings[number].append(Cycle(time_ns, number, task_class.cycles, image))
 
@@ -76,7 +76,7 @@ class History:
         trace = Trace(tags)
         for cycle in self._cycles(tags):
             raw = tuple(
-                cycle.image[t.address - PAGE : t.address - PAGE + t.data_type.size] for t in tags
+                cycle.image[t.address - FIRST : t.address - FIRST + t.data_type.size] for t in tags
             )
             trace.add(Row(cycle.time_ns, cycle.task_class, cycle.number, raw))
         return trace

@@ -6,7 +6,7 @@ import struct
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.duration import parse_duration_ns
-from plcsim.core.memory import PAGE
+from plcsim.core.memory import FIRST
 from plcsim.core.tag import Tag
 from plcsim.testing.errors import PlcTestError
 from st_types.types.derived import (
@@ -95,7 +95,7 @@ def printable(text: str) -> str:
 
 def value_in(image: bytes, tag: Tag) -> object:
     """Return the value of a tag in a copy of the memory above its first page."""
-    start = tag.address - PAGE
+    start = tag.address - FIRST
     return decode(tag.data_type, image[start : start + tag.data_type.size])
 
 

@@ -43,11 +43,11 @@ def test_classes_programs_and_memory_are_shown(cell, capsys):
     head, *rows, last = shown.out.splitlines()
     assert head.split() == ["class", "cycle", "tolerance", "program", "address", "bytes", "tags"]
     assert [row.split() for row in rows] == [
-        ["#1", "2", "ms", "16.5", "ms", "main", "16#00001000", "12", "2"],
-        ["#1", "2", "ms", "16.5", "ms", "second", "16#0000100C", "12", "2"],
-        ["#4", "100", "ms", "100", "ms", "other", "16#00001018", "12", "2"],
+        ["#1", "2", "ms", "16.5", "ms", "main", "16#00110000", "12", "2"],
+        ["#1", "2", "ms", "16.5", "ms", "second", "16#0011000C", "12", "2"],
+        ["#4", "100", "ms", "100", "ms", "other", "16#00110018", "12", "2"],
     ]
-    assert re.fullmatch(r"cell: 3 programs, 4132 of 16777216 bytes .*, tick 1 ms", last)
+    assert re.fullmatch(r"cell: 3 programs, 36 of 16777216 bytes .*, tick 1 ms", last)
 
 
 def test_a_single_program_is_no_plural_and_no_line_is_cut(project, capsys, monkeypatch):
@@ -62,7 +62,7 @@ def test_a_single_program_is_no_plural_and_no_line_is_cut(project, capsys, monke
     assert main(["check", str(folder)]) == 0
     _, row, last = capsys.readouterr().out.splitlines()
     assert name in row
-    assert re.fullmatch(r"lonely: 1 program, 4108 of 16777216 bytes .*, tick 1 ms", last)
+    assert re.fullmatch(r"lonely: 1 program, 12 of 16777216 bytes .*, tick 1 ms", last)
 
 
 @pytest.mark.parametrize("name", ["[/b]", "[red]", "cell[1]"])

@@ -1,3 +1,4 @@
+import ctypes
 from itertools import pairwise
 
 import pytest
@@ -5,7 +6,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.core.errors import ConfigurationError, PageFault
-from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE, Memory, adr, find, sizeof
+from plcsim.core.memory import (
+    DEFAULT_SIZE,
+    FIRST,
+    MAX_SIZE,
+    MAX_STACK,
+    PAGE,
+    SYSTEM_AREA,
+    Memory,
+    adr,
+    find,
+    sizeof,
+)
 from st_types import (
     ARRAY,
     BOOL,
@@ -41,28 +53,28 @@ def memory():
     return Memory(4 * PAGE)
 
 
-def test_the_first_variable_lies_on_the_second_page(memory):
-    assert (memory.used, memory.allocate(1), memory.used) == (PAGE, PAGE, PAGE + 1)
+def test_the_first_variable_lies_at_the_first_address(memory):
+    assert (memory.used, memory.allocate(1), memory.used) == (0, FIRST, 1)
 
 
 @pytest.mark.parametrize(("alignment", "address"), [(1, 1), (2, 2), (4, 4), (8, 8)])
 def test_allocation_keeps_the_alignment(memory, alignment, address):
     memory.allocate(1)
-    assert memory.allocate(4, alignment) == PAGE + address
+    assert memory.allocate(4, alignment) == FIRST + address
 
 
 def test_a_full_memory_says_so_and_stays_usable(memory):
     with pytest.raises(ConfigurationError) as caught:
-        memory.allocate(3 * PAGE + 1)
+        memory.allocate(4 * PAGE + 1)
     assert str(caught.value) == (
-        "the PLC memory of 16384 bytes is full: 12289 more bytes do not fit."
+        "the PLC memory of 262144 bytes is full: 262145 more bytes do not fit."
     )
-    assert memory.allocate(3 * PAGE) == PAGE
+    assert memory.allocate(4 * PAGE) == FIRST
     with pytest.raises(ConfigurationError):
         memory.allocate(1)
 
 
-@pytest.mark.parametrize("size", [0, PAGE, PAGE + 1, 2 * PAGE - 1, MAX_SIZE + PAGE, -PAGE])
+@pytest.mark.parametrize("size", [0, PAGE + 1, PAGE - 1, MAX_SIZE + PAGE, -PAGE])
 def test_an_impossible_size_is_refused(size):
     with pytest.raises(ConfigurationError, match=f"memory of {size} bytes"):
         Memory(size)
@@ -72,7 +84,7 @@ def test_default_size():
     assert Memory().size == DEFAULT_SIZE == 1 << 24
 
 
-# Page faults: addresses are valid from the second page to the end of the last page allocated.
+# Page faults: addresses are valid from the first variable to the end of the last page allocated.
 
 
 @pytest.mark.parametrize(
@@ -81,15 +93,17 @@ def test_default_size():
         (0, 1),
         (0, 0),
         (1, 4),
-        (PAGE - 1, 1),
-        (PAGE - 1, 2),
-        (2 * PAGE, 1),
-        (2 * PAGE - 3, 4),
+        (SYSTEM_AREA - 1, 1),
+        (SYSTEM_AREA, 8),
+        (FIRST - 1, 1),
+        (FIRST - 1, 2),
+        (FIRST + PAGE, 1),
+        (FIRST + PAGE - 3, 4),
         (-1, 1),
         (2**32 - 1, 1),
-        (2**32 + PAGE, 1),
-        (PAGE, PAGE + 1),
-        (PAGE, -1),
+        (2**32 + FIRST, 1),
+        (FIRST, PAGE + 1),
+        (FIRST, -1),
     ],
 )
 def test_a_wild_address_is_a_page_fault(memory, address, size):
@@ -101,7 +115,9 @@ def test_a_wild_address_is_a_page_fault(memory, address, size):
         memory.read(address, size)
 
 
-@pytest.mark.parametrize("address", [0, PAGE - 1, 2 * PAGE - type_of(Cell).size + 1, 2**32 - 4])
+@pytest.mark.parametrize(
+    "address", [0, FIRST - 1, FIRST + PAGE - type_of(Cell).size + 1, 2**32 - 4]
+)
 def test_access_to_a_wild_address_is_a_page_fault(memory, address):
     memory.allocate(10)
     with pytest.raises(PageFault):
@@ -115,35 +131,45 @@ def test_a_page_fault_says_where():
 
 def test_before_the_first_allocation_nothing_is_valid(memory):
     with pytest.raises(PageFault):
-        memory.read(PAGE, 1)
+        memory.read(FIRST, 1)
 
 
 def test_addresses_are_valid_to_the_end_of_the_page(memory):
     memory.allocate(10)
-    memory.write(2 * PAGE - 2, b"ab")
-    assert memory.read(2 * PAGE - 2, 2) == b"ab"
-    assert memory.read(2 * PAGE, 0) == b""
+    end = FIRST + PAGE
+    memory.write(end - 2, b"ab")
+    assert memory.read(end - 2, 2) == b"ab"
+    assert memory.read(end, 0) == b""
     memory.allocate(PAGE)
-    memory.write(3 * PAGE - 1, b"c")
+    memory.write(end + PAGE - 1, b"c")
 
 
 def test_a_write_that_faults_stores_nothing(memory):
     memory.allocate(10)
     with pytest.raises(PageFault):
-        memory.write(2 * PAGE - 2, b"abc")
-    assert memory.read(2 * PAGE - 2, 2) == b"\0\0"
+        memory.write(FIRST + PAGE - 2, b"abc")
+    assert memory.read(FIRST + PAGE - 2, 2) == b"\0\0"
+
+
+EDGES = (0, SYSTEM_AREA - 2 * PAGE, SYSTEM_AREA, FIRST, FIRST + PAGE, FIRST + 2 * PAGE)
 
 
 @given(
-    st.integers(-(2**33), 2**33) | st.integers(0, 5 * PAGE),
-    st.integers(-5, 5 * PAGE),
+    st.integers(-(2**33), 2**33)
+    | st.builds(int.__add__, st.sampled_from(EDGES), st.integers(-9, 9)),
+    st.integers(-5, 9) | st.integers(0, 3 * PAGE),
     st.integers(1, 3 * PAGE),
+    st.integers(0, 2 * PAGE),
 )
-def test_an_access_is_good_or_a_page_fault(address, size, allocated):
+def test_an_access_is_good_or_a_page_fault(address, size, allocated, stack):
     memory = Memory(4 * PAGE)
     memory.allocate(allocated)
-    valid = set(range(PAGE, PAGE + -(-allocated // PAGE) * PAGE + 1))
-    if size >= 0 and {address, address + size} <= valid:
+    memory.open_stack(stack)
+    top = FIRST + -(-allocated // PAGE) * PAGE
+    low = SYSTEM_AREA - -(-stack // PAGE) * PAGE
+    in_variables = FIRST <= address <= address + size <= top
+    in_stack = low <= address < SYSTEM_AREA and address + size <= SYSTEM_AREA
+    if size >= 0 and (in_variables or in_stack):
         assert memory.read(address, size) == bytes(size)
         memory.write(address, b"x" * size)
         assert memory.read(address, size) == b"x" * size
@@ -162,17 +188,59 @@ def test_a_string_ends_at_its_nul_or_at_the_limit(memory, data, limit, found):
     assert memory.string(address, limit) == found
 
 
-def test_a_string_must_not_run_into_an_invalid_address(memory):
+@pytest.mark.parametrize("end", [FIRST + PAGE, SYSTEM_AREA])
+def test_a_string_must_not_run_into_an_invalid_address(memory, end):
     memory.allocate(10)
-    memory.write(2 * PAGE - 3, b"abc")
-    assert memory.string(2 * PAGE - 3, 3) == b"abc"
+    memory.open_stack(10)
+    memory.write(end - 3, b"abc")
+    assert memory.string(end - 3, 3) == b"abc"
     with pytest.raises(PageFault):
-        memory.string(2 * PAGE - 3, 4)
-    memory.write(2 * PAGE - 1, b"\0")
-    assert memory.string(2 * PAGE - 3, 1000) == b"ab"
-    for address in (0, PAGE - 1, 2 * PAGE):
+        memory.string(end - 3, 4)
+    memory.write(end - 1, b"\0")
+    assert memory.string(end - 3, 1000) == b"ab"
+    for address in (0, SYSTEM_AREA, FIRST + PAGE):
         with pytest.raises(PageFault):
             memory.string(address, 5)
+
+
+# The stack of compiled programs, and who is told.
+
+
+def test_a_stack_is_opened_in_pages_and_never_shrinks(memory):
+    assert memory.stack == SYSTEM_AREA
+    memory.open_stack(PAGE + 1)
+    assert memory.stack == SYSTEM_AREA - 2 * PAGE
+    memory.open_stack(1)
+    assert memory.stack == SYSTEM_AREA - 2 * PAGE
+    memory.open_stack(MAX_STACK)
+    assert memory.stack == PAGE
+
+
+@pytest.mark.parametrize("size", [-1, MAX_STACK + 1])
+def test_an_impossible_stack_is_refused(memory, size):
+    with pytest.raises(ConfigurationError, match=f"stack of {size} bytes: at most 983040"):
+        memory.open_stack(size)
+
+
+def test_followers_hear_when_the_valid_addresses_change(memory):
+    heard = []
+    memory.follow(lambda: heard.append((memory.stack, memory.limit)))
+    memory.allocate(1)
+    memory.allocate(PAGE - 1)
+    memory.allocate(1)
+    memory.open_stack(1)
+    stack = SYSTEM_AREA - PAGE
+    assert heard == [
+        (SYSTEM_AREA, FIRST + PAGE),
+        (SYSTEM_AREA, FIRST + 2 * PAGE),
+        (stack, FIRST + 2 * PAGE),
+    ]
+
+
+def test_the_host_address_is_where_address_0_lies(memory):
+    address = memory.allocate(4)
+    memory.write(address, b"plc!")
+    assert ctypes.string_at(memory.host_address() + address, 4) == b"plc!"
 
 
 # Variables
@@ -181,10 +249,10 @@ def test_a_string_must_not_run_into_an_invalid_address(memory):
 def test_a_new_variable_is_aligned_and_has_its_initial_values(memory):
     memory.allocate(1)
     cell = memory.new(Cell, "context")
-    assert adr(cell) == PAGE + 4
+    assert adr(cell) == FIRST + 4
     assert (cell.number, cell.main.speed, cell.axes[3].speed, cell.name) == (-3, 1.5, 1.5, "cell")
     assert context_of(cell.axes[2]) == "context"
-    assert memory.used == adr(cell) + type_of(Cell).size
+    assert memory.used == 4 + type_of(Cell).size
 
 
 def test_view_and_memory_are_the_same_bytes(memory):

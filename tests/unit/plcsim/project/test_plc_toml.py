@@ -135,7 +135,7 @@ def test_the_file_may_be_named_instead_of_the_folder(read):
         ("[plc]\ntick = 1\n" + MAIN, "plc.tick: 1 is not a string"),
         ("[plc]\nwatchdog = 'soon'\n" + MAIN, "plc.watchdog: 'soon' is not a duration"),
         ("[plc]\nmemory = '16 potatoes'\n" + MAIN, "plc.memory: '16 potatoes' is not a size"),
-        ("[plc]\nmemory = '5000'\n" + MAIN, "plc.memory: '5000' must be a multiple of 4096"),
+        ("[plc]\nmemory = '5000'\n" + MAIN, "plc.memory: '5000' must be a multiple of 65536"),
         ("[plc]\nmemory = '4096MiB'\n" + MAIN, "plc.memory: '4096MiB' must be a multiple of"),
         ("[plc]\nrealtime = 'yes'\n" + MAIN, "plc.realtime: 'yes' is not \"auto\""),
         ("[plc]\nrealtime = true\n" + MAIN, "plc.realtime: True is not a string"),

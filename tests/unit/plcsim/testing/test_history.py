@@ -2,7 +2,6 @@
 
 import pytest
 
-from plcsim.core.memory import PAGE
 from plcsim.testing.history import SHOWN, History
 
 
@@ -49,7 +48,7 @@ def test_without_cycles_or_tags_there_is_nothing_to_show(cell_plc):
 
 @pytest.mark.parametrize(("images", "kept"), [(1, SHOWN), (SHOWN + 3, SHOWN + 3), (9_999, 1_000)])
 def test_the_ring_is_bounded_by_bytes_but_keeps_what_is_shown(cell_plc, monkeypatch, images, kept):
-    size = cell_plc.controller.memory.used - PAGE
+    size = cell_plc.controller.memory.used
     monkeypatch.setattr("plcsim.testing.history.MOST_BYTES", images * size)
     history = History(cell_plc.controller)
     for _ in range(1_010):

@@ -1,5 +1,6 @@
 import pytest
 
+from plcsim.core.memory import FIRST
 from plcsim.modbus.service.handler import Rights
 
 from ..site import World
@@ -51,12 +52,12 @@ def test_the_server_id_names_the_product(world: World) -> None:
 def test_what_the_map_does_not_allow_is_refused_and_changes_nothing(
     world: World, asked: str, code: int
 ) -> None:
-    before = world.plc.memory.read(4096, 600)
+    before = world.plc.memory.read(FIRST, 600)
     cycles = world.tag("p.cycles")
     function = int(asked[:2], 16)
     assert world.ask(asked) == f"{function | 0x80:02x}{code:02x}"
     assert world.tag("p.cycles") == cycles
-    assert world.plc.memory.read(4096, 600) == before
+    assert world.plc.memory.read(FIRST, 600) == before
 
 
 def test_a_write_is_in_the_next_cycle_and_read_back_by_the_next_request(world: World) -> None:
