@@ -94,7 +94,7 @@ def printable(text: str) -> str:
 
 
 def value_in(image: bytes, tag: Tag) -> object:
-    """Return the value of a tag in a copy of the memory above its first page."""
+    """Return the value of a tag in a copy of the memory from `FIRST`."""
     start = tag.address - FIRST
     return decode(tag.data_type, image[start : start + tag.data_type.size])
 
