@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from plcsim.core.errors import PageFault, PlcError
     from plcsim.core.function_block import FunctionBlock
     from plcsim.core.memory import adr, sizeof
-    from plcsim.core.task import Program
+    from plcsim.program.python.program import Program
 
 __all__ = ["FunctionBlock", "PageFault", "PlcError", "Program", "adr", "sizeof"]
 
@@ -18,7 +18,7 @@ __getattr__ = lazy_names(
         "FunctionBlock": "plcsim.core.function_block",
         "PageFault": "plcsim.core.errors",
         "PlcError": "plcsim.core.errors",
-        "Program": "plcsim.core.task",
+        "Program": "plcsim.program.python.program",
         "adr": "plcsim.core.memory",
         "sizeof": "plcsim.core.memory",
     },

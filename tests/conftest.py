@@ -10,9 +10,12 @@ import textwrap
 import pytest
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.memory import PAGE
-from plcsim.core.task import Program
+from plcsim.host.garbage import collect_while_idle
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
+from plcsim.program.setup import make_controller as controller_of
 
 MS = 1_000_000
 
@@ -36,7 +39,7 @@ def task_class():
     """
 
     def task_class(number, cycle_ms, settings=None, /, **programs):
-        setups = [ProgramSetup(name, program) for name, program in programs.items()]
+        setups = [ProgramSetup(name, PythonCode(program)) for name, program in programs.items()]
         return TaskClassSetup(number, cycle_ms * MS, setups, **(settings or {}))
 
     return task_class
@@ -58,11 +61,13 @@ def make_controller(clock):
         setup = Setup(
             classes,
             memory_size=16 * PAGE,
-            exception_program=exception and ProgramSetup("exception", exception),
+            exception_program=exception and ProgramSetup("exception", PythonCode(exception)),
         )
         own_clock = options.pop("clock", clock)
         assert not options
-        return Controller(setup, network=None, clock=own_clock, heartbeat=heartbeat)
+        return controller_of(
+            setup, network=None, clock=own_clock, heartbeat=heartbeat, idle=collect_while_idle
+        )
 
     return make_controller
 

@@ -9,17 +9,17 @@ from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller
 from plcsim.core.duration import format_duration
 from plcsim.host.realtime import missing_cpu
 from plcsim.network import VirtualNetwork
+from plcsim.program.setup import make_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import load_setup, read_project
-from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     import argparse
 
+    from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.project.plc_toml import Project
 
@@ -44,7 +44,7 @@ def check(options: argparse.Namespace) -> int:
     project = read_project(options.project)
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
-    controller = Controller(load_setup(project), network=network, clock=clock)
+    controller = make_controller(load_setup(project), network=network, clock=clock)
     notes = [*check_settings(project.extensions, controller), *notes_on_cpu(project)]
     console = CommandConsole()
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -79,7 +79,7 @@ def _add_rows(table: Table, task_class: TaskClass, controller: Controller) -> No
             format_duration(task_class.cycle_ns),
             format_duration(task_class.tolerance_ns),
             task.name,
-            f"16#{address_of(task.variables):08X}",
-            str(type_of(task.variables).size),
+            f"16#{task.variables.address:08X}",
+            str(task.variables.data_type.size),
             str(tags),
         )

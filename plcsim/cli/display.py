@@ -126,7 +126,7 @@ def print_summary(result: dict[str, Any]) -> None:
     if fault:
         text = Text(f"SERVICE: {fault}", style="bold red")
         console.print(text, soft_wrap=True)  # so that no file name is cut
-        console.print(source_line(result["fault"]["place"]), end="", soft_wrap=True)
+        console.print(source_line(result["fault"]["location"]), end="", soft_wrap=True)
     entries = [
         e
         for e in result["logbook"]
@@ -167,9 +167,9 @@ def _blame(classes: list[dict[str, Any]]) -> str:
     return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())
 
 
-def source_line(place: str) -> str:
+def source_line(location: str) -> str:
     """Return the line of a program at "file:line", with its number; "" where there is none."""
-    file, _, number = place.rpartition(":")
+    file, _, number = location.rpartition(":")
     line = linecache.getline(file, int(number)) if number.isdecimal() else ""
     return f"{number:>6} | {line.rstrip()}\n" if line else ""
 
@@ -177,5 +177,5 @@ def source_line(place: str) -> str:
 def _fault_text(fault: dict[str, Any]) -> str:
     if fault["kind"] == "cycle_time_violation":
         return f"task class {fault['task_class']}: {fault['text']}"
-    place = f" ({fault['place']})" if fault["place"] else ""
-    return f"{fault['program']} {fault['unit']}".rstrip() + f": {fault['text']}{place}"
+    location = f" ({fault['location']})" if fault["location"] else ""
+    return f"{fault['program']} {fault['unit']}".rstrip() + f": {fault['text']}{location}"

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
 
     from plcsim.core.memory import Memory
     from plcsim.core.task import Violation
-    from plcsim.network.protocol import Network
 
 T = TypeVar("T")
 
@@ -21,7 +20,7 @@ class Context:
 
     Attributes:
         memory: where all variables lie.
-        network: what the AsTCP blocks talk over.
+        network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
         violation: the violation an exception program was called for, None before the first.
         options: settings of controller libraries: table [library.NAME] of plc.toml by NAME.
     """
@@ -31,7 +30,7 @@ class Context:
     def __init__(
         self,
         memory: Memory,
-        network: Network,
+        network: object,
         options: Mapping[str, Mapping[str, object]] | None = None,
     ) -> None:
         self.memory = memory

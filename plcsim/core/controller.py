@@ -2,69 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.clock import MonotonicClock
-from plcsim.core.context import Context
 from plcsim.core.duration import format_duration
-from plcsim.core.errors import CycleTimeViolation, ProgramError
+from plcsim.core.errors import ProgramError
 from plcsim.core.image import ProcessImage
 from plcsim.core.logbook import Logbook, Severity
-from plcsim.core.memory import DEFAULT_SIZE, Memory
 from plcsim.core.scan import Scan
 from plcsim.core.system import Event, State, next_state
 from plcsim.core.tag import TagTable
-from plcsim.core.task import Cause, Policy, Program, Task, TaskClass, Unit, Violation, task_of
-from plcsim.program.python.place import describe, place_of
-from st_types.types.views import reset
+from plcsim.core.task import Cause, Policy, Task, TaskClass, Unit, Violation
+from st_types.types.values import initial_image
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from plcsim.core.clock import Clock
-    from plcsim.network.protocol import Network
+    from plcsim.core.context import Context
 
 VIOLATIONS_KEPT = 100
 """Records of violations kept; all are counted."""
-
-
-@dataclass(frozen=True)
-class ProgramSetup:
-    """A program and the name it runs under."""
-
-    name: str
-    program: type[Program]
-
-
-@dataclass(frozen=True)
-class TaskClassSetup:
-    """A task class as configured; for the fields see `plcsim.core.task.TaskClass`."""
-
-    number: int
-    cycle_ns: int
-    programs: Sequence[ProgramSetup]
-    tolerance_ns: int = 0
-    first_release_ns: int | None = None
-    policy: Policy = Policy.SERVICE
-    host_policy: Policy = Policy.LOG
-
-
-@dataclass(frozen=True)
-class Setup:
-    """A controller as configured.
-
-    Attributes:
-        classes: the task classes.
-        memory_size: bytes of PLC memory.
-        exception_program: runs once for each violation under the policy "exception".
-        options: tables [library.NAME] of plc.toml by NAME.
-    """
-
-    classes: Sequence[TaskClassSetup]
-    memory_size: int = DEFAULT_SIZE
-    exception_program: ProgramSetup | None = None
-    options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
 
 
 class Heartbeat(Protocol):
@@ -99,12 +57,17 @@ class Controller:
     Call `boot`, then `run` as often as wanted, then `shutdown`.
 
     Args:
-        setup: what runs on it.
+        classes: what runs on it; the variables of all tasks lie in the context's memory.
+        context: what its programs and blocks work with.
+        exception_task: runs once for each violation under the policy "exception".
         clock: virtual or real; the real one by default.
-        network: what the AsTCP blocks talk over.
         heartbeat: told of every program that starts and every cycle that ends.
+        idle: see `plcsim.core.scan.Scan`.
 
     Attributes:
+        classes: in the order of their numbers.
+        tasks: in configured order, that of the exception program last.
+        areas: all variables of the controller: those of each program as one tag.
         state: BOOT, RUN, SERVICE or STOPPED.
         fault: what led to SERVICE, None otherwise.
         stop_requested: `stop` was called since the last `boot`.
@@ -113,51 +76,37 @@ class Controller:
 
     def __init__(
         self,
-        setup: Setup,
+        classes: Sequence[TaskClass],
+        context: Context,
         *,
-        network: Network,
+        exception_task: Task | None = None,
         clock: Clock | None = None,
         heartbeat: Heartbeat | None = None,
+        idle: Callable[[int], None] = lambda _idle_ns: None,
     ) -> None:
         self.clock = clock or MonotonicClock()
-        self.memory = Memory(setup.memory_size)
-        self.context = Context(self.memory, network, setup.options)
+        self.context = context
+        self.memory = context.memory
         self.logbook = Logbook()
         self.state = State.BOOT
         self.fault: ProgramError | Violation | None = None
         self.violations: list[Violation] = []
-        self.classes = [self._task_class(c) for c in sorted(setup.classes, key=lambda c: c.number)]
+        self.image = ProcessImage()
+        self.scan = Scan(classes, self.clock, context, self.image, self, idle)
+        self.image.attach(self.scan)
+        self.classes = self.scan.classes
+        self._exception_task = exception_task
         self.tasks = [task for c in self.classes for task in c.tasks]
-        self._exception_task = self._task(setup.exception_program)
-        if self._exception_task is not None:
-            self.tasks.append(self._exception_task)
+        if exception_task is not None:
+            self.tasks.append(exception_task)
         for index, task in enumerate(self.tasks):
             task.index = index
-        self.tags = TagTable(self.memory, self.tasks)
-        self.image = ProcessImage()
-        self.scan = Scan(self.classes, self.clock, self.context, self.image, self, place_of)
-        self.image.attach(self.scan)
+        self.areas = tuple(task.variables for task in self.tasks)
+        self.tags = TagTable(self.memory, self.areas)
         self._heartbeat = heartbeat or _Nobody()
         self._origin_ns = self.clock.now_ns()
         self.stop_requested = False
         self._started = False
-
-    def _task(self, setup: ProgramSetup | None) -> Task | None:
-        if setup is None:
-            return None
-        return task_of(setup.name, self.memory.new(setup.program, self.context))
-
-    def _task_class(self, setup: TaskClassSetup) -> TaskClass:
-        tasks = [self._task(program) for program in setup.programs]
-        return TaskClass(
-            setup.number,
-            setup.cycle_ns,
-            setup.tolerance_ns,
-            [task for task in tasks if task is not None],
-            first_release_ns=setup.first_release_ns,
-            policy=setup.policy,
-            host_policy=setup.host_policy,
-        )
 
     def boot(self) -> State:
         """Give all variables their initial values and run every INIT, in configured order.
@@ -175,8 +124,8 @@ class Controller:
             self.context.restart()
         self.context.release_ns = self.clock.now_ns()
         self._heartbeat.changed(self.state)
-        for task in self.tasks:
-            reset(task.variables)
+        for _, data_type, address in self.areas:
+            self.memory.write(address, initial_image(data_type))
         for task in self.tasks:
             self._run_unit(task, Unit.INIT)
             if self.state is not State.BOOT:
@@ -213,12 +162,12 @@ class Controller:
         self.scan.stop()
 
     def abort_program(self, reason: str) -> None:
-        """Raise CycleTimeViolation in the program that is running, if one is.
+        """End the program that is running, if one is, by CycleTimeViolation.
 
         Only a signal handler in the scan's own thread may call this.
         """
         if self.scan.active is not None:
-            raise CycleTimeViolation(reason)
+            self.scan.active.interrupt(reason)
 
     def shutdown(self) -> State:
         """Run every EXIT, in configured order, and close what the libraries hold.
@@ -280,7 +229,7 @@ class Controller:
             self.scan.run_exception_program(self._exception_task)
 
     def _program_failed(self, task: Task, unit: Unit, error: BaseException) -> None:
-        fault = ProgramError(task.name, unit.value, place_of(error), describe(error))
+        fault = ProgramError(task.name, unit.value, task.fault_of(error))
         fault.__cause__ = error
         self.log(Severity.ERROR, task.name, str(fault))
         self._go_to_service(fault)
@@ -303,8 +252,8 @@ def describe_violation(violation: Violation) -> str:
         ),
         Cause.HOST: "the host did not give the CPU in time",
     }[violation.cause]
-    if violation.place:
-        text = f"program {violation.program} did not return, ended at {violation.place}"
+    if violation.location:
+        text = f"program {violation.program} did not return, ended at {violation.location}"
     end = (
         f"ended {format_duration(violation.response_ns)} after its release, "
         f"limit {format_duration(violation.limit_ns)}"

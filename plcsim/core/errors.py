@@ -16,6 +16,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 
 class PlcError(Exception):
     """Base of all errors of this package."""
@@ -55,20 +57,34 @@ class CycleTimeViolation(BaseException):  # the field's term
     """Raised by the watchdog in a program that does not return."""
 
 
+class Fault(NamedTuple):
+    """What stopped a program, as its language tells it.
+
+    Attributes:
+        location: "file:line" of the program's own source, "" where there is none.
+        reason: what happened, in one line.
+        calls: "file:line in NAME" of each call that led there, the outermost first.
+    """
+
+    location: str
+    reason: str
+    calls: tuple[str, ...] = ()
+
+
 class ProgramError(PlcError):
     """What a program raised.
 
     Attributes:
         program: name of the program in plc.toml.
         unit: INIT, CYCLIC or EXIT, "" where none of them ran.
-        place: "file:line" of the program's own source, "" where there is none.
-        reason: what happened, in one line.
+        location: as in `Fault`, like the rest.
+        reason: likewise.
+        calls: likewise.
     """
 
-    def __init__(self, program: str, unit: str, place: str, reason: str) -> None:
-        where = f" ({place})" if place else ""
-        super().__init__(f"{program} {unit}".rstrip() + f": {reason}{where}")
+    def __init__(self, program: str, unit: str, fault: Fault) -> None:
+        where = f" ({fault.location})" if fault.location else ""
+        super().__init__(f"{program} {unit}".rstrip() + f": {fault.reason}{where}")
         self.program = program
         self.unit = unit
-        self.place = place
-        self.reason = reason
+        self.location, self.reason, self.calls = fault

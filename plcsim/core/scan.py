@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.errors import CycleTimeViolation, PhaseError
 from plcsim.core.task import Cause, Policy, TaskClass, Violation
-from plcsim.host.garbage import collect_while_idle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -71,7 +70,8 @@ class Scan:
         context: its ``release_ns`` is set before programs run.
         image: called in LATCH and PUBLISH.
         supervisor: told of everything that goes on.
-        place_of: gives "file:line" of what a program raised.
+        idle: called in SLEEP with the nanoseconds until the next release, for what must not cost a
+            cycle its time.
 
     Attributes:
         classes: in order.
@@ -89,7 +89,7 @@ class Scan:
         context: Context,
         image: Image,
         supervisor: Supervisor,
-        place_of: Callable[[BaseException], str],
+        idle: Callable[[int], None],
     ) -> None:
         numbers = sorted(c.number for c in classes)
         if not numbers or len(set(numbers)) < len(numbers):
@@ -106,7 +106,7 @@ class Scan:
         self._context = context
         self._image = image
         self._supervisor = supervisor
-        self._place_of = place_of
+        self._idle = idle
         self._own_ns = 0
         self._aborted: tuple[Task, str] | None = None
         self._end_ns = _NEVER
@@ -179,7 +179,7 @@ class Scan:
 
     def _sleep(self, until_ns: int) -> None:
         self.require(Phase.SLEEP)
-        collect_while_idle(until_ns - self._clock.now_ns())
+        self._idle(until_ns - self._clock.now_ns())
         self._clock.sleep_until_ns(until_ns)
 
     def _run_class(self, task_class: TaskClass) -> None:
@@ -207,20 +207,20 @@ class Scan:
         self._account(task_class, self._clock.now_ns())
 
     def _run_tasks(self, task_class: TaskClass) -> None:
-        place = self.classes.index(task_class)
+        order = self.classes.index(task_class)
         for task in task_class.tasks:
-            if place:
-                self._run_higher(place)
+            if order:
+                self._run_higher(order)
             if self.halted:
                 return
             error = self._run_task(task)
             if error is not None:
-                self._aborted = task, self._place_of(error)
+                self._aborted = task, task.fault_of(error).location
 
-    def _run_higher(self, place: int) -> None:
-        """Run the classes before ``place`` that have been released meanwhile."""
+    def _run_higher(self, below: int) -> None:
+        """Run the first ``below`` classes in order that have been released meanwhile."""
         while self._goes_on():
-            due = self._due(place)
+            due = self._due(below)
             if due is None:
                 return
             self._run_class(due)
@@ -289,7 +289,7 @@ class Scan:
             cause = Cause.HOST
         suspects = others if cause is Cause.PREEMPTED else own
         suspect = max(suspects, key=suspects.__getitem__, default=None)
-        task, place = self._aborted or (suspect, "")
+        task, location = self._aborted or (suspect, "")
         return Violation(
             task_class=task_class.number,
             program=task.name if task else "",
@@ -300,5 +300,5 @@ class Scan:
             own_ns=own_ns,
             others_ns=others_ns,
             limit_ns=limit_ns,
-            place=place,
+            location=location,
         )

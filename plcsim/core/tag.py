@@ -11,13 +11,11 @@ from plcsim.core.suggestion import did_you_mean
 from st_types.errors import ValueRangeError
 from st_types.types.derived import ArrayType, DataBlockType, StructType, resolve_alias
 from st_types.types.values import encode
-from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from plcsim.core.memory import Memory
-    from plcsim.core.task import Task
     from st_types.types.elementary import DataType
 
 
@@ -66,15 +64,12 @@ class TagTable:
 
     Args:
         memory: where the variables lie.
-        tasks: the programs, whose names are the first part of a path.
+        areas: all variables of each program as one tag; its path is the first part of theirs.
     """
 
-    def __init__(self, memory: Memory, tasks: Sequence[Task]) -> None:
+    def __init__(self, memory: Memory, areas: Sequence[Tag]) -> None:
         self._memory = memory
-        self._programs = {
-            t.name.upper(): Tag(t.name, type_of(t.variables), address_of(t.variables))
-            for t in tasks
-        }
+        self._programs = {area.path.upper(): area for area in areas}
 
     def find(self, path: str) -> Tag:
         """Return the tag ``path``; case does not matter.

@@ -6,41 +6,15 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.statistics import Histogram
-from st_types.types.views import Struct, context_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
-    from plcsim.core.context import Context
+    from plcsim.core.errors import Fault
+    from plcsim.core.tag import Tag
 
 LOWEST_CLASS = 1
 HIGHEST_CLASS = 8
-
-
-class Program(Struct):
-    """Base of programs written in Python: variables and the units INIT, CYCLIC and EXIT.
-
-    Variables are declared in the class body with `st_types.var`; they lie in PLC memory and are the
-    program's tags. Other Python objects must be named in ``__slots__``; they are not tags. Any of
-    the three units may be left out.
-    """
-
-    __slots__ = ()
-
-    def init(self) -> None:
-        """INIT: runs once before the first cycle; its time is not monitored."""
-
-    def cyclic(self) -> None:
-        """CYCLIC: runs once in every cycle of the task class."""
-
-    def exit(self) -> None:
-        """EXIT: runs once when the controller stops."""
-
-    @property
-    def context(self) -> Context:
-        """The controller the program runs on."""
-        context: Context = context_of(self)
-        return context
 
 
 class Unit(Enum):
@@ -54,29 +28,48 @@ class Unit(Enum):
 class Task:
     """A program under a name in a task class; two tasks of one program have two sets of variables.
 
+    What it is written in shows nowhere but in what it is given.
+
     Attributes:
         name: as in plc.toml; the first part of the program's tags.
-        variables: the view of the program's variables.
+        variables: all variables of the program as one tag, its path the name of the task.
         units: what runs for INIT, CYCLIC and EXIT.
+        fault_of: tells what something that a unit raised means, and where it was.
+        interrupt: ends the unit that runs: it raises CycleTimeViolation with the given reason, at
+            once or as soon as it can. Called by a signal handler in the scan's own thread, and only
+            while a unit of this task runs.
         execution: CPU time of CYCLIC, one entry per cycle.
-        index: place among all tasks of the controller, in configured order.
+        index: number among all tasks of the controller, in configured order.
     """
 
-    __slots__ = ("cyclic", "execution", "index", "name", "units", "variables")
+    __slots__ = (
+        "cyclic",
+        "execution",
+        "fault_of",
+        "index",
+        "interrupt",
+        "name",
+        "units",
+        "variables",
+    )
 
-    def __init__(self, name: str, variables: Struct, units: dict[Unit, Callable[[], None]]) -> None:
+    def __init__(
+        self,
+        name: str,
+        variables: Tag,
+        units: Mapping[Unit, Callable[[], None]],
+        *,
+        fault_of: Callable[[BaseException], Fault],
+        interrupt: Callable[[str], None],
+    ) -> None:
         self.name = name
         self.variables = variables
         self.units = units
         self.cyclic = units[Unit.CYCLIC]
+        self.fault_of = fault_of
+        self.interrupt = interrupt
         self.execution = Histogram()
         self.index = 0
-
-
-def task_of(name: str, program: Program) -> Task:
-    """Return the task that runs a Python program under ``name``."""
-    units = {Unit.INIT: program.init, Unit.CYCLIC: program.cyclic, Unit.EXIT: program.exit}
-    return Task(name, program, units)
 
 
 class Cause(Enum):
@@ -108,7 +101,7 @@ class Violation(NamedTuple):
         own_ns: CPU time of the class' own programs; wall time of those that waited.
         others_ns: CPU time of programs of other classes between release and end.
         limit_ns: cycle time plus tolerance.
-        place: "file:line" where a program that did not return was ended, "" otherwise.
+        location: "file:line" where a program that did not return was ended, "" otherwise.
     """
 
     task_class: int
@@ -120,7 +113,7 @@ class Violation(NamedTuple):
     own_ns: int
     others_ns: int
     limit_ns: int
-    place: str = ""
+    location: str = ""
 
 
 class TaskClass:

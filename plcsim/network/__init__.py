@@ -16,6 +16,7 @@ from plcsim.network.protocol import (
     Received,
     Sent,
     Socket,
+    network_of,
 )
 from plcsim.network.virtual_network import VirtualNetwork
 from plcsim.network.wire import Limits, Link
@@ -35,4 +36,5 @@ __all__ = [
     "Sent",
     "Socket",
     "VirtualNetwork",
+    "network_of",
 ]

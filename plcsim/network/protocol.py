@@ -7,7 +7,10 @@ as an ``Outcome``; nothing is raised and no name is ever resolved: an address is
 from __future__ import annotations
 
 from enum import Enum, auto
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
+
+if TYPE_CHECKING:
+    from plcsim.core.context import Context
 
 ANY_IP = "0.0.0.0"  # noqa: S104  # the literal is compared and passed on by choice of the program
 """Address of all interfaces of a host."""
@@ -250,6 +253,11 @@ class Network(Protocol):
             OK with the socket, IN_USE, NOT_LOCAL, INVALID_ADDRESS, DENIED, NO_RESOURCES,
             INVALID (port out of range) or SYSTEM.
         """
+
+
+def network_of(context: Context) -> Network:
+    """Return what the blocks of a controller talk over."""
+    return cast("Network", context.network)
 
 
 def is_ipv4(text: str) -> bool:

@@ -66,8 +66,9 @@ def fault_report(fault: ProgramError | Violation | None) -> dict[str, Any] | Non
             "kind": "program_error",
             "program": fault.program,
             "unit": fault.unit,
-            "place": fault.place,
+            "location": fault.location,
             "text": fault.reason,
+            "calls": list(fault.calls),
         }
     return {"kind": "cycle_time_violation", **violation_report(fault)}
 

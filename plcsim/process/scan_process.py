@@ -18,11 +18,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
-from plcsim.core.controller import Controller
 from plcsim.core.errors import ConfigurationError, PlcError
 from plcsim.host import realtime
+from plcsim.host.garbage import collect_while_idle
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.process.report import report
+from plcsim.program.setup import make_controller
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.project.plc_toml import FILE_NAME, Project, load_setup, read_project
 from plcsim.shared_image import ImageWriter
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from plcsim.core.clock import Clock
+    from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
 
@@ -118,7 +120,13 @@ def _run(order: RunOrder) -> dict[str, Any]:
     )
     page = _PageHeartbeat(order.status_fd)
     page.clock = clock
-    controller = Controller(load_setup(project), network=network, clock=clock, heartbeat=page)
+    controller = make_controller(
+        load_setup(project),
+        network=network,
+        clock=clock,
+        heartbeat=page,
+        idle=collect_while_idle,
+    )
     _share(controller, project, order)
     _handle_signals(controller)
     rights = _take_rights(project, order)

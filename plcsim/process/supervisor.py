@@ -20,7 +20,7 @@ import time
 from typing import TYPE_CHECKING, Any, Self
 
 from plcsim.core.duration import format_duration
-from plcsim.core.errors import PlcError, ProgramError
+from plcsim.core.errors import Fault, PlcError, ProgramError
 from plcsim.core.system import State
 from plcsim.core.task import Unit
 from plcsim.host import realtime
@@ -242,20 +242,21 @@ class Supervisor:
         reason = self._kill_reason or (
             f"the scan process ended with {_code_name(self._process.returncode)}"
         )
-        place = self._place_of_death()
+        location = self._location_of_death()
         if self._stopped_while_loading:
             return self._report_of_death(None)
         if self._is_loading:
-            return {"error": f"{place or self._project.folder}: {reason}"}
-        return self._report_of_death(self._fault(reason, place))
+            return {"error": f"{location or self._project.folder}: {reason}"}
+        return self._report_of_death(self._fault(reason, location))
 
-    def _fault(self, reason: str, place: str) -> ProgramError:
+    def _fault(self, reason: str, location: str) -> ProgramError:
         """Return the program and the unit that were active, as the fault."""
         active = self.page.active
         if active is None:
-            return ProgramError("scan", "", place, reason)
+            return ProgramError("scan", "", Fault(location, reason))
         unit = {State.BOOT: Unit.INIT, State.RUN: Unit.CYCLIC}.get(self.page.state, Unit.EXIT)
-        return ProgramError(self._project.programs[active].name, unit.value, place, reason)
+        name = self._project.programs[active].name
+        return ProgramError(name, unit.value, Fault(location, reason))
 
     def _report_of_death(self, fault: ProgramError | None) -> dict[str, Any]:
         state = State.SERVICE if fault else State.STOPPED
@@ -281,7 +282,7 @@ class Supervisor:
             "logbook_dropped": 0,
         }
 
-    def _place_of_death(self) -> str:
+    def _location_of_death(self) -> str:
         """Return "file:line" of the innermost frame of the project's own files."""
         folder = str(self._project.folder.resolve()) + os.sep
         frames = _FRAME.findall(_read_all(self._dump_fd).decode("utf-8", "replace"))

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from plcsim.core.controller import ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
 from plcsim.library.options import check_options
-from plcsim.program.python.loader import ProgramLoader
+from plcsim.program.loader import ProgramLoader
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.project.extension import extensions
 from plcsim.project.table import Table
 

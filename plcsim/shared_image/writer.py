@@ -19,7 +19,6 @@ from plcsim.shared_image import layout
 from plcsim.shared_image.command import Mask, Scatter, decode_command
 from plcsim.shared_image.directory import Directory, Variables, hash_of
 from plcsim.shared_image.ring import Consumer
-from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -101,10 +100,7 @@ class ImageWriter:
         self.directory = Directory(
             project,
             min(c.cycle_ns for c in controller.classes),
-            [
-                Variables(t.name, address_of(t.variables), type_of(t.variables))
-                for t in controller.tasks
-            ],
+            [Variables(area.path, area.address, area.data_type) for area in controller.areas],
             [(span.address, span.size) for span in self._spans],
             services,
         )
@@ -255,8 +251,7 @@ def _owned(controller: Controller) -> dict[int, list[tuple[int, int]]]:
     """Return the address ranges of each class' variables by its number."""
     return {
         c.number: [
-            (address_of(t.variables), address_of(t.variables) + type_of(t.variables).size)
-            for t in c.tasks
+            (t.variables.address, t.variables.address + t.variables.data_type.size) for t in c.tasks
         ]
         for c in controller.classes
     }
@@ -264,9 +259,7 @@ def _owned(controller: Controller) -> dict[int, list[tuple[int, int]]]:
 
 def _spans(controller: Controller, exports: Sequence[Tag]) -> list[_Span]:
     """Return what a snapshot holds: all variables, or the exported tags where that is too much."""
-    whole = [
-        (address_of(task.variables), type_of(task.variables).size) for task in controller.tasks
-    ]
+    whole = [(area.address, area.data_type.size) for area in controller.areas]
     if sum(size for _, size in whole) > WHOLE_PROGRAMS:
         whole = _joined(controller, exports)
     owners = _owned(controller)
@@ -289,7 +282,7 @@ def _owner(owners: dict[int, list[tuple[int, int]]], address: int) -> int:
 def _joined(controller: Controller, exports: Sequence[Tag]) -> list[tuple[int, int]]:
     """Return the spans of tags, those that lie near each other in one program joined."""
     result: list[tuple[int, int]] = []
-    starts = {address_of(task.variables) for task in controller.tasks}
+    starts = {area.address for area in controller.areas}
     for tag in sorted(exports, key=lambda tag: tag.address):
         end = tag.address + tag.data_type.size
         if result:

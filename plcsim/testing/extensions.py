@@ -5,12 +5,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from plcsim.core.tag import Tag
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
 from plcsim.testing.errors import PlcTestError
-from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,13 +45,9 @@ class Extensions:
 
     def _share(self, controller: Controller, name: str) -> None:
         """Lay out the shared image, which holds all variables, however many they are."""
-        whole = [
-            Tag(task.name, type_of(task.variables), address_of(task.variables))
-            for task in controller.tasks
-        ]
         self._fd = make_file()
         services = dict.fromkeys(self._services)
-        ImageWriter(self._fd, controller, project=name, services=services, exports=whole)
+        ImageWriter(self._fd, controller, project=name, services=services, exports=controller.areas)
 
     def image(self, table: str) -> ImageReader:
         """Return the shared image as the service of a table has it.

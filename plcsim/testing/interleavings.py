@@ -14,7 +14,7 @@ from plcsim.testing.errors import PlcTestError
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from plcsim.core.controller import Setup, TaskClassSetup
+    from plcsim.program.setup import Setup, TaskClassSetup
 
 __tracebackhide__ = True
 

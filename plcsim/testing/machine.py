@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from plcsim.core.task import Program
+    from plcsim.program.python.program import Program
 
 __tracebackhide__ = True
 

@@ -8,11 +8,12 @@ from random import Random
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller
 from plcsim.core.errors import ProgramError
 from plcsim.core.logbook import Severity
 from plcsim.core.system import State
+from plcsim.host.garbage import collect_while_idle
 from plcsim.network import OsNetwork, VirtualNetwork
+from plcsim.program.setup import make_controller
 from plcsim.testing.condition import Condition
 from plcsim.testing.costs import Costs, garbage_held
 from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError, PlcTestError
@@ -30,9 +31,9 @@ from plcsim.testing.world import CONTROLLER_IP, World
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
 
-    from plcsim.core.controller import Setup
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
+    from plcsim.program.setup import Setup
     from plcsim.testing.condition import Given
 
 __tracebackhide__ = True
@@ -86,7 +87,9 @@ class Plc(World, Expectations):
         net = None if host_network else VirtualNetwork(self.clock.now_ns, seed=seed)
         network: Network = OsNetwork() if net is None else net.host(CONTROLLER_IP)
         self.settings = dict(settings or {})
-        self.controller = Controller(setup, network=network, clock=self.clock)
+        self.controller = make_controller(
+            setup, network=network, clock=self.clock, idle=collect_while_idle
+        )
         World.__init__(self, Tags(self.controller), net, seed)
         # first in PUBLISH and last in LATCH: nobody outside gets round a force
         self.controller.image.watchers.append(lambda _: self._forces.apply())

@@ -7,8 +7,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from plcsim.core.controller import ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.duration import parse_duration_ns
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.project.plc_toml import FILE_NAME, load_setup, read_project
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.core.task import Program
+    from plcsim.program.python.program import Program
 
 __tracebackhide__ = True
 
@@ -92,7 +93,7 @@ def program_target(
         cycle_ns = parse_duration_ns(cycle)
     except ValueError as err:
         raise PlcTestError(f"cycle: {err}") from None
-    setups = [ProgramSetup(program.__name__, program) for program in programs]
+    setups = [ProgramSetup(program.__name__, PythonCode(program)) for program in programs]
     classes = [TaskClassSetup(task_class, cycle_ns, setups, tolerance_ns=cycle_ns)]
     return Target(programs[0].__name__, Setup(classes))
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plcsim.network import Address, VirtualNetwork
-from plcsim.program.python.place import describe, place_of
+from plcsim.program.python.fault import describe, location_of
 from plcsim.testing.errors import PlantError, PlcTestError
 from plcsim.testing.faults import Faults
 from plcsim.testing.forces import Forces
@@ -167,7 +167,7 @@ class World(ABC):
                 peer.step()
             self.faults.apply()
         except Exception as error:  # whatever a test's own code raises
-            place = place_of(error)
+            place = location_of(error)
             raise PlantError(
                 f"{actor} raised in cycle {task_class.cycles} at {time_ns / 1e6:g} ms: "
                 f"{describe(error)}" + (f" ({place})" if place else "")

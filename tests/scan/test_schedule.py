@@ -12,9 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.memory import PAGE
-from plcsim.core.task import Cause, Policy, Program
+from plcsim.core.task import Cause, Policy
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 
 MS = 1_000_000
 HORIZON_NS = 60 * MS
@@ -91,7 +93,7 @@ class Play:
         self.ran = []
         self.cycles = []
         self._open = []
-        self.controller = Controller(
+        self.controller = make_controller(
             Setup([self._setup(plan) for plan in schedule], memory_size=16 * PAGE),
             network=None,
             clock=self.clock,
@@ -102,8 +104,10 @@ class Play:
 
     def _setup(self, plan):
         programs = [
-            ProgramSetup(f"p{plan.number}_{place}", self._program(plan.number, place, costs))
-            for place, costs in enumerate(plan.programs)
+            ProgramSetup(
+                f"p{plan.number}_{index}", PythonCode(self._program(plan.number, index, costs))
+            )
+            for index, costs in enumerate(plan.programs)
         ]
         return TaskClassSetup(
             plan.number,

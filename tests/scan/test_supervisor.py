@@ -111,7 +111,7 @@ def test_an_endless_loop_ends_in_service_within_a_second(program, start):
     assert entry["source"] == "task class 1"
     assert "cause program: program main did not return" in entry["text"]
     assert line_of(folder, "while True") in entry["text"]
-    assert report["fault"]["place"] == line_of(folder, "while True")
+    assert report["fault"]["location"] == line_of(folder, "while True")
     assert report["fault"]["response_ns"] < 1000 * MS
     assert report["task_classes"][0]["violations"]["program"] == 1
 
@@ -124,7 +124,7 @@ def test_a_loop_that_swallows_exceptions_is_ended_all_the_same(program, supervis
     folder = program(before=SPIN, cyclic=LOOP.format("Exception"))
     fault = supervise(folder)["fault"]
     assert fault["kind"] == "cycle_time_violation"
-    assert fault["place"] == line_of(folder, "time.monotonic()")
+    assert fault["location"] == line_of(folder, "time.monotonic()")
 
 
 @pytest.mark.parametrize(
@@ -142,9 +142,9 @@ def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit
     fault = result["fault"]
     assert (result["state"], fault["kind"]) == ("SERVICE", "program_error")
     assert (fault["program"], fault["unit"]) == ("main", unit.upper())
-    assert fault["place"] == line_of(folder, "sum(" if "sum" in body else "time.monotonic()")
+    assert fault["location"] == line_of(folder, "sum(" if "sum" in body else "time.monotonic()")
     assert "s and could not be interrupted" in fault["text"]
-    assert fault["place"] in result["logbook"][0]["text"]
+    assert fault["location"] in result["logbook"][0]["text"]
 
 
 def test_a_killed_program_is_exit_code_3(program, start):
@@ -170,7 +170,7 @@ def test_an_init_or_exit_that_does_not_return_is_ended(program, supervise, unit)
     folder = program(plc=QUICK_INIT, **{unit: "while True: pass"})
     fault = supervise(folder, cycles=1)["fault"]
     assert (fault["program"], fault["unit"]) == ("main", unit.upper())
-    assert fault["place"] == line_of(folder, "while True")
+    assert fault["location"] == line_of(folder, "while True")
     assert fault["text"] == "the program did not return"
 
 
@@ -178,7 +178,7 @@ def test_a_blocking_call_is_ended_and_blamed_on_the_program(program, supervise):
     folder = program(cyclic="time.sleep(3600)")
     fault = supervise(folder)["fault"]
     assert (fault["kind"], fault["cause"]) == ("cycle_time_violation", "program")
-    assert fault["place"] == line_of(folder, "time.sleep")
+    assert fault["location"] == line_of(folder, "time.sleep")
 
 
 def test_a_project_that_is_never_loaded_is_ended(program, finish):
@@ -210,7 +210,7 @@ def test_a_program_that_ends_the_process_is_reported(program, supervise, body, t
     assert result["state"] == "SERVICE"
     assert (fault["program"], fault["unit"]) == ("main", "CYCLIC")
     assert fault["text"] == f"the scan process ended with {text}"
-    assert fault["place"] == (line_of(folder, body) if text in ("SIGSEGV", "SIGABRT") else "")
+    assert fault["location"] == (line_of(folder, body) if text in ("SIGSEGV", "SIGABRT") else "")
 
 
 def stop_in_run(supervised):
@@ -319,7 +319,7 @@ def test_a_third_request_kills(program, supervise):
     fault = supervise(folder, ask)["fault"]
     assert len(asked) >= 3
     assert (fault["unit"], fault["text"]) == ("INIT", "killed because it did not stop")
-    assert fault["place"] == line_of(folder, "sum(")
+    assert fault["location"] == line_of(folder, "sum(")
 
 
 def test_ctrl_c_while_loading_stops(program, start):

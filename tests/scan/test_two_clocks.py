@@ -3,10 +3,12 @@
 import pytest
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.memory import PAGE
-from plcsim.core.task import Policy, Program
+from plcsim.core.task import Policy
 from plcsim.library.standard import CTU, R_TRIG, TON, TP
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from st_types import ARRAY, BOOL, DINT, LREAL, REAL, STRING, TIME, USINT, var
 
 MS = 1_000_000
@@ -59,8 +61,11 @@ class Lamp(Program):
 
 SETUP = Setup(
     [
-        TaskClassSetup(1, 10 * MS, [ProgramSetup("conveyor", Conveyor)], policy=Policy.LOG),
-        TaskClassSetup(2, 20 * MS, [ProgramSetup("lamp", Lamp)], policy=Policy.LOG),
+        TaskClassSetup(number, 10 * number * MS, [ProgramSetup(name, code)], policy=Policy.LOG)
+        for number, name, code in (
+            (1, "conveyor", PythonCode(Conveyor)),
+            (2, "lamp", PythonCode(Lamp)),
+        )
     ],
     memory_size=16 * PAGE,
 )
@@ -68,9 +73,9 @@ SETUP = Setup(
 
 def trace_of(clock):
     """Run on ``clock``; return the controller and, for each cycle, all tags and all bytes."""
-    controller = Controller(SETUP, network=None, clock=clock)
+    controller = make_controller(SETUP, network=None, clock=clock)
     tags = list(controller.tags)
-    conveyor = controller.tasks[0].variables
+    conveyor = controller.tasks[0].cyclic.__self__
     trace = []
 
     def set_inputs(task_class):
@@ -80,7 +85,7 @@ def trace_of(clock):
 
     def watch(task_class):
         values = {tag.path: controller.tags.read(tag) for tag in tags}
-        data = [bytes(task.variables) for task in controller.tasks]
+        data = [controller.memory.read(a.address, a.data_type.size) for a in controller.areas]
         trace.append((task_class.number, task_class.cycles, values, data))
 
     controller.image.inputs.append(set_inputs)

@@ -19,7 +19,7 @@ from plcsim.library.astcp.constants import (
     tcpOPT_REUSEADDR,
 )
 from plcsim.library.runtime import ERR_NOTIMPLEMENTED, ERR_OK
-from plcsim.network.protocol import Outcome
+from plcsim.network.protocol import Outcome, network_of
 from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class TcpOpen(AsTcpBlock):
         if idents.full:
             return tcpERR_NOMORE_IDENTS
         reuse_address = bool(self.options & tcpOPT_REUSEADDR)
-        outcome, made = self.context.network.open(ip, self.port, reuse_address=reuse_address)
+        outcome, made = network_of(self.context).open(ip, self.port, reuse_address=reuse_address)
         if made is None:
             return _STATUSES.get(outcome, tcpERR_SYSTEM)
         self.ident = idents.add(made)

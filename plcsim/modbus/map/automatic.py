@@ -14,7 +14,6 @@ from plcsim.modbus.map.errors import TagMapError
 from plcsim.modbus.map.point import ADDRESSES, KINDS, MOST_WRITTEN, REGISTERS, Area, Point, Row
 from plcsim.modbus.map.resolve import code_of
 from st_types.types.derived import StringType, resolve_alias
-from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -31,8 +30,7 @@ _WIDER = {"b": "h", "B": "H"}
 def all_tags(tasks: Sequence[Task]) -> Iterator[Tag]:
     """Iterate over the variables of all programs, every element of arrays, no function blocks."""
     for task in tasks:
-        start = address_of(task.variables)
-        yield from leaves(task.name, type_of(task.variables), start, blocks=False)
+        yield from leaves(*task.variables, blocks=False)
 
 
 def locked_rows(folder: Path) -> list[Row]:

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.suggestion import did_you_mean
-from plcsim.core.task import Program, Unit
+from plcsim.core.task import Unit
+from plcsim.program.python.program import Program
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -53,14 +54,14 @@ def _check_unit(program: type[Program], name: str, folder: Path) -> None:
         _check_misspelt(program, name, folder)
     if any(is_one(function) for is_one in _NOT_RUN_BY_A_CALL):
         raise ConfigurationError(
-            f"{_place_of(function, folder)}: {name} neither awaits nor yields: a call of it is one "
-            "whole run"
+            f"{_location_of(function, folder)}: {name} neither awaits nor yields: a call of it is "
+            "one whole run"
         )
     try:
         inspect.signature(function).bind(program)
     except TypeError:
         raise ConfigurationError(
-            f"{_place_of(function, folder)}: {name} takes self and nothing else"
+            f"{_location_of(function, folder)}: {name} takes self and nothing else"
         ) from None
 
 
@@ -69,11 +70,11 @@ def _check_misspelt(program: type[Program], name: str, folder: Path) -> None:
     for other, function in inspect.getmembers(program, inspect.isfunction):
         if other != name and other.lower() == name:
             raise ConfigurationError(
-                f"{_place_of(function, folder)}: the unit {other} is spelt {name}"
+                f"{_location_of(function, folder)}: the unit {other} is spelt {name}"
             )
 
 
-def _place_of(function: object, folder: Path) -> str:
+def _location_of(function: object, folder: Path) -> str:
     code = getattr(inspect.unwrap(function), "__code__", None) if callable(function) else None
     return f"{code.co_filename}:{code.co_firstlineno}" if code else str(folder)
 
@@ -97,8 +98,8 @@ def _check_names(program: type[Program], function: FunctionType) -> None:
     for node in _attributes_of(tree, tree.args.args[0].arg):
         if not node.attr.startswith("__") and not hasattr(program, node.attr):
             hint = did_you_mean(node.attr, dir(program))
-            place = f"{function.__code__.co_filename}:{first + node.lineno - 1}"
-            raise ConfigurationError(f"{place}: {program.__name__} has no {node.attr}{hint}")
+            location = f"{function.__code__.co_filename}:{first + node.lineno - 1}"
+            raise ConfigurationError(f"{location}: {program.__name__} has no {node.attr}{hint}")
 
 
 def _attributes_of(tree: ast.AST, name: str) -> Iterator[ast.Attribute]:

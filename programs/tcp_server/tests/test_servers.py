@@ -7,11 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller
 from plcsim.core.system import State
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.network import Address, Outcome, Socket, VirtualNetwork
+from plcsim.program.setup import make_controller
 from plcsim.project.plc_toml import load_setup, read_project
 
 SETUP = load_setup(read_project(Path(__file__).parents[1]))
@@ -24,7 +24,7 @@ class Cell:
     def __init__(self) -> None:
         self.clock = VirtualClock()
         self.host = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
-        self.plc = Controller(SETUP, network=self.host, clock=self.clock)
+        self.plc = make_controller(SETUP, network=self.host, clock=self.clock)
 
     def boot(self) -> "Cell":
         assert self.plc.boot() is State.RUN

@@ -14,11 +14,12 @@ from crosnode.plc.bridge import is_power_of_two
 from crosnode.plc.extension import EXTENSION
 from plcsim.core.clock import VirtualClock
 from plcsim.core.context import Context
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.memory import Memory
-from plcsim.core.task import Program
 from plcsim.network import VirtualNetwork
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.table import Table
 from st_types import ARRAY, BOOL, INT, LREAL, REAL, STRING, Struct, var
 
@@ -54,8 +55,8 @@ class Rig:
     def __init__(self, **tables: dict[str, Any]) -> None:
         clock = self.clock = VirtualClock()
         host = VirtualNetwork(clock.now_ns).host("192.168.0.10")
-        setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("plant", Plant)])])
-        self.plc = Controller(setup, network=host, clock=clock)
+        setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("plant", PythonCode(Plant))])])
+        self.plc = make_controller(setup, network=host, clock=clock)
         self.context = Context(Memory(), host)
         self.master = MasterServer(self.context, MasterOptions(host="127.0.0.1"))
         values = {"master": "http://127.0.0.1:11311/", "host": "127.0.0.1"} | tables

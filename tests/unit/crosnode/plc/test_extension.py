@@ -9,10 +9,12 @@ from crosnode.plc.in_process_master import InProcessMaster
 from crosnode.plc.project import create_node, surroundings
 from plcsim.cli.main import main
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.controller import Controller
 from plcsim.core.system import State
-from plcsim.core.task import Program
 from plcsim.network import VirtualNetwork
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.table import Table
 from st_types import BOOL, UDINT, var
 
@@ -50,8 +52,8 @@ class Talker(Program):
 def controller(**values: object) -> Controller:
     clock = VirtualClock()
     host = VirtualNetwork(clock.now_ns).host("192.168.0.10")
-    classes = [TaskClassSetup(1, MS, [ProgramSetup("talker", Talker)])]
-    plc = Controller(Setup(classes), network=host, clock=clock)
+    classes = [TaskClassSetup(1, MS, [ProgramSetup("talker", PythonCode(Talker))])]
+    plc = make_controller(Setup(classes), network=host, clock=clock)
     table = Table(Path("plc.toml"), "ros", {"master": "embedded", "host": "127.0.0.1"} | values)
     settings = EXTENSION.in_process(EXTENSION.read(table, Path()), "")
     attachment = EXTENSION.attach(settings, plc)
@@ -63,7 +65,7 @@ def test_programs_get_the_settings_and_the_master_runs_in_the_scan() -> None:
     plc = controller(namespace="/cell")
     plc.boot()
     plc.run(cycles=100)
-    node = plc.tasks[0].variables.node  # type: ignore[attr-defined]
+    node = plc.tasks[0].cyclic.__self__.node  # type: ignore[attr-defined]
     assert node.name == "/cell/talker"
     assert list(node.publishers) == ["/rosout", "/other"]
     assert node.is_registered
@@ -78,7 +80,7 @@ def test_after_service_a_restart_makes_node_and_master_anew() -> None:
     plc = controller()
     plc.boot()
     first = plc.context.library(InProcessMaster)
-    plc.tasks[0].variables.broken = True  # type: ignore[attr-defined]
+    plc.tasks[0].cyclic.__self__.broken = True  # type: ignore[attr-defined]
     assert plc.run(cycles=200) is State.SERVICE
     assert plc.boot() is State.RUN
     plc.run(cycles=80)

@@ -10,9 +10,10 @@ import pytest
 from plcsim import Program
 from plcsim.cli.main import main
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
 from plcsim.process.run_file import Run, announce
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.shared_image import ImageWriter
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, BYTE, ENUM, REAL, STRING, UINT, Struct, var
@@ -50,8 +51,8 @@ def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 def running(folder: Path, program: type[Program]) -> int:
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
-    setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("cell", program)])])
-    plc = Controller(setup, network=network, clock=clock)
+    setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("cell", PythonCode(program))])])
+    plc = make_controller(setup, network=network, clock=clock)
     fd = make_file()
     ImageWriter(fd, plc, project="cell", services={})
     plc.boot()

@@ -84,7 +84,7 @@ def test_init_and_exit_see_the_time_of_the_controller(make_controller, task_clas
 
 
 def _releases_of(seen):
-    from plcsim.core.task import Program
+    from plcsim.program.python.program import Program
 
     def note(program):
         seen.append(program.context.release_ns)
@@ -309,10 +309,10 @@ def test_a_restart_gives_variables_their_initial_values_and_closes_libraries(
     controller = make_controller(task_class(1, 10, p=program_of(cyclic, count=var(UINT, 7))))
     controller.boot()
     assert controller.run(cycles=5) is State.SERVICE
-    assert controller.tasks[0].variables.count == 9
+    assert controller.tasks[0].cyclic.__self__.count == 9
     assert controller.boot() is State.RUN
     assert controller.fault is None
-    assert controller.tasks[0].variables.count == 7
+    assert controller.tasks[0].cyclic.__self__.count == 7
     assert len(closed) == 1
     assert controller.run(cycles=1) is State.RUN
     controller.shutdown()

@@ -21,7 +21,7 @@ def controller(make_controller, task_class, program_of):
 
 def test_inputs_are_set_before_the_programs_run_and_watchers_see_what_they_did(controller):
     seen = []
-    variables = controller.tasks[0].variables
+    variables = controller.tasks[0].cyclic.__self__
 
     def plant(task_class):
         seen.append((task_class.number, variables.cycles))

@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.errors import PhaseError
+from plcsim.core.errors import Fault, PhaseError
 from plcsim.core.scan import Phase
 from plcsim.core.system import State
 from plcsim.core.task import Cause, Policy
@@ -411,9 +411,9 @@ def test_a_program_that_catches_exceptions_is_ended_all_the_same(
     assert the_violation(controller).cause is Cause.PROGRAM
 
 
-@pytest.mark.parametrize("place", ["main.py:7", ""])
+@pytest.mark.parametrize("location", ["main.py:7", ""])
 def test_a_program_that_was_ended_is_the_one_to_blame(
-    make_controller, task_class, trace, program_of, clock, place
+    make_controller, task_class, trace, program_of, clock, location
 ):
     def stuck(_):
         clock.spend_ns(2 * MS)
@@ -421,12 +421,12 @@ def test_a_program_that_was_ended_is_the_one_to_blame(
 
     programs = {"longer": trace.program("longer", 6), "stuck": program_of(stuck)}
     controller = make_controller(task_class(1, 10, **programs))
-    controller.scan._place_of = lambda _: place
+    controller.tasks[1].fault_of = lambda _: Fault(location, "")
     controller.boot()
     assert controller.run(cycles=3) is State.SERVICE
     violation = the_violation(controller)
     assert (violation.cause, violation.program) == (Cause.PROGRAM, "stuck")
-    assert violation.place == place
+    assert violation.location == location
     assert violation.response_ns == 8 * MS
 
 

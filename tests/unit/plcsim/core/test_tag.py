@@ -5,7 +5,7 @@ from enum import IntEnum
 import pytest
 
 from plcsim.core.errors import TagError
-from plcsim.core.task import Program
+from plcsim.program.python.program import Program
 from st_types import ARRAY, BOOL, ENUM, INT, REAL, STRING, TIME, UINT, Struct, var
 
 
@@ -69,7 +69,7 @@ def test_what_is_written_is_what_the_program_has(controller, tags):
         "cell.mode": 2,
     }.items():
         tags.write(tags.find(path), value)
-    cell, other = (task.variables for task in controller.tasks)
+    cell, other = (task.cyclic.__self__ for task in controller.tasks)
     assert (cell.parts, cell.on, cell.axes[2].speed) == (65535, True, 1.5)
     assert (cell.main.name, cell.grid[1, 1], cell.mode) == ("conveyor", -5, Mode.AUTO)
     assert (other.parts, other.on, other.grid[1, 1]) == (7, False, 0)

@@ -4,19 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.core.context import Context
-from plcsim.core.memory import PAGE, Memory
-from plcsim.core.task import Cause, Policy, Program, TaskClass, Unit, task_of
-from st_types import UINT, var
+from plcsim.core.task import Cause, Policy, Task, TaskClass, Unit
 
 MS = 1_000_000
-
-
-class Counter(Program):
-    count = var(UINT, 3)
-
-    def cyclic(self) -> None:
-        self.count += 1
 
 
 @pytest.mark.parametrize("number", [0, 9, -1])
@@ -71,7 +61,7 @@ def test_the_policies_by_default(cause, policy):
 
 def test_use_is_counted_from_the_release_on_and_by_program():
     def task():
-        return task_of("p", Program())
+        return Task("p", None, {Unit.CYCLIC: None}, fault_of=None, interrupt=None)
 
     own, other = task(), task()
     task_class = TaskClass(1, 100, 0, [own])
@@ -84,22 +74,3 @@ def test_use_is_counted_from_the_release_on_and_by_program():
     assert task_class.used_by_own_and_others() == ({own: 10}, {other: 20})
     task_class.advance(100)
     assert task_class.used_by_own_and_others() == ({}, {})
-
-
-def test_a_task_runs_the_units_of_its_program():
-    program = Counter()
-    task = task_of("counter", program)
-    assert task.units.keys() == set(Unit)
-    task.cyclic()
-    task.units[Unit.INIT]()
-    task.units[Unit.EXIT]()
-    assert program.count == 4
-
-
-def test_one_program_in_two_tasks_has_two_sets_of_variables():
-    memory = Memory(4 * PAGE)
-    context = Context(memory, network=None)
-    first, second = (task_of(name, memory.new(Counter, context)) for name in ("a", "b"))
-    first.cyclic()
-    assert (first.variables.count, second.variables.count) == (4, 3)
-    assert first.variables.context is context

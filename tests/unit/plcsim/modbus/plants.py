@@ -5,12 +5,14 @@ from pathlib import Path
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
+from plcsim.core.controller import Controller
 from plcsim.library.standard import TON
 from plcsim.modbus.map import Point
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
 from plcsim.network import VirtualNetwork
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from st_types import (
     ARRAY,
     BOOL,
@@ -80,8 +82,8 @@ class Everything(Program):
 def controller() -> Controller:
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
-    setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("p", Everything)])])
-    return Controller(setup, network=network, clock=clock)
+    setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("p", PythonCode(Everything))])])
+    return make_controller(setup, network=network, clock=clock)
 
 
 def points(plc: Controller, *lines: str, order: str = "ABCD") -> list[Point]:

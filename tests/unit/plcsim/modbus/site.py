@@ -6,7 +6,6 @@ from pathlib import Path
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.core.system import State
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
@@ -14,6 +13,8 @@ from plcsim.modbus.service.connection import Connection, Limits
 from plcsim.modbus.service.device import Device
 from plcsim.modbus.service.handler import Handler, Rights
 from plcsim.network import VirtualNetwork
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, INT, REAL, UDINT, UINT, var
@@ -59,8 +60,8 @@ class World:
     def __init__(self, *, strict_holes: bool = False, limits: Limits | None = None) -> None:
         self.clock = VirtualClock()
         network = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
-        setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("p", Site)])])
-        self.plc = Controller(setup, network=network, clock=self.clock)
+        setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("p", PythonCode(Site))])])
+        self.plc = make_controller(setup, network=network, clock=self.clock)
         more = "".join(f"p.words[{i}],hr,{i + 100},,,,,\n" for i in range(4, 150))
         points = resolve(read_rows(MAP + more, FILE), self.plc.tags.find, FILE, "ABCD")
         self._limits = limits or Limits()

@@ -23,7 +23,7 @@ VIOLATION = {
     "own_ns": int,
     "others_ns": int,
     "limit_ns": int,
-    "place": str,
+    "location": str,
     "text": str,
 }
 REPORT = {
@@ -116,8 +116,10 @@ def test_a_violation_that_led_to_service(report_of, task_class, program_of, cloc
 def test_a_program_that_failed(report_of, task_class, program_of):
     found = report_of(task_class(1, 10, p=program_of(lambda _: 1 // 0)))
     assert found["state"] == "SERVICE"
-    place = found["fault"].pop("place")
-    assert place.startswith(__file__)
+    fault = found["fault"]
+    location = fault.pop("location")
+    assert location.startswith(__file__)
+    assert fault.pop("calls")[-1] == f"{location} in <lambda>"
     assert found["fault"] == {
         "kind": "program_error",
         "program": "p",

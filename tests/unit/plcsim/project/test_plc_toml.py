@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.task import Policy
+from plcsim.program.setup import make_controller
 from plcsim.project.plc_toml import ProgramEntry, load_setup, read_project
 
 MS = 1_000_000
@@ -274,7 +274,7 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path, make):
 
 def test_a_loaded_project_runs(read):
     setup = load_setup(read("[plc]\nmemory = '64KiB'\n" + MAIN))
-    controller = Controller(setup, network=None, clock=VirtualClock())
+    controller = make_controller(setup, network=None, clock=VirtualClock())
     controller.boot()
     controller.run(cycles=3)
     assert controller.tags.read(controller.tags.find("main.count")) == 3
@@ -283,7 +283,7 @@ def test_a_loaded_project_runs(read):
 
 def test_a_program_under_two_names_has_two_sets_of_variables(read):
     text = CLASS + 'programs = ["main", {name = "second", source = "main"}]'
-    controller = Controller(load_setup(read(text)), network=None, clock=VirtualClock())
+    controller = make_controller(load_setup(read(text)), network=None, clock=VirtualClock())
     controller.boot()
     controller.tags.write(controller.tags.find("second.count"), 100)
     controller.run(cycles=3)

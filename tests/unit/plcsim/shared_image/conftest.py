@@ -5,8 +5,9 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.network import VirtualNetwork
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.shared_image import ImageReader, ImageWriter
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, REAL, STRING, UDINT, UINT, var
@@ -42,7 +43,7 @@ class World:
     def __init__(self, setup: Setup, services: dict[str, object]) -> None:
         self.clock = VirtualClock()
         network = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
-        self.controller = Controller(setup, network=network, clock=self.clock)
+        self.controller = make_controller(setup, network=network, clock=self.clock)
         self.fd = make_file()
         self.writer = ImageWriter(self.fd, self.controller, project="test", services=services)
         self.reader = ImageReader(self.fd, next(iter(services), ""))
@@ -68,7 +69,7 @@ def make() -> Iterator[Make]:
     worlds: list[World] = []
 
     def build(*classes: TaskClassSetup, services: tuple[str, ...] = ("modbus",)) -> World:
-        chosen = classes or (TaskClassSetup(1, MS, [ProgramSetup("fast", Fast)]),)
+        chosen = classes or (TaskClassSetup(1, MS, [ProgramSetup("fast", PythonCode(Fast))]),)
         worlds.append(World(Setup(chosen), dict.fromkeys(services)))
         return worlds[-1]
 

@@ -3,7 +3,8 @@ import os
 import pytest
 
 from plcsim import Program
-from plcsim.core.controller import ProgramSetup, TaskClassSetup
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, TaskClassSetup
 from plcsim.shared_image import CommandRefused, Mask, Store, layout
 from plcsim.shared_image.command import encode_command
 from plcsim.shared_image.writer import COMMANDS_PER_LATCH, STEPS_PER_COMMAND, _joined
@@ -57,7 +58,7 @@ def test_a_mask_works_on_what_the_program_left(world: World) -> None:
 def test_a_latch_applies_as_many_commands_as_fit_its_cycle(
     make: Make, cycle_ns: int, commands: int
 ) -> None:
-    world = make(TaskClassSetup(1, cycle_ns, [ProgramSetup("fast", Fast)]))
+    world = make(TaskClassSetup(1, cycle_ns, [ProgramSetup("fast", PythonCode(Fast))]))
     least, most = COMMANDS_PER_LATCH
     assert least <= world.writer.commands_per_latch <= most
     address = world.address("fast.setpoint")
@@ -147,9 +148,10 @@ class Busy(Program):
 
 def test_what_a_preempted_class_has_done_so_far_is_not_seen(make: Make) -> None:
     world = make(
-        TaskClassSetup(1, MS, [ProgramSetup("fast", Fast)], 20 * MS),
+        TaskClassSetup(1, MS, [ProgramSetup("fast", PythonCode(Fast))], 20 * MS),
         TaskClassSetup(
-            4, 20 * MS, [ProgramSetup("busy", Busy), ProgramSetup("second", Second)], 20 * MS,
+            4, 20 * MS,
+            [ProgramSetup(p.__name__.lower(), PythonCode(p)) for p in (Busy, Second)], 20 * MS,
             first_release_ns=10 * MS,
         ),
     )  # fmt: skip
@@ -181,8 +183,8 @@ def test_what_a_preempted_class_has_done_so_far_is_not_seen(make: Make) -> None:
 
 def test_slow_classes_are_written_by_the_latch_of_any_class(make: Make) -> None:
     world = make(
-        TaskClassSetup(1, MS, [ProgramSetup("fast", Fast)]),
-        TaskClassSetup(5, 100 * MS, [ProgramSetup("slow", Slow)]),
+        TaskClassSetup(1, MS, [ProgramSetup("fast", PythonCode(Fast))]),
+        TaskClassSetup(5, 100 * MS, [ProgramSetup("slow", PythonCode(Slow))]),
     )
     ticket = world.reader.send((Store(world.address("slow.wanted"), b"\7\0"),))
     world.controller.run(cycles=1)
@@ -198,7 +200,7 @@ class Huge(Program):
 
 
 def test_of_a_large_project_only_the_exported_tags_are_published(make: Make) -> None:
-    world = make(TaskClassSetup(1, MS, [ProgramSetup("huge", Huge)]))
+    world = make(TaskClassSetup(1, MS, [ProgramSetup("huge", PythonCode(Huge))]))
     assert world.writer.directory.bank_size == 0
     find = world.controller.tags.find
     tags = [find("huge.last"), find("huge.first"), find("huge.waste[0]"), find("huge.waste[20]")]
@@ -208,8 +210,8 @@ def test_of_a_large_project_only_the_exported_tags_are_published(make: Make) -> 
 
 def test_programs_of_two_classes_never_share_a_span(make: Make) -> None:
     world = make(
-        TaskClassSetup(1, MS, [ProgramSetup("fast", Fast)]),
-        TaskClassSetup(2, 2 * MS, [ProgramSetup("slow", Slow)]),
+        TaskClassSetup(1, MS, [ProgramSetup("fast", PythonCode(Fast))]),
+        TaskClassSetup(2, 2 * MS, [ProgramSetup("slow", PythonCode(Slow))]),
     )
     find = world.controller.tags.find
     assert len(_joined(world.controller, [find("fast.name"), find("slow.level")])) == 2

@@ -9,7 +9,8 @@ _spec = importlib.util.spec_from_file_location("cell", Path(__file__).with_name(
 cell = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(cell)
 
-from plcsim.core.controller import ProgramSetup, Setup, TaskClassSetup  # noqa: E402  # after the cell
+from plcsim.program.python.language import PythonCode  # noqa: E402  # after the cell
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup  # noqa: E402  # after the cell
 from plcsim.testing.plc import Plc  # noqa: E402  # after the cell
 
 MS = 1_000_000
@@ -23,7 +24,7 @@ def make_setup(*cycles_ms, programs=None, **options):
             TaskClassSetup(
                 number,
                 cycle_ms * MS,
-                [ProgramSetup(f"Cell{number}" if number > 1 else "Cell", program)],
+                [ProgramSetup(f"Cell{number}" if number > 1 else "Cell", PythonCode(program))],
                 tolerance_ns=cycle_ms * MS,
                 **options,
             )

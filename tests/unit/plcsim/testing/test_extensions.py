@@ -12,7 +12,6 @@ from plcsim.shared_image import writer
 from plcsim.testing import extensions as module
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
-from st_types.types.views import type_of
 
 
 class Steps:
@@ -98,7 +97,7 @@ def test_one_with_a_service_gets_the_image_of_all_variables(open_with, monkeypat
     image = plc.extensions.image("serves")
     plc.cycles(2)
     assert image.latest == 2
-    assert image.directory.bank_size == type_of(plc.controller.tasks[0].variables).size
+    assert image.directory.bank_size == plc.controller.areas[0].data_type.size
 
 
 def test_without_a_service_there_is_no_image(open_with):

@@ -5,7 +5,7 @@ import textwrap
 import pytest
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.program.python.loader import ProgramLoader
+from plcsim.program.loader import ProgramLoader
 
 HEAD = """\
 import functools
@@ -40,7 +40,7 @@ def load(project):
     def load(body, head=HEAD, **files):
         text = head + textwrap.indent(textwrap.dedent(body), "    ")
         others = {f"main/{stem}.py": content for stem, content in files.items()}
-        return ProgramLoader(project({"main/main.py": text} | others)).load("main")
+        return ProgramLoader(project({"main/main.py": text} | others)).load("main").program
 
     return load
 

@@ -1,4 +1,4 @@
-"""Place and text of what a program raised."""
+"""Source line, text and calls of what a program raised."""
 
 import json
 import sysconfig
@@ -9,7 +9,7 @@ import pytest
 import plcsim
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import PageFault
-from plcsim.program.python.place import LONGEST_TEXT, describe, place_of
+from plcsim.program.python.fault import LONGEST_TEXT, describe, fault_of, location_of
 from st_types import REAL, Struct, var
 from st_types.errors import ValueRangeError
 
@@ -42,29 +42,29 @@ cyclic()
     ],
 )
 def test_the_line_of_the_program_is_found_wherever_the_project_lies(path):
-    assert place_of(raised_by(FAILS_IN_LINE_3, path)) == f"{path}:3"
+    assert location_of(raised_by(FAILS_IN_LINE_3, path)) == f"{path}:3"
 
 
 def test_the_caller_is_named_where_a_library_raises():
     path = "/home/somebody/main.py"
-    assert place_of(raised_by("\njson.loads('[')", path, json=json)) == f"{path}:2"
+    assert location_of(raised_by("\njson.loads('[')", path, json=json)) == f"{path}:2"
     parse = raised_by("\n\nparse('x')", path, parse=parse_duration_ns)
-    assert place_of(parse) == f"{path}:3"
+    assert location_of(parse) == f"{path}:3"
 
 
 def test_the_caller_of_code_in_a_string_is_named():
     path = "/home/somebody/main.py"
-    assert place_of(raised_by("\nexec('1//0')", path)) == f"{path}:2"
-    assert place_of(raised_by("\neval('1 +')", path)) == f"{path}:2"
+    assert location_of(raised_by("\nexec('1//0')", path)) == f"{path}:2"
+    assert location_of(raised_by("\neval('1 +')", path)) == f"{path}:2"
 
 
-def test_a_syntax_error_in_a_file_gives_the_place_it_was_found_at():
-    assert place_of(raised_by("x = 1\ny = (", "/home/a/main.py")) == "/home/a/main.py:2"
+def test_a_syntax_error_in_a_file_gives_the_line_it_was_found_at():
+    assert location_of(raised_by("x = 1\ny = (", "/home/a/main.py")) == "/home/a/main.py:2"
 
 
-def test_without_a_frame_of_a_program_there_is_no_place():
-    assert place_of(ValueError()) == ""
-    assert place_of(raised_by("1//0", "<string>")).startswith(f"{__file__}:")
+def test_without_a_frame_of_a_program_there_is_no_line():
+    assert location_of(ValueError()) == ""
+    assert location_of(raised_by("1//0", "<string>")).startswith(f"{__file__}:")
 
 
 class SilentError(Exception):
@@ -121,3 +121,14 @@ def test_an_error_about_a_name_that_a_program_made_itself_is_told_as_it_is():
 def test_a_long_text_is_cut():
     assert len(describe(ValueError("x" * 1_000_000))) < LONGEST_TEXT + 30
     assert describe(ValueError("x" * LONGEST_TEXT)) == "ValueError: " + "x" * LONGEST_TEXT
+
+
+def test_a_fault_tells_the_calls_that_led_to_it():
+    source = "def outer():\n  inner()\ndef inner():\n  1 // 0\nouter()"
+    fault = fault_of(raised_by(source, "/home/a/main.py"))
+    assert (fault.location, fault.reason) == ("/home/a/main.py:4", "division by zero")
+    assert fault.calls[-3:] == (
+        "/home/a/main.py:5 in <module>",
+        "/home/a/main.py:2 in outer",
+        "/home/a/main.py:4 in inner",
+    )

@@ -1,13 +1,18 @@
 """Programs from folders: one file or three, shared modules, and everything that can be wrong."""
 
-from pathlib import Path
-
 import pytest
 
+from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
-from plcsim.core.errors import ConfigurationError
-from plcsim.program.python.loader import ProgramLoader
+from plcsim.core.context import Context
+from plcsim.core.errors import ConfigurationError, CycleTimeViolation
+from plcsim.core.memory import PAGE, Memory
+from plcsim.core.task import Unit
+from plcsim.program.language import Site
+from plcsim.program.loader import ProgramLoader
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from st_types import UINT, var
 
 CLASS = """
     from plcsim import Program
@@ -32,19 +37,19 @@ def load(project):
     """``load(files)``: the class of program ``main``, or of another source."""
 
     def load(files, source="main"):
-        return ProgramLoader(project(files)).load(source)
+        return ProgramLoader(project(files)).load(source).program
 
     return load
 
 
 def counts_of(program, cycles=3):
     """Run a program and return its counters."""
-    setup = Setup([TaskClassSetup(1, 10_000_000, [ProgramSetup("main", program)])])
-    controller = Controller(setup, network=None, clock=VirtualClock())
+    setup = Setup([TaskClassSetup(1, 10_000_000, [ProgramSetup("main", PythonCode(program))])])
+    controller = make_controller(setup, network=None, clock=VirtualClock())
     controller.boot()
     controller.run(cycles=cycles)
     controller.shutdown()
-    variables = controller.tasks[0].variables
+    variables = controller.tasks[0].cyclic.__self__
     return variables.inits, variables.cycles, variables.exits
 
 
@@ -98,19 +103,6 @@ def test_programs_share_a_module(load):
 def test_a_program_may_lie_deeper(load):
     files = {"lines/left/main.py": CLASS + "    from ...shared import X\n", "shared.py": "X = 1\n"}
     assert load(files, "lines/left").__name__ == "Main"
-
-
-def test_a_program_is_loaded_once(project):
-    loader = ProgramLoader(project({"main/main.py": CLASS}))
-    assert loader.load("main") is loader.load("main")
-
-
-def test_two_projects_do_not_mix(project, tmp_path):
-    first = project({"main/main.py": CLASS})
-    second = first.rename(tmp_path / "other")
-    project({"main/main.py": CLASS.replace("Main", "Other")})
-    names = [ProgramLoader(folder).load("main").__name__ for folder in (second, first)]
-    assert names == ["Main", "Other"]
 
 
 def test_helpers_and_imported_programs_are_no_programs_of_the_folder(load):
@@ -168,17 +160,6 @@ def test_a_wrong_program_is_named_with_file_and_line(load, source, error):
     assert wrong(load, {"main/main.py": source}).startswith(error)
 
 
-def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
-    def refused(path, **_):
-        raise PermissionError(13, "Permission denied", str(path))
-
-    files = {"main/main.py": ""}
-    with monkeypatch.context() as patched:
-        load(files | {"other/main.py": CLASS}, "other")
-        patched.setattr(Path, "is_file", refused)
-        assert wrong(load, files) == "main/variables.py: Permission denied"
-
-
 def test_a_wrong_shared_module_is_named_itself(load):
     files = {"main/main.py": "from ..shared import X\n", "shared.py": "X = 1\nY = X.y\n"}
     assert wrong(load, files).startswith("shared.py:2: AttributeError")
@@ -199,26 +180,6 @@ def test_a_wrong_unit_file_is_named(load, unit, text, error):
     assert wrong(load, {"main/variables.py": CLASS, f"main/{unit}.py": text}).startswith(error)
 
 
-@pytest.mark.parametrize(
-    ("files", "error"),
-    [
-        ({"other/main.py": "", "more/variables.py": ""}, "; there are more, other"),
-        ({"main": ""}, ""),
-        ({"notes.txt": ""}, ""),
-    ],
-)
-def test_a_folder_that_is_not_there(load, files, error):
-    assert wrong(load, files) == f"main: no such program folder{error}"
-
-
-def test_a_folder_without_a_program(load):
-    assert wrong(load, {"main/notes.txt": ""}) == "main: holds neither main.py nor variables.py"
-
-
-def test_structured_text_is_refused_in_words(load):
-    assert "Structured Text is not there yet" in wrong(load, {"main/Main.st": ""})
-
-
 @pytest.mark.parametrize("data", [b"x = '\xe4'\n", b"x = 1\0\n"])
 def test_a_file_that_is_no_text_is_named(project, data):
     folder = project({"main/main.py": ""})
@@ -232,3 +193,29 @@ def test_ctrl_c_while_loading_is_not_taken_for_a_wrong_program(project):
     folder = project({"main/main.py": "raise KeyboardInterrupt\n"})
     with pytest.raises(KeyboardInterrupt):
         ProgramLoader(folder).load("main")
+
+
+def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
+    class Counter(Program):
+        count = var(UINT, 3)
+
+        def cyclic(self) -> None:
+            self.count += 1
+
+    memory = Memory(4 * PAGE)
+    site = Site(Context(memory, network=None))
+    first, second = (PythonCode(Counter).task(name, site) for name in ("a", "b"))
+    assert first.units.keys() == set(Unit)
+    first.cyclic()
+    first.units[Unit.INIT]()
+    first.units[Unit.EXIT]()
+    counts = [memory.access(Counter, task.variables.address).count for task in (first, second)]
+    assert counts == [4, 3]
+    assert first.variables.path == "a"
+    assert first.cyclic.__self__.context is site.context
+
+
+def test_a_task_is_ended_by_an_exception_that_programs_do_not_catch():
+    task = PythonCode(Program).task("p", Site(Context(Memory(4 * PAGE), network=None)))
+    with pytest.raises(CycleTimeViolation, match="it did not return"):
+        task.interrupt("it did not return")

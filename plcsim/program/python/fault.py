@@ -1,4 +1,4 @@
-"""Where in a program's own source something was raised, and what it means."""
+"""What something that a program raised means, and where in the program's own source it was."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.core.errors import Fault
 from plcsim.core.suggestion import did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import TracebackType
 
 _OWN = (Path(__file__).parents[3] / name for name in ("plcsim", "st_types", "crosnode"))
@@ -28,21 +30,35 @@ LONGEST_TEXT = 300
 """Characters of an exception's text that are kept."""
 
 
-def place_of(error: BaseException) -> str:
+def fault_of(error: BaseException) -> Fault:
+    """Return what something that a program raised means."""
+    return Fault(location_of(error), describe(error), tuple(_calls(error)))
+
+
+def location_of(error: BaseException) -> str:
     """Return "file:line" of the innermost frame that is neither ours, Python's nor a package's.
 
-    A syntax error in a file gives the place it was found at; "" where there is no such frame.
+    A syntax error in a file gives the line it was found at; "" where there is no such frame.
     """
     if isinstance(error, SyntaxError) and error.filename and not error.filename.startswith("<"):
         return f"{error.filename}:{error.lineno}"
-    place = ""
+    return next((line for line, _ in reversed(list(_frames(error)))), "")
+
+
+def _calls(error: BaseException) -> Iterator[str]:
+    for line, function in _frames(error):
+        yield f"{line} in {function}"
+
+
+def _frames(error: BaseException) -> Iterator[tuple[str, str]]:
+    """Iterate over "file:line" and function of the frames of programs, the outermost first."""
     trace: TracebackType | None = error.__traceback__
     while trace is not None:
-        path = trace.tb_frame.f_code.co_filename
+        code = trace.tb_frame.f_code
+        path = code.co_filename
         if not path.startswith(_NOT_A_PROGRAM) or "/_examples/" in path:
-            place = f"{path}:{trace.tb_lineno}"
+            yield f"{path}:{trace.tb_lineno}", code.co_name
         trace = trace.tb_next
-    return place
 
 
 def describe(error: BaseException) -> str:

@@ -1,0 +1,95 @@
+"""What a programming language is to a controller.
+
+A language finds the units of a program's folder, checks them before the run, and makes tasks of
+them: a set of variables in PLC memory, and what runs for INIT, CYCLIC and EXIT. Everything beyond
+that, the scan, tags, Modbus, tests, sees a `plcsim.core.task.Task` and not what it is written in.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from plcsim.core.context import Context
+    from plcsim.core.memory import Memory
+    from plcsim.core.task import Task
+
+
+class ProgramSource(NamedTuple):
+    """A program on disk.
+
+    Attributes:
+        name: as plc.toml names the folder.
+        folder: where it lies.
+        files: those of its language that hold units.
+        project: folder of the project.
+        package: name under which Python finds the project's folder as a package.
+    """
+
+    name: str
+    folder: Path
+    files: Sequence[Path]
+    project: Path
+    package: str
+
+
+class Site:
+    """One controller as the programs find it that are put on it.
+
+    Args:
+        context: of the controller; its memory takes the programs' variables.
+
+    Attributes:
+        context: as above.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    @property
+    def memory(self) -> Memory:
+        """The PLC memory."""
+        return self.context.memory
+
+
+class ProgramCode(Protocol):
+    """A program that was loaded and checked; may run as several tasks, on several controllers."""
+
+    def task(self, name: str, site: Site) -> Task:
+        """Return a new task: its variables allocated, its units ready to run.
+
+        Args:
+            name: of the task.
+            site: where it runs.
+
+        Raises:
+            ConfigurationError: the variables do not fit into the memory.
+        """
+
+
+class Language(Protocol):
+    """A programming language.
+
+    Attributes:
+        name: as people call it, such as "Structured Text".
+    """
+
+    @property
+    def name(self) -> str:
+        """As people call it, such as "Structured Text"."""
+
+    def units(self, folder: Path) -> Sequence[Path]:
+        """Return the files of this language that hold units of the program in a folder.
+
+        None makes it a program of another language.
+        """
+
+    def load(self, source: ProgramSource) -> ProgramCode:
+        """Load a program and check what can be checked before it runs.
+
+        Raises:
+            ConfigurationError: something is wrong; all findings are told, with file and line.
+        """

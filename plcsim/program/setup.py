@@ -1,0 +1,109 @@
+"""A controller as configured: which programs run in which task class, and the controller of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from plcsim.core.context import Context
+from plcsim.core.controller import Controller
+from plcsim.core.memory import DEFAULT_SIZE, Memory
+from plcsim.core.task import Policy, TaskClass
+from plcsim.program.language import Site
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from plcsim.core.clock import Clock
+    from plcsim.core.controller import Heartbeat
+    from plcsim.core.task import Task
+    from plcsim.network import Network
+    from plcsim.program.language import ProgramCode
+
+
+@dataclass(frozen=True)
+class ProgramSetup:
+    """A program and the name it runs under."""
+
+    name: str
+    code: ProgramCode
+
+
+@dataclass(frozen=True)
+class TaskClassSetup:
+    """A task class as configured; for the fields see `plcsim.core.task.TaskClass`."""
+
+    number: int
+    cycle_ns: int
+    programs: Sequence[ProgramSetup]
+    tolerance_ns: int = 0
+    first_release_ns: int | None = None
+    policy: Policy = Policy.SERVICE
+    host_policy: Policy = Policy.LOG
+
+
+@dataclass(frozen=True)
+class Setup:
+    """A controller as configured.
+
+    Attributes:
+        classes: the task classes.
+        memory_size: bytes of PLC memory.
+        exception_program: runs once for each violation under the policy "exception".
+        options: tables [library.NAME] of plc.toml by NAME.
+    """
+
+    classes: Sequence[TaskClassSetup]
+    memory_size: int = DEFAULT_SIZE
+    exception_program: ProgramSetup | None = None
+    options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+
+
+def make_controller(
+    setup: Setup,
+    *,
+    network: Network | None = None,
+    clock: Clock | None = None,
+    heartbeat: Heartbeat | None = None,
+    idle: Callable[[int], None] = lambda _idle_ns: None,
+) -> Controller:
+    """Return the controller of a setup, its variables allocated, not booted.
+
+    Args:
+        setup: what runs on it.
+        network: what its blocks talk over; None where no block does.
+        clock: see `plcsim.core.controller.Controller`, as for the rest.
+        heartbeat: likewise.
+        idle: likewise.
+
+    Raises:
+        ConfigurationError: the variables do not fit into the memory.
+    """
+    context = Context(Memory(setup.memory_size), network, setup.options)
+    site = Site(context)
+    classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
+    exception = setup.exception_program
+    return Controller(
+        classes,
+        context,
+        exception_task=_task(exception, site) if exception else None,
+        clock=clock,
+        heartbeat=heartbeat,
+        idle=idle,
+    )
+
+
+def _task_class(setup: TaskClassSetup, site: Site) -> TaskClass:
+    return TaskClass(
+        setup.number,
+        setup.cycle_ns,
+        setup.tolerance_ns,
+        [_task(program, site) for program in setup.programs],
+        first_release_ns=setup.first_release_ns,
+        policy=setup.policy,
+        host_policy=setup.host_policy,
+    )
+
+
+def _task(setup: ProgramSetup, site: Site) -> Task:
+    return setup.code.task(setup.name, site)

@@ -1,0 +1,105 @@
+"""Which language a program is in, and what is told where there is none."""
+
+from pathlib import Path
+
+import pytest
+
+from plcsim.core.errors import ConfigurationError
+from plcsim.program.loader import ProgramLoader
+from plcsim.program.python.language import PYTHON
+
+CLASS = """
+    from plcsim import Program
+
+    class Main(Program):
+        pass
+"""
+
+
+@pytest.fixture
+def load(project):
+    """``load(files)``: the class of program ``main``, or of another source."""
+
+    def load(files, source="main"):
+        return ProgramLoader(project(files)).load(source).program
+
+    return load
+
+
+def wrong(load, files, source="main"):
+    """Return the error without the path of the project before it."""
+    with pytest.raises(ConfigurationError) as raised:
+        load(files, source)
+    return str(raised.value).partition("/cell/")[2]
+
+
+class Other:
+    """A language whose units end in ``.other``; it loads nothing."""
+
+    name = "Other"
+
+    def units(self, folder):
+        return sorted(folder.glob("*.other"))
+
+    def load(self, source):
+        return source
+
+
+def test_a_program_is_loaded_by_the_language_that_has_units_in_its_folder(project):
+    folder = project({"main/b.other": "", "main/a.other": "", "main/notes.txt": ""})
+    source = ProgramLoader(folder, [PYTHON, Other()]).load("main")
+    assert (source.name, source.folder, source.project) == ("main", folder / "main", folder)
+    assert [file.name for file in source.files] == ["a.other", "b.other"]
+
+
+def test_a_program_has_one_language(project):
+    folder = project({"main/a.other": "", "main/main.py": ""})
+    with pytest.raises(ConfigurationError) as raised:
+        ProgramLoader(folder, [PYTHON, Other()]).load("main")
+    assert str(raised.value) == (
+        f"{folder / 'main'}: holds units in Python and Other; a program has one language"
+    )
+
+
+def test_a_program_is_loaded_once(project):
+    loader = ProgramLoader(project({"main/main.py": CLASS}))
+    assert loader.load("main") is loader.load("main")
+
+
+def test_two_projects_do_not_mix(project, tmp_path):
+    first = project({"main/main.py": CLASS})
+    second = first.rename(tmp_path / "other")
+    project({"main/main.py": CLASS.replace("Main", "Other")})
+    names = [ProgramLoader(folder).load("main").program.__name__ for folder in (second, first)]
+    assert names == ["Main", "Other"]
+
+
+@pytest.mark.parametrize(
+    ("files", "error"),
+    [
+        ({"other/main.py": "", "more/variables.py": ""}, "; there are more, other"),
+        ({"main": ""}, ""),
+        ({"notes.txt": ""}, ""),
+    ],
+)
+def test_a_folder_that_is_not_there(load, files, error):
+    assert wrong(load, files) == f"main: no such program folder{error}"
+
+
+def test_a_folder_without_a_program(load):
+    assert wrong(load, {"main/notes.txt": ""}) == "main: holds neither main.py nor variables.py"
+
+
+def test_structured_text_is_refused_in_words(load):
+    assert "Structured Text is not there yet" in wrong(load, {"main/Main.st": ""})
+
+
+def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
+    def refused(path, **_):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    files = {"main/main.py": ""}
+    with monkeypatch.context() as patched:
+        load(files | {"other/main.py": CLASS}, "other")
+        patched.setattr(Path, "is_file", refused)
+        assert wrong(load, files) == "main/variables.py: Permission denied"
