@@ -14,8 +14,9 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.controller import Controller, ProgramSetup, Setup, TaskClassSetup
 from plcsim.process.service_main import ServiceOrder
+from plcsim.program.python.language import PythonCode
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.shared_image import ImageWriter
 from plcsim.shared_image.layout import make_file
 from plcsim.shared_image.status_page import ServiceState, StatusPage
@@ -52,9 +53,9 @@ class World:
         return self.image_fd, self.page.fd
 
     def lay_out(self) -> None:
-        setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("p", Program)])])
+        setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("p", PythonCode(Program))])])
         network: Any = None
-        controller = Controller(setup, network=network, clock=VirtualClock())
+        controller = make_controller(setup, network=network, clock=VirtualClock())
         ImageWriter(self.image_fd, controller, project="cell", services={"web": 4321})
 
     def command(self, source: str, *, parent: int, quiet: bool = False) -> list[str]:
