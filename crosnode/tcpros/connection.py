@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
 from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
-from crosnode.transport.budget import CONNECTION_WORK, MESSAGE_WORK
-from crosnode.transport.connection import (
-    ConnectionEvent,
-    ConnectionState,
-    Failed,
-    ProtocolConnection,
-    Trigger,
-)
+from crosnode.transport.connection import Act, Closed, Connection, Failed, State
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
@@ -24,7 +17,7 @@ if TYPE_CHECKING:
 MIB: Final = 1 << 20
 
 
-class TcprosLimits(NamedTuple):
+class Limits(NamedTuple):
     """What one connection may take.
 
     Attributes:
@@ -47,28 +40,28 @@ class TypeInfo(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class HeaderReceived(ConnectionEvent):
+class HeaderReceived:
     """The header of the peer, unknown fields included."""
 
     fields: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class MessageReceived(ConnectionEvent):
+class MessageReceived:
     """A message of a topic; ``body`` may be empty."""
 
     body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
-class RequestReceived(ConnectionEvent):
+class RequestReceived:
     """A request to a service; ``body`` may be empty."""
 
     body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
-class ReplyReceived(ConnectionEvent):
+class ReplyReceived:
     """The reply of a service: a response where ``ok``, else the text of an error."""
 
     ok: bool
@@ -76,42 +69,38 @@ class ReplyReceived(ConnectionEvent):
 
 
 @dataclass(frozen=True, slots=True)
-class Refused(ConnectionEvent):
+class Refused:
     """The peer answered our header with ``error``."""
 
     error: str
 
 
-class TcprosConnection(ProtocolConnection):
+Event: TypeAlias = (
+    HeaderReceived | MessageReceived | RequestReceived | ReplyReceived | Refused | Failed | Closed
+)
+
+
+class TcprosConnection(Connection, ABC):
     """One end of a TCPROS connection.
 
     Args:
-        limits: see ``TcprosLimits``.
+        limits: see ``Limits``.
         now_ns: time of the step in which the connection was made.
     """
 
-    IS_PARSED: ClassVar[bool] = False
-    PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
-        {ConnectionState.DECISION, ConnectionState.CLOSED}
-    )
-    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.HANDSHAKE})
+    PAUSED: ClassVar[frozenset[State]] = frozenset({State.DECISION, State.CLOSED})
+    TIMED: ClassVar[frozenset[State]] = frozenset({State.HANDSHAKE})
 
-    def __init__(self, limits: TcprosLimits, now_ns: int) -> None:
-        super().__init__(ConnectionState.HANDSHAKE, limits.timeout_ns, now_ns)
+    def __init__(self, limits: Limits, now_ns: int) -> None:
+        super().__init__(State.HANDSHAKE, limits.timeout_ns, now_ns)
         self.limits = limits
         self.header: dict[str, str] = {}
         self._reader = ByteReader()
         self._parser = self._parse()
 
-    @property
-    def event_price(self) -> int:
-        """A header is the price of a new connection."""
-        is_new = self.state is ConnectionState.HANDSHAKE
-        return CONNECTION_WORK if is_new else MESSAGE_WORK
-
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
-        if self.state is not ConnectionState.CLOSED:
+        if self.state is not State.CLOSED:
             self._reader.feed(data)
             self._is_drained = False
 
@@ -119,7 +108,7 @@ class TcprosConnection(ProtocolConnection):
         """Take the end of the stream; then call ``next_event`` as for bytes."""
         self._reader.feed_eof()
 
-    def next_event(self, now_ns: int) -> ConnectionEvent | None:
+    def next_event(self, now_ns: int) -> Event | None:
         """Return the next event, None where none can be had from the bytes so far."""
         if self.state in self.PAUSED:
             return None
@@ -139,7 +128,7 @@ class TcprosConnection(ProtocolConnection):
         self._reader.clear()
 
     @abstractmethod
-    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
+    def _parse(self) -> Generator[Event | None, None, None]:
         """Turn bytes into events; yield None where bytes are missing."""
 
     def _read_header(self) -> Generator[None, None, dict[str, str]]:
@@ -157,12 +146,12 @@ class TcprosConnection(ProtocolConnection):
 class ClientConnection(TcprosConnection):
     """The end that connects: its header is sent at once, and the answer read."""
 
-    def __init__(self, fields: Mapping[str, str], limits: TcprosLimits, now_ns: int) -> None:
+    def __init__(self, fields: Mapping[str, str], limits: Limits, now_ns: int) -> None:
         super().__init__(limits, now_ns)
         self._send_header(fields)
 
     def _read_answer(
-        self, md5sum: str, trigger: Trigger = Trigger.HEADER
+        self, md5sum: str, act: Act = Act.HEADER
     ) -> Generator[None, None, HeaderReceived | Refused]:
         fields = yield from self._read_header()
         if "error" in fields:
@@ -170,7 +159,7 @@ class ClientConnection(TcprosConnection):
             return Refused(fields["error"])
         if not sums_agree(md5sum, fields.get("md5sum", md5sum)):
             raise TcprosError(f"md5sum {fields['md5sum']} answers our {md5sum}")
-        self._move(trigger)
+        self._move(act)
         return HeaderReceived(fields)
 
 
@@ -181,11 +170,11 @@ class ServerConnection(TcprosConnection):
 
     def refuse(self, reason: str) -> None:
         """Answer the header with ``error`` and end the connection."""
-        self._move(Trigger.REFUSE)
+        self._move(Act.REFUSE)
         self._send_header({"error": reason})
 
     def _fail(self, reason: str) -> Failed:
-        if self.state is ConnectionState.HANDSHAKE:
+        if self.state is State.HANDSHAKE:
             self._send_header({"error": reason})
         return super()._fail(reason)
 
@@ -198,5 +187,5 @@ class ServerConnection(TcprosConnection):
 
     def _read_offer(self) -> Generator[None, None, HeaderReceived]:
         fields = yield from self._read_header()
-        self._move(Trigger.HEADER)
+        self._move(Act.HEADER)
         return HeaderReceived(fields)

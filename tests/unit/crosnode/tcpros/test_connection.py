@@ -8,36 +8,39 @@ from hypothesis import strategies as st
 
 from crosnode.errors import LocalProtocolError
 from crosnode.tcpros import (
+    Event,
+    Failed,
     HeaderReceived,
+    Limits,
     PublisherConnection,
     ServiceClientConnection,
     ServiceServerConnection,
+    State,
     SubscriberConnection,
-    TcprosLimits,
     TypeInfo,
 )
-from crosnode.tcpros.connection import TcprosConnection
+from crosnode.tcpros.connection import TcprosConnection as Connection
 from crosnode.tcpros.header import encode_header
 from crosnode.tcpros.reader import length_of
-from crosnode.transport.connection import ConnectionEvent, ConnectionState, Failed, Trigger
+from crosnode.transport.connection import Act
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
-LIMITS = TcprosLimits(max_header=300, max_message=50, timeout_ns=1000)
+LIMITS = Limits(max_header=300, max_message=50, timeout_ns=1000)
 
 
-def publisher() -> TcprosConnection:
+def publisher() -> Connection:
     return PublisherConnection(LIMITS, 0)
 
 
-def subscriber() -> TcprosConnection:
+def subscriber() -> Connection:
     return SubscriberConnection("/t", STRING, "/n", tcp_nodelay=True, limits=LIMITS, now_ns=0)
 
 
-def server() -> TcprosConnection:
+def server() -> Connection:
     return ServiceServerConnection(LIMITS, 0)
 
 
-def client() -> TcprosConnection:
+def client() -> Connection:
     connection = ServiceClientConnection("/s", STRING, "/n", limits=LIMITS, now_ns=0)
     connection.data_to_send()
     return connection
@@ -47,28 +50,24 @@ ROLES = [publisher, subscriber, server, client]
 roles = pytest.mark.parametrize("role", ROLES)
 
 
-def events_of(connection: TcprosConnection) -> list[ConnectionEvent]:
+def events_of(connection: Connection) -> list[Event]:
     """Take all events, and answer them as an owner does."""
-    events: list[ConnectionEvent] = []
+    events: list[Event] = []
     while event := connection.next_event(0):
         events.append(event)
-        if connection.state is ConnectionState.DECISION:
+        if connection.state is State.DECISION:
             assert isinstance(connection, (PublisherConnection, ServiceServerConnection))
             connection.accept(STRING, "/us")
-        elif connection.state is ConnectionState.IDLE:
+        elif connection.state is State.IDLE:
             assert isinstance(connection, ServiceClientConnection)
             connection.send_request(b"", 0)
-        elif connection.state is ConnectionState.REPLY and isinstance(
-            connection, ServiceServerConnection
-        ):
+        elif connection.state is State.REPLY and isinstance(connection, ServiceServerConnection):
             connection.send_response(b"")
     return events
 
 
-def fed(
-    connection: TcprosConnection, pieces: list[bytes]
-) -> tuple[list[ConnectionEvent], ConnectionState, bytes]:
-    events: list[ConnectionEvent] = []
+def fed(connection: Connection, pieces: list[bytes]) -> tuple[list[Event], State, bytes]:
+    events: list[Event] = []
     for piece in pieces:
         connection.receive_data(piece)
         events += events_of(connection)
@@ -102,36 +101,36 @@ STREAMS = st.tuples(st.sampled_from([b"", HEADER]), BLOCKS).map(b"".join)
 
 @given(st.sampled_from(ROLES), STREAMS, st.data())
 def test_any_split_gives_the_same_events(
-    role: Callable[[], TcprosConnection], stream: bytes, data: st.DataObject
+    role: Callable[[], Connection], stream: bytes, data: st.DataObject
 ) -> None:
     cuts = sorted(data.draw(st.sets(st.integers(0, len(stream)), max_size=5)))
     pieces = [stream[a:b] for a, b in zip([0, *cuts], [*cuts, len(stream)], strict=True)]
     whole = fed(role(), [stream])
     assert fed(role(), pieces) == whole
     assert fed(role(), [stream[i : i + 1] for i in range(len(stream))]) == whole
-    assert whole[1] in (ConnectionState.CLOSED, ConnectionState.DECISION)
+    assert whole[1] in (State.CLOSED, State.DECISION)
 
 
 @roles
-def test_silent_peer(role: Callable[[], TcprosConnection]) -> None:
+def test_silent_peer(role: Callable[[], Connection]) -> None:
     connection = role()
     assert connection.deadline_ns == 1000
     assert connection.handle_timer(999) is None
     assert connection.handle_timer(1000) == Failed("silent for 1000 ns")
-    assert connection.state is ConnectionState.CLOSED
+    assert connection.state is State.CLOSED
     assert connection.handle_timer(9999) is None
 
 
 @roles
-def test_header_above_the_limit(role: Callable[[], TcprosConnection]) -> None:
+def test_header_above_the_limit(role: Callable[[], Connection]) -> None:
     connection = role()
     connection.receive_data(b"\0\0\x10\0" + bytes(400))
     assert connection.next_event(0) == Failed("header of 1048576 bytes, at most 300 are read")
-    assert connection.state is ConnectionState.CLOSED
+    assert connection.state is State.CLOSED
 
 
 @roles
-def test_closed_connection_takes_nothing(role: Callable[[], TcprosConnection]) -> None:
+def test_closed_connection_takes_nothing(role: Callable[[], Connection]) -> None:
     connection = role()
     connection.close()
     connection.receive_data(HEADER)
@@ -141,7 +140,7 @@ def test_closed_connection_takes_nothing(role: Callable[[], TcprosConnection]) -
 
 
 @roles
-def test_reading_waits_until_events_are_taken(role: Callable[[], TcprosConnection]) -> None:
+def test_reading_waits_until_events_are_taken(role: Callable[[], Connection]) -> None:
     connection = role()
     assert connection.wants_data
     connection.receive_data(HEADER)
@@ -166,12 +165,10 @@ def test_out_of_turn(act: Callable[[], object]) -> None:
 
 
 @roles
-def test_table_is_closed_and_every_state_is_reached(role: Callable[[], TcprosConnection]) -> None:
+def test_table_is_closed_and_every_state_is_reached(role: Callable[[], Connection]) -> None:
     table = role().TABLE
-    reached = {ConnectionState.HANDSHAKE} | {
-        state for row in table.values() for state in row.values()
-    }
+    reached = {State.HANDSHAKE} | {state for row in table.values() for state in row.values()}
     assert reached == set(table)
-    assert table[ConnectionState.CLOSED] == {}
+    assert table[State.CLOSED] == {}
     for state, row in table.items():
-        assert state is ConnectionState.CLOSED or row[Trigger.END] is ConnectionState.CLOSED
+        assert state is State.CLOSED or row[Act.END] is State.CLOSED
