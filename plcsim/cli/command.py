@@ -10,7 +10,7 @@ import sys
 from importlib.metadata import entry_points, version
 from typing import TextIO
 
-from plcsim.cli import check, doctor, new, report, run, types, watch
+from plcsim.cli import check, doctor, new, report, run, st, types, watch
 from plcsim.core.errors import PlcError
 from st_types.errors import TypeSystemError
 
@@ -27,7 +27,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (run, check, doctor, new, report, watch, types):
+    for command in (run, check, doctor, new, report, watch, types, st):
         command.register(subparsers)
     for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
         try:

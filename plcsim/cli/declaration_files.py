@@ -16,7 +16,7 @@ from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
     from st_types.syntax.tree import DeclarationFile
 
@@ -29,8 +29,8 @@ MANY_FILES = 50
 """From as many files on, progress is shown."""
 
 
-def find_files(paths: Iterable[Path]) -> list[Path]:
-    """Return the declaration files at and below ``paths``, each once, in order.
+def find_files(paths: Iterable[Path], suffixes: Collection[str] = SUFFIXES) -> list[Path]:
+    """Return the files at and below ``paths`` with one of ``suffixes``, each once, in order.
 
     Raises:
         PlcError: a path does not exist, or is a file of another kind.
@@ -38,21 +38,23 @@ def find_files(paths: Iterable[Path]) -> list[Path]:
     found: dict[Path, None] = {}
     for path in paths:
         if path.is_dir():
-            found.update(dict.fromkeys(_files_below(path)))
+            found.update(dict.fromkeys(_files_below(path, suffixes)))
         elif not path.exists():
             raise PlcError(f"{path}: no such file or folder.")
-        elif path.suffix.lower() not in SUFFIXES:
-            raise PlcError(f"{path}: not a .typ, .var or .fun file.")
+        elif path.suffix.lower() not in suffixes:
+            *others, last = sorted(suffixes)
+            kinds = f"{', '.join(others)} or {last}" if others else last
+            raise PlcError(f"{path}: not a {kinds} file.")
         else:
             found[path] = None
     return list(found)
 
 
-def _files_below(folder: Path) -> Iterator[Path]:
+def _files_below(folder: Path, suffixes: Collection[str]) -> Iterator[Path]:
     for place, folders, names in os.walk(folder):
         folders.sort()
         for name in sorted(names):
-            if os.path.splitext(name)[1].lower() in SUFFIXES:  # noqa: PTH122  # a Path each would take longer than the parser
+            if os.path.splitext(name)[1].lower() in suffixes:  # noqa: PTH122  # a Path each would take longer than the parser
                 yield Path(place, name)
 
 
@@ -86,12 +88,16 @@ class Reading:
 def read_files(paths: Sequence[Path]) -> Reading:
     """Parse files, with a progress bar where stderr is a terminal and the files are many."""
     reading = Reading()
-    shown: Iterable[Path] = paths
-    if len(paths) >= MANY_FILES and sys.stderr.isatty():
-        shown = track(paths, "reading", console=Console(stderr=True), transient=True)
-    for path in shown:
+    for path in shown_progress(paths):
         reading.read(path)
     return reading
+
+
+def shown_progress(paths: Sequence[Path]) -> Iterable[Path]:
+    """Yield ``paths``, with a progress bar where stderr is a terminal and they are many."""
+    if len(paths) < MANY_FILES or not sys.stderr.isatty():
+        return paths
+    return track(paths, "reading", console=Console(stderr=True), transient=True)
 
 
 def library_files() -> list[DeclarationFile]:

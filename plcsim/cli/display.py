@@ -160,10 +160,8 @@ def _summary_table(classes: list[dict[str, Any]]) -> Table:
 
 def _blame(classes: list[dict[str, Any]]) -> str:
     """Return how many violations there were by cause, "" where there were none."""
-    counts: dict[str, int] = {}
-    for c in classes:
-        for cause, count in c["violations"].items():
-            counts[cause] = counts.get(cause, 0) + count
+    causes = ("program", "host", "preempted")
+    counts = {cause: sum(c["violations"][cause] for c in classes) for cause in causes}
     if not any(counts.values()):
         return ""
     return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())

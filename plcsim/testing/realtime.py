@@ -36,12 +36,10 @@ def judge(controller: Controller, *, failed: bool) -> Verdict:
     own = (Cause.PROGRAM, Cause.PREEMPTED)
     if any(c.violations[cause] for c in classes for cause in own):
         return Verdict.FAILED
-    foreign = (Cause.HOST, Cause.CONTROLLER)
-    if any(c.violations[cause] for c in classes for cause in foreign):
+    if any(c.violations[Cause.HOST] for c in classes) or _missed_by_host(controller):
         return Verdict.HOST
-    if _missed_by_host(controller):
-        return Verdict.HOST
-    if isinstance(controller.fault, Violation) and controller.fault.cause in foreign:
+    blamed = isinstance(controller.fault, Violation) and controller.fault.cause is Cause.HOST
+    if blamed:
         return Verdict.HOST
     return Verdict.FAILED if failed else Verdict.PASSED
 

@@ -135,9 +135,11 @@ PRECEDENCE = {
 
 UNARY_PRECEDENCE = 8
 
+POSTFIXES = frozenset([".", "[", "^", "("])
+"""What may follow an operand: a member, an index, a dereference, arguments."""
+
 _ENDS = frozenset([";", ",", ")", "]", "THEN", "DO", "OF", "TO", ".."])
 _SIMPLE = frozenset([NAME, "literal"])
-_POSTFIXES = frozenset([".", "[", "^", "("])
 _PREFIXES = frozenset(["-", "+", "NOT"])
 _ARGUMENT_SIGNS = (":=", "=>")
 _OPERATOR_WORDS = frozenset(["OR", "OR_ELSE", "XOR", "AND", "AND_THEN", "MOD", "NOT"])
@@ -209,7 +211,7 @@ class ExpressionParser(TokenReader):
         if key == NAME:
             self.index = at + 1
             name = Name(at, self.texts[at])
-            return self.postfix(name) if keys[at + 1] in _POSTFIXES else name
+            return self.postfix(name) if keys[at + 1] in POSTFIXES else name
         if key == "literal":
             return self.literal(self.texts[at])
         if key in _PREFIXES:
@@ -273,21 +275,33 @@ class ExpressionParser(TokenReader):
     def postfix(self, base: Expression) -> Expression:
         """Parse the members, indices, ``^`` and arguments that follow ``base``."""
         keys = self.keys
-        while (key := keys[self.index]) in _POSTFIXES:
-            if key == ".":
-                base = self._member(base)
-            elif key == "[":
-                base = self._index(base)
-            elif key == "(":
-                base = self._call(base)
+        index = start = self.index
+        while (key := keys[index]) in POSTFIXES:
+            if key == "." and keys[index + 1] == NAME:
+                base = MemberAccess(index + 1, base, self.texts[index + 1])
+                index += 2
             else:
-                base = Dereference(self._step(), base)
+                self.index = index
+                base = self._rare_postfix(key, base)
+                index = self.index
+            if index - start > MAX_OPERATORS:
+                self.fail(f"expected at most {MAX_OPERATORS} tokens in a path")
+        self.index = index
         return base
+
+    def _rare_postfix(self, key: str, base: Expression) -> Expression:
+        if key == ".":
+            return self._member(base)
+        if key == "[":
+            return self._index(base)
+        if key == "(":
+            return self._call(base)
+        return Dereference(self._step(), base)
 
     def _member(self, base: Expression) -> Expression:
         at = self._step() + 1
         text = self.texts[at]
-        if self.keys[at] != NAME and not is_member(text):
+        if not is_member(text):
             self.fail("expected the name of a member or the number of a bit after '.'")
         self.index = at + 1
         return MemberAccess(at, base, text)
@@ -304,14 +318,20 @@ class ExpressionParser(TokenReader):
 
     def _call(self, base: Expression) -> Expression:
         at = self._step()
+        return Call(at, base, self._arguments())
+
+    def _arguments(self) -> list[Argument]:
+        """Parse arguments and the bracket behind them."""
         self.enter()
         arguments: list[Argument] = []
         while not self.accept(")"):
             if arguments:
                 self.expect(",", "or ')' after an argument")
+                if self.accept(")"):
+                    break
             arguments.append(self._argument())
         self.leave()
-        return Call(at, base, arguments)
+        return arguments
 
     def _argument(self) -> Argument:
         at = self.index

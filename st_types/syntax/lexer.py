@@ -57,7 +57,7 @@ _LEXEME = rf"""
       | {_STRINGS}
       | ['"] [^\r\n]*
       | % (?: "[^"\r\n]*" | [\w.*] )+
-      | \# [A-Za-z] [^\r\n]*
+      | \# [ \t]* [A-Za-z] [^\r\n]*
       | . | \Z )
 """
 _CUT = re.compile(f"({_TRIVIA})({_LEXEME})", re.VERBOSE | re.DOTALL | re.ASCII)
@@ -151,6 +151,8 @@ class _FileKeys(dict[str, str]):
             key = upper
         elif upper in ("TRUE", "FALSE"):
             key = "literal"
+        elif text.isidentifier() and text.isascii():
+            key = NAME
         else:
             key = _KEY_BY_KIND[kind_of(text)]
         self[text] = key
@@ -191,8 +193,21 @@ class Tokens:
         """Return the offset in the text of the first character of token ``index``."""
         if self._offsets is None:
             pairs = zip(self.trivia, self.texts, strict=True)
-            self._offsets = list(accumulate(len(part) for pair in pairs for part in pair))
-        return self._offsets[2 * index]
+            self._offsets = list(accumulate(len(part) for pair in pairs for part in pair))[::2]
+        return self._offsets[index]
+
+    def select(self, chosen: Sequence[tuple[int, str]]) -> None:
+        """Keep some tokens only, in the order given; each stays at its place in the source.
+
+        Args:
+            chosen: numbers of tokens, each with the text that takes its place: what a preprocessor
+                leaves.
+        """
+        end = self.end
+        places = [index for index, _ in chosen] + [end] * LOOKAHEAD
+        self._offsets = [self.offset(index) for index in places]
+        self.trivia = [self.trivia[index] for index in places]
+        self.texts = [text for _, text in chosen] + [""] * LOOKAHEAD
 
     def end_offset(self, index: int) -> int:
         """Return the offset just behind token ``index``."""

@@ -86,7 +86,7 @@ def test_check_of_nothing_is_an_error(run: Run, tmp_path: Path) -> None:
     with pytest.raises(PlcError, match="nope: no such file or folder"):
         run("check", tmp_path / "nope")
     (tmp_path / "a.txt").touch()
-    with pytest.raises(PlcError, match=r"a\.txt: not a \.typ, \.var or \.fun file"):
+    with pytest.raises(PlcError, match=r"a\.txt: not a \.fun, \.typ or \.var file"):
         run("check", tmp_path / "a.txt")
 
 

@@ -1,0 +1,97 @@
+"""What the commands of ``plcsim st`` do; `plcsim.cli.st` declares them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from plcsim.cli.declaration_files import find_files, shown_progress
+from plcsim.core.errors import PlcError
+from plcsim.program.structured_text.syntax.parser import parse_structured_text
+from plcsim.program.structured_text.syntax.tree import (
+    ActionUnit,
+    FunctionBlockUnit,
+    FunctionUnit,
+    ProgramUnit,
+)
+from st_types.errors import SourceError
+from st_types.syntax.source import Source
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
+
+SUFFIXES = frozenset([".st"])
+
+_NOUNS = {
+    ProgramUnit: "program unit",
+    ActionUnit: "action",
+    FunctionUnit: "function",
+    FunctionBlockUnit: "function block",
+}
+
+
+def check(options: argparse.Namespace) -> int:
+    """Print what is wrong in the files, and how many they are."""
+    if not options.syntax:
+        raise PlcError("names and types are not checked yet; use --syntax.")
+    paths = find_files(options.paths, SUFFIXES)
+    if not paths:
+        raise PlcError(f"{', '.join(map(str, options.paths))}: no .st file was found.")
+    counts: Counter[str] = Counter()
+    defines = _defines(options.defines)
+    for path in shown_progress(paths):
+        _check_file(path, defines, counts)
+    units = ", ".join(_count(counts[noun], noun) for noun in _NOUNS.values())
+    print(
+        f"{_count(len(paths), 'file')}, {_count(counts['line'], 'line')}: {units}; "
+        f"{_count(counts['error'], 'error')}, {_count(counts['warning'], 'warning')}"
+    )
+    return 1 if counts["error"] else 0
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def _defines(texts: Sequence[str]) -> dict[str, str]:
+    """Return the macros of ``-D NAME`` (as 1) and ``-D NAME=VALUE``.
+
+    Raises:
+        PlcError: one of them has no name.
+    """
+    found = {}
+    for text in texts:
+        name, sign, value = text.partition("=")
+        if not (name.isidentifier() and name.isascii()):
+            raise PlcError(f"-D {text}: no name; NAME or NAME=VALUE was expected.")
+        found[name] = value if sign else "1"
+    return found
+
+
+def _check_file(path: Path, defines: Mapping[str, str], counts: Counter[str]) -> None:
+    try:
+        source = Source.read(path)
+    except OSError as err:
+        print(f"{path}: error: {err.strerror or err}")
+        counts["error"] += 1
+        return
+    except SourceError as err:
+        print(err)
+        counts["error"] += 1
+        return
+    file = parse_structured_text(source, defines)
+    log = file.diagnostics
+    for record in sorted(log.records, key=lambda record: (record.line, record.column)):
+        print(record.render())
+    if log.omitted:
+        print(f"{file.path}: {log.omitted} more findings are not shown")
+    counts["line"] += source.line_count
+    counts["error"] += log.error_count
+    counts["warning"] += log.warning_count
+    counts.update(_NOUNS[type(unit)] for unit in file.units if type(unit) in _NOUNS)
+
+
+COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {"check": check}
+"""What each command runs; the results are exit codes."""

@@ -1,0 +1,1 @@
+"""From the text of Structured Text to its syntax tree."""

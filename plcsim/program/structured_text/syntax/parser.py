@@ -1,0 +1,70 @@
+"""Parser of Structured Text files: text in, syntax tree and findings out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plcsim.program.structured_text.syntax.preprocessor import preprocess
+from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+from plcsim.program.structured_text.syntax.units import UnitParser
+from st_types.syntax.collector import collector_paused
+from st_types.syntax.diagnostics import DiagnosticLog
+from st_types.syntax.lexer import Tokens, unnest_comments
+from st_types.syntax.source import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_NO_DEFINES: Mapping[str, str] = {}
+
+
+def parse_structured_text(
+    source: Source, defines: Mapping[str, str] = _NO_DEFINES
+) -> StructuredTextFile:
+    """Parse the text of a file of Structured Text.
+
+    Errors are in the ``diagnostics`` of the result, whose ``raise_errors`` makes an exception of
+    them.
+
+    Args:
+        source: the text.
+        defines: macros that are defined before the first line, each with its replacement.
+    """
+    if not is_text(source.text):
+        diagnostics = DiagnosticLog(source)
+        diagnostics.error(
+            0, "the file is no text", "it is encrypted, binary, or UTF-16 without BOM"
+        )
+        return StructuredTextFile([], Tokens(Source(source.path, "")), diagnostics)
+    with collector_paused():
+        first = _parse(source, defines)
+        if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
+            return first
+        second = _parse(Source(source.path, text, source.encoding), defines)
+    return second if second.diagnostics.error_count < first.diagnostics.error_count else first
+
+
+SAMPLE = 4096
+"""Characters at the start of a file that tell whether it is text."""
+
+_BLANKS = frozenset("\t\n\v\f\r\x1a")
+
+
+def is_text(text: str) -> bool:
+    """Return False for what is encrypted, compiled or UTF-16 without a byte order mark.
+
+    Those are full of control characters; a text may hold some by mistake.
+    """
+    sample = text[:SAMPLE]
+    controls = sum(character < " " and character not in _BLANKS for character in sample)
+    return controls * 20 <= len(sample)
+
+
+def _parse(source: Source, defines: Mapping[str, str]) -> StructuredTextFile:
+    diagnostics = DiagnosticLog(source)
+    tokens = Tokens(source)
+    parser = UnitParser(tokens, diagnostics)
+    if defines or "directive" in parser.keys:
+        preprocess(tokens, defines, diagnostics)
+        parser = UnitParser(tokens, diagnostics)
+    return parser.structured_text_file()
