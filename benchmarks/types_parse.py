@@ -20,6 +20,7 @@ import random
 import subprocess
 import sys
 import tempfile
+from itertools import groupby
 from pathlib import Path
 from statistics import median
 from time import perf_counter, process_time
@@ -35,7 +36,7 @@ from _outcome import (
     write_json,
 )
 
-from st_types.resolve.table import resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.collector import collector_paused
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
@@ -89,11 +90,14 @@ def _check(sources: list[tuple[str, str]]) -> float:
     start = process_time()
     with collector_paused():
         files = [parse_declarations(Source(path, text)) for path, text in sources]
-        table = resolve(files, strict=True)
+        programs = groupby(files, lambda file: file.path.partition("/")[0])
+        scopes = [Scope(name, list(inside), strict=True) for name, inside in programs]
+        for scope in scopes:
+            scope.check()
     seconds = process_time() - start
     for file in files:
         file.diagnostics.raise_errors()
-    assert sum(1 for _ in table.types()) > len(sources)
+    assert sum(1 for scope in scopes for _ in scope.data_types()) > len(sources)
     return seconds
 
 

@@ -1,4 +1,4 @@
-"""Errors of st_types.
+"""Errors of st_types, and what a `SourceError` carries: the findings in a text.
 
 ::
 
@@ -10,12 +10,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import StrEnum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from st_types.syntax.diagnostics import Diagnostic
 
 
 class TypeSystemError(Exception):
@@ -40,3 +40,51 @@ class SourceError(DeclarationError):
 
 class ValueRangeError(TypeSystemError, ValueError):
     """A value does not fit its declared type."""
+
+
+class Severity(StrEnum):
+    """How bad it is: an error makes the file unusable, a warning does not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    Attributes:
+        severity: error or warning.
+        path: the file, as the user named it.
+        line: from 1.
+        column: from 1, in characters.
+        message: what is wrong and what was expected.
+        hint: how to put it right, may be empty.
+        excerpt: the source line, cut around the column where it is long.
+        caret: place of the column in ``excerpt``, from 0.
+    """
+
+    severity: Severity
+    path: str
+    line: int
+    column: int
+    message: str
+    hint: str = ""
+    excerpt: str = ""
+    caret: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}: {self.severity}: {self.message}"
+
+    def render(self) -> str:
+        """Return the finding as lines of text: message, source line, caret, hint."""
+        lines = [str(self)]
+        if self.excerpt:
+            number = f"{self.line:>6} | "
+            lines += [
+                number + self.excerpt,
+                " " * (len(number) - 2) + "| " + " " * self.caret + "^",
+            ]
+        if self.hint:
+            lines.append(f"       hint: {self.hint}")
+        return "\n".join(lines)

@@ -12,6 +12,7 @@ from rich.progress import track
 
 from plcsim.core.errors import PlcError
 from st_types.errors import SourceError
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
 
@@ -100,6 +101,29 @@ def shown_progress(paths: Sequence[Path]) -> Iterable[Path]:
     return track(paths, "reading", console=Console(stderr=True), transient=True)
 
 
-def library_files() -> list[DeclarationFile]:
-    """Return the declarations of the controller libraries that plcsim has."""
-    return read_files(find_files([LIBRARY])).files
+def library_scopes() -> list[Scope]:
+    """Return the controller libraries that plcsim has; each sees the others."""
+    libraries: list[Scope] = []
+    for folder, files in _by_folder(read_files(find_files([LIBRARY])).files).items():
+        libraries.append(Scope(folder.name, files, libraries))
+    return libraries
+
+
+def folder_scopes(files: Iterable[DeclarationFile], *, strict: bool = False) -> list[Scope]:
+    """Return a scope for each folder that holds declaration files, outer folders first.
+
+    A folder sees the folders around it, the nearest first, then the controller libraries.
+    """
+    libraries = library_scopes()
+    scopes: dict[Path, Scope] = {}
+    for folder, inside in sorted(_by_folder(files).items()):
+        around = [scopes[parent] for parent in folder.parents if parent in scopes]
+        scopes[folder] = Scope(folder.name, inside, around or libraries, strict=strict)
+    return list(scopes.values())
+
+
+def _by_folder(files: Iterable[DeclarationFile]) -> dict[Path, list[DeclarationFile]]:
+    folders: dict[Path, list[DeclarationFile]] = {}
+    for file in files:
+        folders.setdefault(Path(file.path).resolve().parent, []).append(file)
+    return folders

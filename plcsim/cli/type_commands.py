@@ -5,14 +5,20 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from plcsim.cli.declaration_files import Reading, find_files, library_files, read_files
+from plcsim.cli.declaration_files import (
+    Reading,
+    find_files,
+    folder_scopes,
+    library_scopes,
+    read_files,
+)
 from plcsim.cli.message_files import MessageFiles, common_folders
 from plcsim.core.errors import PlcError
-from st_types.resolve.table import TypeTable, resolve
+from st_types.errors import Severity
+from st_types.resolve.scope import Scope
 from st_types.syntax.collector import collector_paused
-from st_types.syntax.diagnostics import Severity
 from st_types.syntax.printer import print_file, print_item
-from st_types.types.derived import DataBlockType, StructType, resolve_alias
+from st_types.types.derived import StructType, resolve_alias
 from st_types.writers.c_header import c_header
 from st_types.writers.layout_table import layout_rows
 from st_types.writers.python_source import python_source
@@ -29,18 +35,20 @@ if TYPE_CHECKING:
 
 def check(options: argparse.Namespace) -> int:
     """Print what is wrong in the files, and how many they are."""
-    reading, table = _resolved(options.paths, strict=options.strict)
+    reading, scopes = _resolved(options.paths, strict=options.strict)
     if not reading.files and not reading.failures:
         places = ", ".join(map(str, options.paths))
         raise PlcError(f"{places}: no .typ, .var or .fun file was found.")
     errors = _report(reading, print)
     warnings = sum(file.diagnostics.warning_count for file in reading.files)
-    types = [data_type for _, data_type in table.types()]
-    blocks = sum(isinstance(data_type, DataBlockType) for data_type in types)
+    types = sum(sum(1 for _ in scope.data_types()) for scope in scopes)
+    blocks = sum(b.data_type is not None for scope in scopes for b in scope.function_blocks)
+    functions = sum(len(scope.functions) for scope in scopes)
+    variables = sum(len(scope.variables) for scope in scopes)
     print(
         f"{_count(len(reading.files), 'file')}, {_count(reading.lines, 'line')}: "
-        f"{_count(len(types) - blocks, 'type')}, {_count(blocks, 'function block')}, "
-        f"{_count(len(table.functions), 'function')}, {_count(len(table.variables), 'variable')}; "
+        f"{_count(types - blocks, 'type')}, {_count(blocks, 'function block')}, "
+        f"{_count(functions, 'function')}, {_count(variables, 'variable')}; "
         f"{_count(errors, 'error')}, {_count(warnings, 'warning')}"
     )
     return 1 if errors else 0
@@ -50,10 +58,13 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def _resolved(paths: Sequence[Path], *, strict: bool = False) -> tuple[Reading, TypeTable]:
+def _resolved(paths: Sequence[Path], *, strict: bool = False) -> tuple[Reading, list[Scope]]:
     with collector_paused():
         reading = read_files(find_files(paths))
-        return reading, resolve(reading.files, library_files(), strict=strict)
+        scopes = folder_scopes(reading.files, strict=strict)
+        for scope in scopes:
+            scope.check()
+        return reading, scopes
 
 
 def _report(reading: Reading, show: Callable[[str], object], *, warnings: bool = True) -> int:
@@ -69,17 +80,19 @@ def _report(reading: Reading, show: Callable[[str], object], *, warnings: bool =
     return len(reading.failures) + sum(file.diagnostics.error_count for file in reading.files)
 
 
-def _sound(paths: Sequence[Path]) -> TypeTable:
+def _sound(paths: Sequence[Path]) -> Scope:
     """Return the declarations of files without errors.
 
     Raises:
         PlcError: there are errors; they are printed.
     """
-    reading, table = _resolved(paths)
+    reading = read_files(find_files(paths))
+    scope = Scope("", reading.files, library_scopes())
+    scope.check()
     errors = _report(reading, lambda line: print(line, file=sys.stderr), warnings=False)
     if errors:
         raise PlcError(f"{_count(errors, 'error')} in the declarations.")
-    return table
+    return scope
 
 
 def layout(options: argparse.Namespace) -> int:
@@ -101,8 +114,9 @@ def _find(paths: Sequence[Path], name: str) -> DataType[object]:
     Raises:
         PlcError: there is none of that name, or it has no layout; errors in the files are printed.
     """
-    reading, table = _resolved(paths)
-    data_type = table.find_type(name)
+    reading, scopes = _resolved(paths)
+    found = (scope.find_type(name) for scope in [*scopes, *library_scopes()])
+    data_type = next((each for each in found if each is not None), None)
     if data_type is None:
         _report(reading, lambda line: print(line, file=sys.stderr))
         raise PlcError(f"no type with a layout is called {name}.")

@@ -6,10 +6,10 @@ import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.core.errors import TagError
-from plcsim.core.memory import find
 from plcsim.core.suggestion import did_you_mean
 from st_types.errors import ValueRangeError
 from st_types.types.derived import ArrayType, DataBlockType, StructType, resolve_alias
+from st_types.types.paths import find
 from st_types.types.values import encode
 
 if TYPE_CHECKING:

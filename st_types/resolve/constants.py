@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Protocol
 
 from st_types.syntax.expressions import Binary, Literal, MemberAccess, Name, Unary
 from st_types.syntax.literals import Constant
+from st_types.syntax.tree import ArrayInitial, MemberInitial, RepeatedInitial, StructInitial
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from st_types.syntax.expressions import Expression
+    from st_types.syntax.tree import Initial
 
 Number = int | float
 
@@ -44,8 +46,8 @@ class NotConstantError(EvaluationError):
     """The expression may have a value, but not before the program is linked or runs."""
 
 
-class ScopeError(Exception):
-    """A scope knows the name but not its value.
+class UnknownValueError(Exception):
+    """A name is known but not its value.
 
     Attributes:
         message: why; empty where that is reported already.
@@ -58,20 +60,28 @@ class ScopeError(Exception):
         self.is_final = is_final
 
 
-class Scope(Protocol):
-    """What names stand for."""
+class Constants(Protocol):
+    """What names stand for.
 
-    def constant(self, name: str) -> Constant | None:
+    Attributes:
+        level: levels of nesting that are open; counted here, for a constant may lead to the next.
+    """
+
+    level: int
+
+    def constant(self, name: str, at: int) -> Constant | None:
         """Return the constant or enumeration value ``name``, None if there is none.
 
-        A value of an enumeration may be qualified: ``Colour.red``.
+        Args:
+            name: as it is written; a value of an enumeration may be qualified: ``Colour.red``.
+            at: token it stands at.
 
         Raises:
-            ScopeError: there is one, but its value is not known.
+            UnknownValueError: there is one, but its value is not known.
         """
 
 
-def evaluate(expression: Expression, scope: Scope) -> Constant:
+def evaluate(expression: Expression, scope: Constants) -> Constant:
     """Return the value of ``expression``.
 
     Raises:
@@ -81,13 +91,36 @@ def evaluate(expression: Expression, scope: Scope) -> Constant:
     while isinstance(expression, Binary):
         chain.append(expression)
         expression = expression.left
+    scope.level += 1
     value = _operand(expression, scope)
     for node in reversed(chain):
         value = _binary(node, value, evaluate(node.right, scope))
+    scope.level -= 1
     return value
 
 
-def _operand(node: Expression, scope: Scope) -> Constant:
+def names_in(initial: Initial) -> Iterator[str]:
+    """Yield the unqualified names that stand in an initial value."""
+    waiting: list[Initial | MemberInitial] = [initial]
+    while waiting:
+        match waiting.pop():
+            case Name(name=name):
+                yield name
+            case Unary(operand=operand):
+                waiting.append(operand)
+            case Binary(left=left, right=right):
+                waiting += (right, left)
+            case ArrayInitial(items=items):
+                waiting += reversed(items)
+            case RepeatedInitial(count=count, items=items):
+                waiting += (*reversed(items), count)
+            case StructInitial(members=members):
+                waiting += reversed(members)
+            case MemberInitial(value=value):
+                waiting.append(value)
+
+
+def _operand(node: Expression, scope: Constants) -> Constant:
     match node:
         case Literal():
             return node.constant
@@ -98,12 +131,12 @@ def _operand(node: Expression, scope: Scope) -> Constant:
     raise NotConstantError(node.at, "the value is not known here; a constant was expected")
 
 
-def _lookup(node: Name | MemberAccess, name: str, scope: Scope) -> Constant:
+def _lookup(node: Name | MemberAccess, name: str, scope: Constants) -> Constant:
     if isinstance(node, MemberAccess) and isinstance(node.base, Name):
         name = f"{node.base.name}.{name}"
     try:
-        found = scope.constant(name)
-    except ScopeError as err:
+        found = scope.constant(name, node.at)
+    except UnknownValueError as err:
         kind = EvaluationError if err.is_final else NotConstantError
         raise kind(node.at, err.message) from None
     if found is None:

@@ -5,21 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from st_types.errors import DeclarationError
-from st_types.resolve.constant_resolver import MAX_NESTING, ConstantResolver, constant_of
-from st_types.resolve.constants import ScopeError
-from st_types.resolve.variables import Function, Variable
+from st_types.resolve.constant_lookup import MAX_LEVEL
+from st_types.resolve.constant_resolver import ConstantResolver
+from st_types.resolve.constants import UnknownValueError
+from st_types.resolve.index import DONE, NEW, OPEN, Entry, PouEntry, TypeEntry, VariableEntry
 from st_types.syntax.printer import print_specification
 from st_types.syntax.tree import (
     ArraySpecification,
     Declaration,
+    DeclarationFile,
     EnumerationSpecification,
     FunctionBlockDeclaration,
+    FunctionDeclaration,
     NamedType,
     ReferenceSpecification,
     StringSpecification,
     StructSpecification,
     SubrangeSpecification,
-    VariableBlock,
 )
 from st_types.types.derived import (
     AliasType,
@@ -35,19 +37,17 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import DINT, ELEMENTARY, DataType, ElementaryType
+from st_types.types.elementary import DINT, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from st_types.resolve.name_index import Entry, SourceFile
-    from st_types.resolve.table import TypeTable
+    from st_types.resolve.scope import Scope
     from st_types.syntax.expressions import Expression, Node
-    from st_types.syntax.literals import Constant
-    from st_types.syntax.tree import FunctionDeclaration, TypeSpecification
+    from st_types.syntax.tree import TypeSpecification
 
-DEFAULT_STRING_LENGTH = 80
-"""Characters of STRING and WSTRING without a length (IEC 61131-3 leaves it to the vendor)."""
+MAX_NESTING = 50
+"""Most types that lie one inside the other."""
 
 GENERIC_TYPES = frozenset(
     [
@@ -68,38 +68,68 @@ _SECTIONS = {
 
 T = TypeVar("T")
 
-_SIMPLE: dict[str, DataType[Any]] = {
-    **{spelling(name): t for name, t in ELEMENTARY.items() for spelling in (str, str.lower)},
-    "STRING": StringType(DEFAULT_STRING_LENGTH),
-    "WSTRING": WStringType(DEFAULT_STRING_LENGTH),
-}
-"""Types that every file knows, in the usual spellings."""
-
 
 class FileResolver(ConstantResolver):
-    """Resolves what one file declares."""
+    """Resolves what one file declares in a scope.
 
-    def __init__(self, table: TypeTable, owner: SourceFile) -> None:
-        super().__init__(table, owner)
-        self._entries: dict[str, Entry | None] = {}
+    Args:
+        scope: where its names are looked up.
+        file: the file.
+        known: types by the names that the file uses, None for those that are not declared; the
+            scopes inside a file share it.
+    """
+
+    def __init__(
+        self, scope: Scope, file: DeclarationFile, known: dict[str, Entry | None] | None = None
+    ) -> None:
+        super().__init__(scope, file)
+        self._known = {} if known is None else known
+        self._simple = scope.dialect.simple_types
         self._depth = 0
+        self._references: list[ReferenceType] = []
 
-    def resolve(self, entry: Entry) -> None:
-        """Give ``entry`` its data type, and its value if it is a constant."""
-        outer, self._depth = self._depth, 0
-        node = entry.node
-        if isinstance(node, FunctionBlockDeclaration):
-            entry.data_type = self._function_block(node)
-        elif isinstance(node, Declaration) and entry.is_constant:
-            entry.data_type = self.data_type(node.specification, node.name)
-            entry.value = self.initial(node, entry.data_type)
-        elif isinstance(node, Declaration):
-            entry.data_type = self._declared_type(node)
+    def resolve(self, entry: Entry, level: int) -> None:
+        """Give ``entry`` its data type, and its value if it is a variable; ``level`` are open."""
+        outer = self.entry, self.level, self._depth
+        self.entry, self.level, self._depth = entry, level, 0
+        match entry:
+            case VariableEntry():
+                self.resolve_variable(entry)
+            case TypeEntry(node=node):
+                entry.data_type = self._declared_type(node)
+            case PouEntry(node=FunctionDeclaration() as node):
+                entry.data_type = self._function(entry, node)
+            case PouEntry(node=FunctionBlockDeclaration() as node):
+                entry.data_type = self._function_block(entry, node)
         entry.depth = self._depth + 1
-        self._depth = outer
+        self.entry, self.level, self._depth = outer
         if entry.depth > MAX_NESTING:
-            self.error(node, f"{node.name}: more than {MAX_NESTING} types lie one inside the other")
+            message = f"{entry.name}: more than {MAX_NESTING} types lie one inside the other"
+            self.error(entry.node, message)
             entry.data_type = None
+
+    def resolve_variable(self, entry: VariableEntry) -> None:
+        """Give a variable its type and its value."""
+        node = entry.node
+        entry.data_type = self.data_type(node.specification, node.name)
+        if node.initial is not None:
+            entry.value = self.initial(node, entry.data_type)
+
+    def complete(self, entry: VariableEntry) -> None:
+        """Resolve a variable if that is not done yet.
+
+        Nothing needs a variable that is no constant, so there is no loop to be found.
+        """
+        if entry.is_constant:
+            self.resolved(entry)
+        elif entry.state == NEW:
+            entry.state = DONE
+            self.resolve_variable(entry)
+
+    def resolve_references(self) -> None:
+        """Look up what references refer to, so that all findings are recorded."""
+        while self._references:
+            _ = self._references.pop().target
 
     def _declared_type(self, node: Declaration) -> DataType[object] | None:
         made = self.data_type(node.specification, node.name)
@@ -115,45 +145,55 @@ class FileResolver(ConstantResolver):
             node: the specification.
             name: of the declaration, for types without a name of their own.
         """
-        if type(node) is NamedType and node.name in _SIMPLE:
-            return _SIMPLE[node.name]
+        if type(node) is NamedType and node.name in self._simple:
+            return self._simple[node.name]
         return _BUILDERS[type(node)](self, node, name)
 
     def _named_type(self, node: NamedType, _name: str = "") -> DataType[object] | None:
-        if node.name in self._entries:
-            entry = self._entries[node.name]
-        elif (spelling := node.name.upper()) in _SIMPLE:
-            return _SIMPLE[spelling]
+        if node.name in self._known:
+            entry = self._known[node.name]
+        elif (spelling := node.name.upper()) in self._simple:
+            return self._simple[spelling]
         else:
-            entry = self._entries[node.name] = self._find_type(node)
+            entry = self._known[node.name] = self._find_type(node)
         if entry is None:
             return None
-        if entry.state != 2 and not self._may_resolve(node, entry):
+        if entry.state != DONE and not self._may_resolve(node, entry):
             return None
         self._depth = max(self._depth, entry.depth)
         return entry.data_type
 
     def _find_type(self, node: NamedType) -> Entry | None:
-        entry = self.table.find("types", node.name, self.owner)
+        entry = self.find("types", node.name, node.at)
         if entry is None and node.name.upper() not in GENERIC_TYPES:
-            self.missing(node.at, f"no type is called {node.name} in the checked files")
+            hint = self.scope.hint("types", node.name)
+            self.missing(node.at, f"no type is called {node.name}", hint)
         return entry
 
     def _may_resolve(self, node: NamedType, entry: Entry) -> bool:
         """Resolve the type of another declaration; False after an error."""
-        names = [e.node.name for e in self.table.open]
-        if entry.state == 1:
-            path = [*names[self.table.open.index(entry) :], entry.node.name]
+        if entry.state == OPEN:
             hint = "a REFERENCE TO it is possible"
-            self.error(node, f"{entry.node.name} contains itself: {' -> '.join(path)}", hint)
+            path = " -> ".join(self._path_from(entry))
+            self.error(node, f"{entry.name} contains itself: {path}", hint)
             return False
         try:
             self.check_open(entry)
-        except ScopeError as err:
+        except UnknownValueError as err:
             self.error(node, err.message)
             return False
-        self.table.resolved(entry)
+        self.resolved(entry)
         return True
+
+    def _path_from(self, entry: Entry) -> list[str]:
+        """Return the names of the types from ``entry``, which is OPEN, back to itself."""
+        path = [entry.name]
+        user = self.entry
+        while user is not None and user is not entry:
+            if not isinstance(user, VariableEntry):
+                path.append(user.name)
+            user = user.user
+        return [entry.name, *reversed(path)]
 
     def _string(self, node: StringSpecification, _name: str) -> DataType[object] | None:
         length = self.integer(node.length)
@@ -163,12 +203,21 @@ class FileResolver(ConstantResolver):
     def _array(self, node: ArraySpecification, name: str) -> DataType[object] | None:
         bounds = [self._bounds(low, high) for low, high in node.bounds]
         outer, self._depth = self._depth, 0
-        element = self.data_type(node.element, name)
+        element = self.data_type(node.element, name) if self._enter(node) else None
+        self.level -= 1
         self._depth = max(outer, self._depth + 1)
         known = [pair for pair in bounds if pair is not None]
         if element is None or len(known) < len(bounds):
             return None
         return self._made(node, lambda: ArrayType(element, known))
+
+    def _enter(self, node: Node) -> bool:
+        """Count one level of nesting; False, after an error, if it is one too many."""
+        self.level += 1
+        if self.level > MAX_LEVEL:
+            self.error(node, "the types here are nested too deep")
+            return False
+        return True
 
     def _bounds(self, low: Expression, high: Expression) -> tuple[int, int] | None:
         first, last = self.integer(low), self.integer(high)
@@ -180,11 +229,14 @@ class FileResolver(ConstantResolver):
         return first, last
 
     def _reference(self, node: ReferenceSpecification, _name: str) -> ReferenceType:
-        return self._reference_to(node.target)
+        return self._reference_to(node.target, lambda: self.data_type(node.target, ""))
 
-    def _reference_to(self, target: TypeSpecification) -> ReferenceType:
-        reference = ReferenceType(None, f"REFERENCE TO {print_specification(target)}")
-        self.table.resolve_later(reference, self, target)
+    def _reference_to(
+        self, target: TypeSpecification, find: Callable[[], DataType[object] | None]
+    ) -> ReferenceType:
+        """Return a reference whose target is found later, for that may hold the reference."""
+        reference = ReferenceType(find, f"REFERENCE TO {print_specification(target)}")
+        self._references.append(reference)
         return reference
 
     def _subrange(self, node: SubrangeSpecification, name: str) -> DataType[object] | None:
@@ -199,15 +251,18 @@ class FileResolver(ConstantResolver):
         return self._made(node, lambda: SubrangeType(name or node.base, base, *bounds))
 
     def _enumeration(self, node: EnumerationSpecification, name: str) -> DataType[object] | None:
+        key = self.scope.dialect.key
         values: dict[str, int] = {}
-        outer, self.values = self.values, values
+        known: dict[str, int] = {}
+        outer, self.values = self.values, known
         number = -1
         for item in node.values:
-            if item.name in values:
+            if key(item.name) in known:
                 self.error(item, f"{name} declares {item.name} twice")
             following = DINT.wrap(number + 1)
             number = following if item.value is None else self._value(item.value, following)
             values[item.name] = number
+            known[key(item.name)] = number
         self.values = outer
         if not values:
             self.warning(node, "the enumeration has no values")
@@ -215,7 +270,8 @@ class FileResolver(ConstantResolver):
         return EnumerationType(name, values)
 
     def _struct(self, node: StructSpecification, name: str) -> DataType[object] | None:
-        members = self._members(node.members, Section.INTERNAL, name)
+        members = self._members(node.members, name) if self._enter(node) else None
+        self.level -= 1
         if members is None:
             return None
         return self._made(node, lambda: StructType(name, members))
@@ -237,97 +293,79 @@ class FileResolver(ConstantResolver):
 
     # Lists of declarations
 
-    def _members(
-        self, declarations: Sequence[Declaration], section: Section, name: str
-    ) -> list[Member] | None:
+    def _members(self, declarations: Sequence[Declaration], name: str) -> list[Member] | None:
         members: list[Member] = []
         for declaration in declarations:
             data_type = self.data_type(declaration.specification, f"{name}_{declaration.name}")
             if data_type is not None:
                 initial = self.initial(declaration, data_type)
-                members.append(Member(declaration.name, data_type, initial, section))
+                members.append(Member(declaration.name, data_type, initial))
         if self._report_duplicates(declarations, name):
             return None
         return members if len(members) == len(declarations) else None
 
     def _report_duplicates(self, declarations: Sequence[Declaration], name: str) -> bool:
         """Report names that are declared twice; False if there are none."""
-        if len({declaration.name.upper() for declaration in declarations}) == len(declarations):
+        key = self.scope.dialect.key
+        if len({key(declaration.name) for declaration in declarations}) == len(declarations):
             return False
         seen: set[str] = set()
         for declaration in declarations:
-            if declaration.name.upper() in seen:
+            if key(declaration.name) in seen:
                 self.error(declaration, f"{name} declares {declaration.name} twice")
-            seen.add(declaration.name.upper())
+            seen.add(key(declaration.name))
         return True
 
-    def _function_block(self, node: FunctionBlockDeclaration) -> DataType[object] | None:
-        outer, self.local = self.local, self._local_constants(node.blocks)
-        parts = [self._block_members(block, node.name) for block in node.blocks]
-        self.local = outer
-        every = [declaration for block in node.blocks for declaration in block.declarations]
-        self._report_duplicates(every, node.name)
-        members = [member for part in parts for member in part or ()]
-        if None in parts or len({m.name.upper() for m in members}) < len(members):
+    # Functions and function blocks
+
+    def _local(self, node: FunctionDeclaration | FunctionBlockDeclaration) -> Scope:
+        """Return the scope of the variables of a function or a function block."""
+        file = DeclarationFile(node.blocks, "", self.file.tokens, self.file.diagnostics)
+        return self.scope.inner(node.name, file, self._known)
+
+    def _function(self, entry: PouEntry, node: FunctionDeclaration) -> DataType[object] | None:
+        """Return the type of the result, None if there is none."""
+        entry.scope = local = self._local(node)
+        local.index.report_duplicates(local.dialect)
+        (resolver,) = local.resolvers
+        return resolver.data_type(node.result, node.name) if node.result is not None else None
+
+    def _function_block(
+        self, entry: PouEntry, node: FunctionBlockDeclaration
+    ) -> DataType[object] | None:
+        """Return the data block, None if it has no layout."""
+        entry.scope = local = self._local(node)
+        (resolver,) = local.resolvers
+        resolver.entry, resolver.level = entry, self.level
+        lasting = [variable for variable in local.index.variables if _has_place(variable)]
+        members = [resolver._member(variable) for variable in lasting]
+        resolver.entry, resolver.level = None, 0
+        self._depth = resolver._depth
+        known = [member for member in members if member is not None]
+        if local.index.report_duplicates(local.dialect) or len(known) < len(members):
             return None
-        return self._made(node, lambda: DataBlockType(node.name, members))
+        return self._made(node, lambda: DataBlockType(node.name, known))
 
-    def _block_members(self, block: VariableBlock, name: str) -> list[Member] | None:
-        """Return the members that a block of variables adds to a data block, None after an error.
-
-        A VAR_IN_OUT is a reference there. Constants take no place.
-        """
-        section = _SECTIONS.get(block.section)
+    def _member(self, entry: VariableEntry) -> Member | None:
+        """Return a member of a data block; a VAR_IN_OUT is a reference there."""
+        node = entry.node
+        section = _SECTIONS[entry.block.section]
         if section is Section.IN_OUT:
-            return [
-                Member(d.name, self._reference_to(d.specification), None, section)
-                for d in block.declarations
-            ]
-        members = self._members(block.declarations, section or Section.INTERNAL, name)
-        return [] if section is None or "CONSTANT" in block.qualifiers else members
+            reference = self._reference_to(node.specification, lambda: _completed(entry))
+            return Member(node.name, reference, None, section)
+        self.complete(entry)
+        data_type = entry.data_type
+        return None if data_type is None else Member(node.name, data_type, entry.value, section)
 
-    def _local_constants(self, blocks: Sequence[VariableBlock]) -> dict[str, Constant | None]:
-        outer = self.local
-        self.local = dict(outer)
-        for block in blocks:
-            if "CONSTANT" in block.qualifiers:
-                for node in block.declarations:
-                    data_type = self.data_type(node.specification, node.name)
-                    value = self.initial(node, data_type)
-                    self.local[node.name.upper()] = constant_of(node, data_type, value)
-        found, self.local = self.local, outer
-        return found
 
-    def function(self, node: FunctionDeclaration) -> Function:
-        """Return the parameters, the other variables and the result of a FUNCTION."""
-        outer, self.local = self.local, self._local_constants(node.blocks)
-        result = self.data_type(node.result, node.name) if node.result is not None else None
-        variables = [variable for block in node.blocks for variable in self.variables(block)]
-        self.local = outer
-        every = [declaration for block in node.blocks for declaration in block.declarations]
-        self._report_duplicates(every, node.name)
-        return Function(node.name, result, tuple(variables), node, self.owner.file)
+def _completed(entry: VariableEntry) -> DataType[object] | None:
+    entry.resolver.complete(entry)
+    return entry.data_type
 
-    def file_variables(self) -> list[Variable]:
-        """Return the variables of the VAR blocks outside functions and function blocks."""
-        blocks = [item for item in self.owner.file.items if isinstance(item, VariableBlock)]
-        self._report_duplicates(
-            [node for block in blocks for node in block.declarations], "the file"
-        )
-        return [variable for block in blocks for variable in self.variables(block)]
 
-    def variables(self, block: VariableBlock) -> list[Variable]:
-        """Return the variables of a VAR block."""
-        return [self._variable(node, block) for node in block.declarations]
-
-    def _variable(self, node: Declaration, block: VariableBlock) -> Variable:
-        entry = self.table.constant_entry(node) if "CONSTANT" in block.qualifiers else None
-        if entry is not None:
-            data_type, initial = entry.data_type, entry.value
-        else:
-            data_type = self.data_type(node.specification, node.name)
-            initial = self.initial(node, data_type)
-        return Variable(node.name, data_type, initial, block, node, self.owner.file)
+def _has_place(entry: VariableEntry) -> bool:
+    """Whether a variable takes a place in its data block."""
+    return entry.block.section in _SECTIONS and not entry.is_constant
 
 
 _BUILDERS: dict[type, Callable[[FileResolver, Any, str], DataType[object] | None]] = {

@@ -39,7 +39,13 @@ MAX_ELEMENTS = 4_000_000
 
 
 class Context(Protocol):
-    """What a value needs to know of the file it stands in."""
+    """What a value needs to know of the file it stands in.
+
+    Attributes:
+        level: levels of nesting that are open; lists and structures are counted here.
+    """
+
+    level: int
 
     def evaluate(
         self, node: Expression, enumeration: EnumerationType[object] | None
@@ -51,6 +57,9 @@ class Context(Protocol):
 
     def take_elements(self, count: int) -> bool:
         """Count elements of initial values; False if the file has more than `MAX_ELEMENTS`."""
+
+    def check_spelling(self, declared: str, name: str, at: int) -> None:
+        """Warn if the name at the token ``at`` is declared in another case."""
 
     def error(self, node: Node, message: str, hint: str = "") -> None:
         """Record an error at ``node``."""
@@ -65,19 +74,31 @@ def initial_value(context: Context, node: Initial, declared: DataType[object]) -
     None means the initial value of the type: also after an error, which is recorded.
     """
     data_type = resolve_alias(declared)
-    if isinstance(node, ArrayInitial | RepeatedInitial):
-        if isinstance(data_type, ArrayType):
-            return _array(context, node, data_type)
-        context.error(node, f"{declared} cannot have a list of values as its initial value")
-        return None
+    if isinstance(node, ArrayInitial | RepeatedInitial | StructInitial):
+        context.level += 1
+        value = _composite(context, node, data_type, declared)
+        context.level -= 1
+        return value
+    if isinstance(data_type, ReferenceType):
+        return None  # known when the program is linked: ADR(x), or 0
+    return _scalar(context, node, data_type, declared)
+
+
+def _composite(
+    context: Context,
+    node: ArrayInitial | RepeatedInitial | StructInitial,
+    data_type: DataType[object],
+    declared: DataType[object],
+) -> object:
     if isinstance(node, StructInitial):
         if isinstance(data_type, StructType):
             return _struct(context, node, data_type)
         context.error(node, f"{declared} cannot have members as its initial value")
-        return None
-    if isinstance(data_type, ReferenceType):
-        return None  # known when the program is linked: ADR(x), or 0
-    return _scalar(context, node, data_type, declared)
+    elif isinstance(data_type, ArrayType):
+        return _array(context, node, data_type)
+    else:
+        context.error(node, f"{declared} cannot have a list of values as its initial value")
+    return None
 
 
 def _array(
@@ -144,11 +165,12 @@ def _struct(
 ) -> dict[str, object]:
     values: dict[str, object] = {}
     for given in node.members:
-        try:
-            member, _ = data_type.find(given.name)
-        except KeyError:
+        declared = data_type.spelling(given.name)
+        if declared is None:
             context.error(given, f"{data_type} has no member {given.name}")
             continue
+        context.check_spelling(declared, given.name, given.at)
+        member, _ = data_type.find(declared)
         if member.name in values:
             context.error(given, f"the member {member.name} is given twice")
         values[member.name] = initial_value(context, given.value, member.data_type)

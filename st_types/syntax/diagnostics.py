@@ -1,12 +1,10 @@
-"""What is wrong in a source text, where, and how to show it."""
+"""Collecting what is wrong in a source text."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from st_types.errors import SourceError
+from st_types.errors import Diagnostic, Severity, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -18,54 +16,6 @@ MAX_DIAGNOSTICS = 20
 
 EXCERPT_WIDTH = 100
 """Most characters of a source line that are shown."""
-
-
-class Severity(StrEnum):
-    """How bad it is: an error makes the file unusable, a warning does not."""
-
-    ERROR = "error"
-    WARNING = "warning"
-
-
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
-    """One finding.
-
-    Attributes:
-        severity: error or warning.
-        path: the file, as the user named it.
-        line: from 1.
-        column: from 1, in characters.
-        message: what is wrong and what was expected.
-        hint: how to put it right, may be empty.
-        excerpt: the source line, cut to `EXCERPT_WIDTH` around the column.
-        caret: place of the column in ``excerpt``, from 0.
-    """
-
-    severity: Severity
-    path: str
-    line: int
-    column: int
-    message: str
-    hint: str = ""
-    excerpt: str = ""
-    caret: int = 0
-
-    def __str__(self) -> str:
-        return f"{self.path}:{self.line}:{self.column}: {self.severity}: {self.message}"
-
-    def render(self) -> str:
-        """Return the finding as lines of text: message, source line, caret, hint."""
-        lines = [str(self)]
-        if self.excerpt:
-            number = f"{self.line:>6} | "
-            lines += [
-                number + self.excerpt,
-                " " * (len(number) - 2) + "| " + " " * self.caret + "^",
-            ]
-        if self.hint:
-            lines.append(f"       hint: {self.hint}")
-        return "\n".join(lines)
 
 
 def render_all(diagnostics: Iterable[Diagnostic], omitted: int = 0) -> str:

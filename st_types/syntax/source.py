@@ -12,8 +12,7 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from st_types.errors import SourceError
-from st_types.syntax.diagnostics import Diagnostic, Severity
+from st_types.errors import Diagnostic, Severity, SourceError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from st_types.errors import DeclarationError
 from st_types.types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
 from st_types.types.layout import Layout, lay_out
+from st_types.types.spelling import Spellings
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
 V_co = TypeVar("V_co", covariant=True)
 
@@ -102,14 +103,14 @@ class ArrayType(DataType[V_co]):
 
 
 class StructType(DataType[V_co]):
-    """STRUCT: members in the order of declaration.
+    """STRUCT: members in the order of declaration; names that differ in case are two members.
 
     Attributes:
         members: as declared.
         offsets: bytes from the start, one for each member.
     """
 
-    __slots__ = ("_places", "members", "offsets")
+    __slots__ = ("_indices", "_spellings", "members", "offsets")
 
     def __init__(self, name: str, members: Sequence[Member]) -> None:
         self.members = tuple(members)
@@ -118,23 +119,31 @@ class StructType(DataType[V_co]):
         if layout.size > MAX_SIZE:
             raise DeclarationError(f"{name}: {layout.size} bytes are too many.")
         super().__init__(name, layout.size, layout.alignment)
-        self._places: dict[str, int] = {}
-        for place, member in enumerate(self.members):
-            if self._places.setdefault(member.name.upper(), place) != place:
+        self._indices: dict[str, int] = {}
+        for index, member in enumerate(self.members):
+            if self._indices.setdefault(member.name, index) != index:
                 raise DeclarationError(f"{name}: two members are called {member.name}.")
+        self._spellings = Spellings(self._indices)
 
     def _laid_out(self) -> Layout:
         """Return the layout, its offsets in the order of declaration."""
         return lay_out([member.data_type for member in self.members])
 
     def find(self, name: str) -> tuple[Member, int]:
-        """Return the member ``name`` (case does not matter) and its offset in bytes.
+        """Return the member ``name``, spelled as declared, and its offset in bytes.
 
         Raises:
             KeyError: there is no such member.
         """
-        place = self._places[name.upper()]
-        return self.members[place], self.offsets[place]
+        index = self._indices[name]
+        return self.members[index], self.offsets[index]
+
+    def spelling(self, name: str) -> str | None:
+        """Return how the member is declared that ``name`` stands for, None if there is none.
+
+        It is ``name`` itself, else the only member whose name differs from it in case.
+        """
+        return self._spellings.of(name)
 
 
 class DataBlockType(StructType[V_co]):
@@ -179,7 +188,7 @@ class EnumerationType(DataType[V_co]):
         members: the IntEnum that Python programs see, None where values are plain integers.
     """
 
-    __slots__ = ("members", "values")
+    __slots__ = ("_spellings", "members", "values")
 
     def __init__(
         self, name: str, values: Mapping[str, int], members: type[IntEnum] | None = None
@@ -192,6 +201,11 @@ class EnumerationType(DataType[V_co]):
                 raise DeclarationError(f"{name}.{key}: {value} is not a DINT.")
         self.values = dict(values)
         self.members = members
+        self._spellings = Spellings(self.values)
+
+    def spelling(self, name: str) -> str | None:
+        """Return how the value is declared that ``name`` stands for, as `StructType.spelling`."""
+        return self._spellings.of(name)
 
 
 class SubrangeType(DataType[int]):
@@ -217,14 +231,34 @@ class SubrangeType(DataType[int]):
 class ReferenceType(DataType[int]):
     """REFERENCE TO target: a 32-bit address, 0 for none.
 
-    ``target`` may be set after construction, for types that refer to themselves.
+    Args:
+        target: what lies at the address, None where it is not known. A function is called when
+            the target is first asked for: a type may refer to itself.
+        name: as it is written in a declaration.
     """
 
-    __slots__ = ("target",)
+    __slots__ = ("_find", "_target")
 
-    def __init__(self, target: DataType[object] | None, name: str = "") -> None:
-        super().__init__(name or f"REFERENCE TO {target}", UDINT.size, UDINT.alignment)
-        self.target = target
+    def __init__(
+        self,
+        target: DataType[object] | Callable[[], DataType[object] | None] | None,
+        name: str = "",
+    ) -> None:
+        self._target: DataType[object] | None = None
+        self._find: Callable[[], DataType[object] | None] | None = None
+        if target is None or isinstance(target, DataType):
+            self._target = target
+        else:
+            self._find = target
+        super().__init__(name or f"REFERENCE TO {self._target}", UDINT.size, UDINT.alignment)
+
+    @property
+    def target(self) -> DataType[object] | None:
+        """What lies at the address, None where it is not known."""
+        if self._find is not None:
+            find, self._find = self._find, None
+            self._target = find()
+        return self._target
 
 
 class AliasType(DataType[V_co]):

@@ -164,15 +164,14 @@ def _struct(data_type: StructType, value: object) -> bytes:  # type: ignore[type
     given = {} if value is None else value
     if not isinstance(given, Mapping):
         raise ValueRangeError(f"{value!r} is not a mapping of members of {data_type}.")
-    by_name = {str(name).upper(): name for name in given}
     image = bytearray(data_type.size)
+    left = dict(given)
     for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-        name = by_name.pop(member.name.upper(), None)
-        initial = member.initial if name is None else given[name]
-        data = _named(f".{member.name}", member.data_type, initial)
+        value = left.pop(member.name, member.initial)
+        data = _named(f".{member.name}", member.data_type, value)
         image[offset : offset + len(data)] = data
-    if by_name:
-        raise ValueRangeError(f"{data_type} has no member {next(iter(by_name.values()))}.")
+    if left:
+        raise ValueRangeError(f"{data_type} has no member {next(iter(left))}.")
     return bytes(image)
 
 

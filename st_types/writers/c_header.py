@@ -34,8 +34,8 @@ from st_types.types.elementary import DataType, ElementaryType
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from st_types.resolve.table import TypeTable
-    from st_types.resolve.variables import Function, Variable
+    from st_types.resolve.declared import Function, Variable
+    from st_types.resolve.scope import Scope
 
 C_TYPES = {
     "BOOL": "plcbit",
@@ -81,18 +81,18 @@ _SECTIONS = {
 }
 
 
-def c_header(table: TypeTable, name: str) -> str:
-    """Return the header of all types, constants and functions of ``table``.
+def c_header(scope: Scope, name: str) -> str:
+    """Return the header of all types, constants and functions of ``scope``.
 
     Args:
-        table: resolved declarations; what has no layout is left out.
+        scope: the declarations; what has no layout is left out.
         name: of the library or program, for the guard.
     """
     guard = f"_{''.join(c if c.isalnum() else '_' for c in name).upper()}_H_"
     head = f"/* {name}: written by plcsim types header */\n\n#ifndef {guard}\n#define {guard}\n"
     head += '\n#include <bur/plctypes.h>\n\n#ifdef __cplusplus\nextern "C" {\n#endif\n'
     tail = f"\n#ifdef __cplusplus\n}}\n#endif\n\n#endif /* {guard} */\n"
-    return head + "".join(line + "\n" for line in Header(table).lines()) + tail
+    return head + "".join(line + "\n" for line in Header(scope).lines()) + tail
 
 
 class Header:
@@ -102,8 +102,8 @@ class Header:
         names: typedef name of each type that is written.
     """
 
-    def __init__(self, table: TypeTable) -> None:
-        self._table = table
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
         self._taken: set[str] = set(C_KEYWORDS)
         self.names: dict[DataType[object], str] = {}
         self._tags: dict[DataType[object], str] = {}
@@ -112,7 +112,7 @@ class Header:
 
     def lines(self) -> Iterator[str]:
         """Yield the lines between the head and the tail of the header."""
-        types = [data_type for _, data_type in self._table.types()]
+        types = list(self._scope.data_types())
         for data_type in types:
             self._name(data_type)
         constants = list(self._constants())
@@ -136,7 +136,7 @@ class Header:
         return name
 
     def _constants(self) -> Iterator[str]:
-        found = [v for v in self._table.variables if "CONSTANT" in v.block.qualifiers]
+        found = [v for v in self._scope.variables if v.is_constant]
         named = [(self._free(v.name), v) for v in found if _value(v) and v.data_type]
         if not named:
             return
@@ -248,7 +248,7 @@ class Header:
 
     def _prototypes(self, types: Sequence[DataType[object]]) -> Iterator[str]:
         blocks = [data_type for data_type in types if isinstance(data_type, DataBlockType)]
-        functions = list(self._table.functions.values())
+        functions = self._scope.functions
         if blocks or functions:
             yield from ("", "/* Prototypes */")
         for block in blocks:

@@ -31,8 +31,8 @@ from st_types.types.elementary import ELEMENTARY, DataType, ElementaryType
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from st_types.resolve.table import TypeTable
-    from st_types.resolve.variables import Variable
+    from st_types.resolve.declared import Variable
+    from st_types.resolve.scope import Scope
 
 _MAKERS = {
     Section.INPUT: "var_input",
@@ -56,14 +56,14 @@ _RESERVED = frozenset([*dir(IntEnum), *keyword.kwlist, "name", "value", "mro"])
 _QUOTED = "'[^']*'"
 
 
-def python_source(table: TypeTable, title: str) -> str:
-    """Return the text of a module with views of all declarations of ``table``.
+def python_source(scope: Scope, title: str) -> str:
+    """Return the text of a module with views of all declarations of ``scope``.
 
     Args:
-        table: resolved declarations; what has no layout is left out.
+        scope: the declarations; what has no layout is left out.
         title: first line of the module's docstring.
     """
-    module = _Module(table)
+    module = _Module(scope)
     body = "".join(f"\n\n{block}\n" for block in module.blocks())
     head = f'"""{_one_line(title)}"""\n\nfrom __future__ import annotations\n'
     return head + _imports(module.imports) + body
@@ -88,20 +88,20 @@ def _one_line(text: str) -> str:
 class _Module:
     """Writes the blocks of a module and remembers what they import."""
 
-    def __init__(self, table: TypeTable) -> None:
-        self._table = table
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
         self._names: dict[DataType[object], str] = {}
         self._taken: set[str] = set(keyword.kwlist) | _IMPORTED
         self.imports: set[tuple[str, str]] = set()
 
     def blocks(self) -> Iterator[str]:
         """Yield constants, then types in the order they need one another, then variables."""
-        constants = [v for v in self._table.variables if "CONSTANT" in v.block.qualifiers]
+        constants = [v for v in self._scope.variables if v.is_constant]
         if lines := [line for v in constants if (line := self._constant(v))]:
             yield "\n".join(lines)
-        for data_type in [data_type for _, data_type in self._table.types()]:
+        for data_type in self._scope.data_types():
             yield from self._named(data_type)
-        variables = [v for v in self._table.variables if "CONSTANT" not in v.block.qualifiers]
+        variables = [v for v in self._scope.variables if not v.is_constant]
         members = [Member(v.name, v.data_type, v.initial) for v in variables if v.data_type]
         for member in members:
             yield from self._needed(member.data_type)

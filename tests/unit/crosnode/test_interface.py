@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import st_types
-from st_types.resolve.table import TypeTable, resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.printer import print_item
 from st_types.syntax.source import Source
@@ -49,22 +49,23 @@ cRosMessageField CrosNode"""
 
 
 @pytest.fixture(scope="module")
-def table() -> TypeTable:
+def table() -> Scope:
     files = [parse_declarations(Source.read(path)) for path in FILES]
     library = [parse_declarations(Source.read(path)) for path in LIBRARY]
-    made = resolve(files, library, strict=True)
+    made = Scope("cROS", files, [Scope("AsTCP", library)], strict=True)
+    made.check()
     for file in files:
         assert file.diagnostics.records == []
     return made
 
 
-def struct(table: TypeTable, name: str) -> StructType[object]:
+def struct(table: Scope, name: str) -> StructType[object]:
     found = table.find_type(name)
     assert isinstance(found, StructType)
     return found
 
 
-def test_the_node_has_the_members_of_appendix_d_in_order(table: TypeTable) -> None:
+def test_the_node_has_the_members_of_appendix_d_in_order(table: Scope) -> None:
     node = struct(table, "CrosNode")
     assert [member.name for member in node.members] == APPENDIX_D.split()
     assert list(node.offsets) == sorted(node.offsets)
@@ -75,7 +76,7 @@ def test_the_node_has_the_members_of_appendix_d_in_order(table: TypeTable) -> No
 
 
 @pytest.mark.parametrize("name", STRUCTURES.split())
-def test_every_structure_goes_down_to_elementary_types(table: TypeTable, name: str) -> None:
+def test_every_structure_goes_down_to_elementary_types(table: Scope, name: str) -> None:
     def walk(declared: DataType[object], path: tuple[str, ...]) -> int:
         data_type = resolve_alias(declared)
         assert data_type.name not in path, "a STRUCT contains itself"
@@ -89,7 +90,7 @@ def test_every_structure_goes_down_to_elementary_types(table: TypeTable, name: s
     assert walk(struct(table, name), ()) >= 2
 
 
-def test_a_message_is_a_handle_where_c_has_a_recursion(table: TypeTable) -> None:
+def test_a_message_is_a_handle_where_c_has_a_recursion(table: Scope) -> None:
     for owner in ("PublisherNode", "SubscriberNode"):
         handle = struct(table, owner).find("msg")[0].data_type
         assert handle.name == "cRosMessageHandle"
@@ -98,14 +99,14 @@ def test_a_message_is_a_handle_where_c_has_a_recursion(table: TypeTable) -> None
         assert struct(table, queue).find("next")[0].data_type is UDINT
 
 
-def test_the_fundamental_types_are_those_of_the_table_in_st_types(table: TypeTable) -> None:
+def test_the_fundamental_types_are_those_of_the_table_in_st_types(table: Scope) -> None:
     text = (ROOT / "crosnode" / "interface" / "CTypes.typ").read_text()
     assert text.endswith("*)\n\n" + print_item(c_type_block()))
     select_timeout = struct(table, "CrosNode").find("select_timeout")[0].data_type
     assert resolve_alias(select_timeout) is ELEMENTARY["ULINT"]
 
 
-def test_a_python_program_sees_the_node(table: TypeTable) -> None:
+def test_a_python_program_sees_the_node(table: Scope) -> None:
     module: dict[str, object] = {"__name__": "cros_types"}
     exec(compile(python_source(table, "cROS"), "cros_types", "exec"), module)
     node = module["CrosNode"]()  # type: ignore[operator]  # mypy does not know what was executed
@@ -117,7 +118,7 @@ def test_a_python_program_sees_the_node(table: TypeTable) -> None:
 
 
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not here")
-def test_the_header_compiles_and_lies_as_laid_out(table: TypeTable, tmp_path: Path) -> None:
+def test_the_header_compiles_and_lies_as_laid_out(table: Scope, tmp_path: Path) -> None:
     header = Header(table)
     list(header.lines())
     lines = [c_header(table, "CrosNode"), "#include <stddef.h>"]

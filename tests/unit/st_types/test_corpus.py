@@ -5,11 +5,12 @@ No false error over ``good`` and ``odd``; over ``bad`` the findings that are wri
 
 import re
 import runpy
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
-from st_types.resolve.table import TypeTable, resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations, parse_text
 from st_types.syntax.diagnostics import render_all
 from st_types.syntax.printer import print_file
@@ -93,15 +94,28 @@ def read(path: Path) -> DeclarationFile:
     return parse_declarations(Source.read(path, str(path.relative_to(CORPUS))))
 
 
-def library() -> list[DeclarationFile]:
+def library() -> Scope:
     paths = [path for path in sorted(LIBRARY.rglob("*")) if path.suffix in SUFFIXES]
-    return [parse_declarations(Source.read(path)) for path in paths]
+    return Scope("library", [parse_declarations(Source.read(path)) for path in paths])
+
+
+def scopes_of(files: Iterable[DeclarationFile]) -> list[Scope]:
+    """Return a scope for each folder; it sees the folders around it."""
+    folders: dict[Path, list[DeclarationFile]] = {}
+    for file in files:
+        folders.setdefault(Path(file.path).parent, []).append(file)
+    scopes: dict[Path, Scope] = {}
+    known = [library()]
+    for folder, inside in sorted(folders.items()):
+        around = [scopes[parent] for parent in folder.parents if parent in scopes]
+        scopes[folder] = Scope(folder.name, inside, [*around, *known], strict=True)
+        scopes[folder].check()
+    return list(scopes.values())
 
 
 @pytest.fixture(scope="module")
-def sound() -> tuple[list[DeclarationFile], TypeTable]:
-    files = [read(path) for path in [*files_below("good"), *files_below("odd")]]
-    return files, resolve(files, library(), strict=True)
+def sound() -> list[Scope]:
+    return scopes_of(read(path) for path in [*files_below("good"), *files_below("odd")])
 
 
 def test_there_are_enough_files_and_each_feature_has_some() -> None:
@@ -123,19 +137,19 @@ def test_the_other_styles_are_up_to_date() -> None:
     assert {path: path.read_bytes() for path in made} == made
 
 
-def test_no_false_error(sound: tuple[list[DeclarationFile], TypeTable]) -> None:
-    found = [record for file in sound[0] for record in file.diagnostics.records]
+def test_no_false_error(sound: list[Scope]) -> None:
+    files = [file for scope in sound for file in scope.files]
+    found = [record for file in files for record in file.diagnostics.records]
     assert render_all(found) == ""
 
 
-def test_every_variable_starts_with_a_value_that_reads_back(
-    sound: tuple[list[DeclarationFile], TypeTable],
-) -> None:
-    for _, data_type in sound[1].types():
+def test_every_variable_starts_with_a_value_that_reads_back(sound: list[Scope]) -> None:
+    for data_type in [each for scope in sound for each in scope.data_types()]:
         image = initial_image(data_type)
         assert encode(data_type, decode(data_type, image)) == image
-    assert len(sound[1].variables) > 200
-    for variable in sound[1].variables:
+    variables = [variable for scope in sound for variable in scope.variables]
+    assert len(variables) > 200
+    for variable in variables:
         assert variable.data_type is not None
         assert len(encode(variable.data_type, variable.initial)) == variable.data_type.size
 
@@ -145,21 +159,19 @@ def test_the_styles_mean_the_same(feature: str) -> None:
     meanings = []
     for style in ("automation_studio", "by_hand", "dense"):
         (path,) = (CORPUS / "good" / feature / style).iterdir()
-        table = resolve([read(path)], library(), strict=True)
+        (scope,) = scopes_of([read(path)])
         meanings.append(
             {
-                "types": [(e.node.name, t.size, initial_image(t)) for e, t in table.types()],
-                "variables": [(v.name, str(v.data_type), v.initial) for v in table.variables],
-                "functions": sorted(table.functions),
+                "types": [(t.name, t.size, initial_image(t)) for t in scope.data_types()],
+                "variables": [(v.name, str(v.data_type), v.initial) for v in scope.variables],
+                "functions": [function.name for function in scope.functions],
             }
         )
     assert meanings[0] == meanings[1] == meanings[2]
 
 
-def test_printing_and_parsing_again_gives_the_same_trees(
-    sound: tuple[list[DeclarationFile], TypeTable],
-) -> None:
-    for file in sound[0]:
+def test_printing_and_parsing_again_gives_the_same_trees(sound: list[Scope]) -> None:
+    for file in [file for scope in sound for file in scope.files]:
         printed = print_file(file)
         again = parse_text(printed, file.path)
         assert again == file
@@ -169,7 +181,7 @@ def test_printing_and_parsing_again_gives_the_same_trees(
 @pytest.mark.parametrize("path", files_below("bad"), ids=lambda path: path.name)
 def test_findings(path: Path) -> None:
     file = read(path)
-    resolve([file], library())
+    Scope("bad", [file], [library()]).check()
     records = sorted(file.diagnostics.records, key=lambda r: (r.line, r.column))
     assert records, "a file without a finding belongs to the good ones"
     expected = path.with_name(path.name + ".expected").read_text()

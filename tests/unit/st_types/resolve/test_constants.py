@@ -19,7 +19,10 @@ KNOWN = {
 
 
 class Known:
-    def constant(self, name: str) -> Constant | None:
+    level = 0
+
+    def constant(self, name: str, at: int) -> Constant | None:
+        assert at >= 0
         return KNOWN.get(name.upper())
 
 

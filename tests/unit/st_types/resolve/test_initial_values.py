@@ -1,8 +1,9 @@
 import pytest
 
 from st_types.resolve import initial_values
-from st_types.resolve.table import resolve
 from st_types.syntax.declarations import parse_text
+
+from ..checked import checked
 
 KNOWN = """\
 TYPE
@@ -25,7 +26,7 @@ def resolved(specification: str, value: str) -> tuple[object, list[str]]:
         f"{KNOWN}VAR v : {specification} := {value}; END_VAR",
         "a.var",
     )
-    table = resolve([file])
+    table = checked([file])
     return table.variables[-1].initial, [str(record) for record in file.diagnostics.records]
 
 
@@ -59,12 +60,12 @@ def resolved(specification: str, value: str) -> tuple[object, list[str]]:
         ("WSTRING[5]", '"€"', "€"),
         ("WSTRING[5]", "'x'", "x"),
         ("Colour", "green", 5),
-        ("Colour", "Colour.GREEN", 5),
+        ("Colour", "Colour.green", 5),
         ("Colour", "Colour#red", 0),
         ("Colour", "7", 7),
         ("INT", "green + 1", 6),
         ("INT(1..9)", "9", 9),
-        ("Point", "(x := 5, N := [1, 2(7)])", {"x": 5, "n": [1, 7, 7]}),
+        ("Point", "(x := 5, n := [1, 2(7)])", {"x": 5, "n": [1, 7, 7]}),
         ("Point", "()", {}),
         ("Point", "(0)", None),
         ("Timer", "(PT := T#1s)", {"PT": 1000}),
@@ -97,8 +98,8 @@ def test_values(specification: str, value: str, expected: object) -> None:
         ("STRING[3]", "'abcd'", "abc", "warning: 4 characters are given, STRING[3] holds 3; the"),
         ("WSTRING[3]", '"abcd"', "abc", "warning: 4 characters are given, WSTRING[3] holds 3"),
         ("INT", "ADR(x)", None, "warning: the value is not known here; a constant was expected"),
-        ("INT", "NONE", None, "warning: no constant is called NONE in the checked files"),
-        ("INT", "Point.x", None, "warning: no constant is called Point.x in the checked files"),
+        ("INT", "NONE", None, "warning: no constant is called NONE"),
+        ("INT", "Point.x", None, "warning: no constant is called Point.x"),
         ("USINT", "256", None, "error: 256 is outside 0..255 of USINT"),
         ("INT", "-32769", None, "error: -32769 is outside -32768..32767 of INT"),
         ("TIME", "T#25d", None, "warning: 2160000000 does not fit TIME"),
@@ -115,7 +116,8 @@ def test_values(specification: str, value: str, expected: object) -> None:
         ("Point", "[1]", None, "error: Point cannot have a list of values as its initial value"),
         ("INT", "(x := 1)", None, "error: INT cannot have members as its initial value"),
         ("Point", "(z := 1)", {}, "error: Point has no member z"),
-        ("Point", "(x := 1, X := 2)", {"x": 2}, "error: the member x is given twice"),
+        ("Point", "(X := 2)", {"x": 2}, "warning: X is declared as x; names differ in case"),
+        ("Point", "(x := 1, x := 2)", {"x": 2}, "error: the member x is given twice"),
         (
             "ARRAY[0..1] OF INT",
             "[1, 2, 3]",
@@ -150,7 +152,7 @@ def test_a_hostile_file_cannot_fill_the_memory(monkeypatch: pytest.MonkeyPatch) 
     assert "it takes 1000" in findings[0]
     values = " ".join(f"v{i} : ARRAY[0..99] OF BYTE := [100(1)];" for i in range(11))
     file = parse_text(f"VAR {values} END_VAR", "a.var")
-    resolve([file])
+    checked([file])
     assert [r.message for r in file.diagnostics.records] == [
         "the file gives more than 1000 initial values"
     ]

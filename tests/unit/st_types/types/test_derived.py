@@ -77,8 +77,8 @@ def test_name_size_and_alignment(data_type, name, size, alignment):
             "ARRAY[1..1073741824] OF LREAL: 8589934592 bytes are too many.",
         ),
         (
-            lambda: StructType("Motor", [Member("speed", INT), Member("SPEED", REAL)]),
-            "Motor: two members are called SPEED.",
+            lambda: StructType("Motor", [Member("speed", INT), Member("speed", REAL)]),
+            "Motor: two members are called speed.",
         ),
         (
             lambda: StructType("Two", [Member(n, ARRAY(DINT, (1, 2**28))) for n in "ab"]),
@@ -120,11 +120,18 @@ def test_a_wrong_index_says_which(indices, message):
     assert str(caught.value) == message
 
 
-def test_members_are_found_in_any_case_with_their_offset():
+def test_members_are_found_as_they_are_spelled_with_their_offset():
     motor = StructType("Motor", [Member("on", BOOL), Member("Speed", REAL, 1.5)])
-    assert motor.find("SPEED") == (Member("Speed", REAL, 1.5), 4)
-    with pytest.raises(KeyError):
-        motor.find("torque")
+    assert motor.find("Speed") == (Member("Speed", REAL, 1.5), 4)
+    for name in ("SPEED", "torque"):
+        with pytest.raises(KeyError):
+            motor.find(name)
+
+
+def test_members_may_differ_in_case_only_as_those_of_acp10_mc():
+    limits = StructType("Limits", [Member("A1", REAL), Member("a1", REAL), Member("V", REAL)])
+    assert [limits.find(name)[1] for name in ("A1", "a1")] == [0, 4]
+    assert [limits.spelling(name) for name in ("a1", "v", "B")] == ["a1", "V", None]
 
 
 def test_enumeration_keeps_names_values_and_its_class():
@@ -133,11 +140,16 @@ def test_enumeration_keeps_names_values_and_its_class():
 
 
 def test_a_type_may_refer_to_itself():
-    reference = ReferenceType(None, "REFERENCE TO Node")
+    reference = ReferenceType(lambda: node, "REFERENCE TO Node")
     node = StructType("Node", [Member("next", reference), Member("value", UDINT)])
-    reference.target = node
     assert node.members[0].data_type.target is node
     assert node.size == 8
+
+
+def test_a_target_is_asked_for_once():
+    asked = []
+    reference = ReferenceType(lambda: asked.append(0), "REFERENCE TO Lib")
+    assert (reference.target, reference.target, asked) == (None, None, [0])
 
 
 def test_aliases_of_aliases_resolve_to_the_type():

@@ -121,7 +121,7 @@ def test_initial_value(data_type, initial):
         (ARRAY(USINT, (0, 2)), b"ab", [97, 98, 0]),
         (ARRAY(AXIS, (1, 1)), [{"speed": 1}], [{"on": True, "speed": 1}]),
         (ARRAY(AXIS, (1, 1)), [], [{"on": True, "speed": -2}]),
-        (AXIS, {"SPEED": 4}, {"on": True, "speed": 4}),
+        (AXIS, {"speed": 4}, {"on": True, "speed": 4}),
         (CELL, {"name": "x"}, {"axes": [{"on": True, "speed": -2}] * 2, "name": "x"}),
     ],
     ids=str,

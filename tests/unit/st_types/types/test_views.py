@@ -376,7 +376,6 @@ def test_a_struct_without_members_takes_one_byte():
             {"axes": lambda: var(ARRAY(Axis, (1, 2)), [{}, {"speed": "fast"}])},
             "New.axes[1].speed: 'fast' is not a REAL.",
         ),
-        (Struct, {"n": lambda: var(INT), "N": lambda: var(INT)}, "New: two members are called N."),
         (Struct, {"bind": lambda: var(INT)}, "New.bind: a method of "),
         (Axis, {"n": lambda: var(INT)}, "New: "),
         (Struct, {"n": lambda: var(int)}, "<class 'int'> is not a data type."),

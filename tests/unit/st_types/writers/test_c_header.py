@@ -6,12 +6,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import st_types
-from st_types.resolve.table import TypeTable, resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations, parse_text
 from st_types.syntax.source import Source
 from st_types.types.derived import StructType
 from st_types.types.elementary import ELEMENTARY
 from st_types.writers.c_header import C_TYPES, Header, c_header
+
+from ..checked import checked
 
 INCLUDE = Path(st_types.__file__).parent / "writers" / "include"
 LIBRARY = Path(__file__).parents[4] / "plcsim" / "library"
@@ -39,7 +41,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def assertions(table: TypeTable, names: dict[object, str]) -> str:
+def assertions(table: Scope, names: dict[object, str]) -> str:
     """C that does not compile unless every size and every offset is ours."""
     lines = ["#include <stddef.h>"]
     for data_type, name in names.items():
@@ -51,7 +53,7 @@ def assertions(table: TypeTable, names: dict[object, str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def check(folder: Path, table: TypeTable) -> None:
+def check(folder: Path, table: Scope) -> None:
     header = Header(table)
     list(header.lines())
     text = c_header(table, "Check") + assertions(table, header.names)
@@ -102,7 +104,7 @@ FUNCTION Plain END_FUNCTION
 
 def test_every_kind_of_type_compiles_and_lies_as_laid_out(folder: Path) -> None:
     file = parse_text(EVERY_KIND)
-    table = resolve([file], strict=True)
+    table = checked([file], strict=True)
     assert file.diagnostics.records == []
     check(folder, table)
     text = c_header(table, "Check")
@@ -113,11 +115,11 @@ def test_every_kind_of_type_compiles_and_lies_as_laid_out(folder: Path) -> None:
 def test_the_library_compiles_and_lies_as_laid_out(folder: Path) -> None:
     paths = [p for p in sorted(LIBRARY.rglob("*")) if p.suffix in (".fun", ".typ", ".var")]
     assert len(paths) >= 4
-    check(folder, resolve([parse_declarations(Source.read(path)) for path in paths], strict=True))
+    check(folder, checked([parse_declarations(Source.read(path)) for path in paths], strict=True))
 
 
 def test_constants_have_their_values(folder: Path) -> None:
-    text = c_header(resolve([parse_text(EVERY_KIND)]), "Check")
+    text = c_header(checked([parse_text(EVERY_KIND)]), "Check")
     text += (
         '_Static_assert(LIMIT == 5 && LOWEST < 0 && YES == 1 && RATE == 0.5, "");\n'
         '_Static_assert(BIG == 18446744073709551615ULL && SMALL == -9000000000LL, "");\n'
@@ -132,7 +134,7 @@ def test_the_shape_of_a_data_block() -> None:
         "END_VAR VAR text : STRING[3]; bits : ARRAY[0..7] OF BOOL; END_VAR "
         "VAR_IN_OUT count : INT; go : BOOL; END_VAR END_FUNCTION_BLOCK"
     )
-    lines = list(Header(resolve([file])).lines())
+    lines = list(Header(checked([file])).lines())
     assert lines == [
         "",
         "typedef struct F {",
@@ -158,7 +160,7 @@ def test_the_shape_of_a_data_block() -> None:
 
 def test_names_that_c_does_not_allow() -> None:
     file = parse_text("TYPE int : STRUCT long : INT; END_STRUCT; E : (red, int); END_TYPE")
-    text = c_header(resolve([file]), "my lib")
+    text = c_header(checked([file]), "my lib")
     assert "typedef struct int_ {\n\tsigned short long_;\n} int_;" in text
     assert "\tint__ = 1,\n} E;" in text
     assert "#ifndef _MY_LIB_H_" in text
@@ -184,4 +186,4 @@ def test_random_structs_lie_as_gcc_lays_them_out(folder: Path, lists: list[list[
     for number, kinds_of in enumerate(lists, 1):
         declared = " ".join(f"m{i} : {kind};" for i, kind in enumerate(kinds_of))
         text.append(f"S{number} : STRUCT {declared} END_STRUCT;")
-    check(folder, resolve([parse_text(" ".join(text) + " END_TYPE")], strict=True))
+    check(folder, checked([parse_text(" ".join(text) + " END_TYPE")], strict=True))

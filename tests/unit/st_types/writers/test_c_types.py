@@ -2,11 +2,12 @@ import ctypes
 
 import pytest
 
-from st_types.resolve.table import resolve
 from st_types.syntax.declarations import parse_text
 from st_types.syntax.printer import print_item
 from st_types.types.elementary import ELEMENTARY
 from st_types.writers.c_types import C_TO_ST, alias_name, c_type_block
+
+from ..checked import checked
 
 FIXED = {f"{sign}int{bits}_t": bits // 8 for bits in (8, 16, 32, 64) for sign in ("", "u")}
 
@@ -29,6 +30,6 @@ def test_names_are_those_of_the_figure() -> None:
 
 
 def test_the_block_resolves() -> None:
-    table = resolve([parse_text(print_item(c_type_block()))], strict=True)
-    sizes = {entry.node.name: data_type.size for entry, data_type in table.types()}
+    table = checked([parse_text(print_item(c_type_block()))], strict=True)
+    sizes = {data_type.name: data_type.size for data_type in table.data_types()}
     assert sizes == {alias_name(c): ELEMENTARY[st].size for c, st in C_TO_ST.items()}

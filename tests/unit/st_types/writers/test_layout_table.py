@@ -1,11 +1,12 @@
-from st_types.resolve.table import resolve
 from st_types.syntax.declarations import parse_text
 from st_types.types.elementary import INT
 from st_types.writers.layout_table import layout_rows
 
+from ..checked import checked
+
 
 def rows(text: str, name: str) -> list[tuple[int, int, str, str]]:
-    found = resolve([parse_text(text)], strict=True).find_type(name)
+    found = checked([parse_text(text)], strict=True).find_type(name)
     assert found is not None
     return [(row.offset, row.size, row.path, str(row.data_type)) for row in layout_rows(found)]
 

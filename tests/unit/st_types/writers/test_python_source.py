@@ -9,12 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import st_types
-from st_types.resolve.table import TypeTable, resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
 from st_types.types.derived import Section, StructType, resolve_alias
 from st_types.types.values import initial_image
 from st_types.types.views import type_of
 from st_types.writers.python_source import python_source
+
+from ..checked import checked
 
 DECLARATIONS = """
 VAR CONSTANT MAX : UINT := 2; NAME : STRING[9] := 'a$$'; RATE : REAL := 0.5; LIST : ARRAY[0..1] OF
@@ -49,17 +51,17 @@ def module_of(text: str) -> ModuleType:
     return module
 
 
-def table_of(text: str) -> TypeTable:
-    return resolve([parse_text(text)], strict=True)
+def table_of(text: str) -> Scope:
+    return checked([parse_text(text)], strict=True)
 
 
-def check(table: TypeTable) -> ModuleType:
+def check(table: Scope) -> ModuleType:
     """Import the module and compare each class with the type it was made from."""
     module = module_of(python_source(table, "Test"))
-    for entry, declared in table.types():
+    for declared in table.data_types():
         data_type = resolve_alias(declared)
         if isinstance(data_type, StructType):
-            made = type_of(getattr(module, entry.node.name))
+            made = type_of(getattr(module, declared.name))
             assert made.size == data_type.size
             assert made.offsets == data_type.offsets
             assert [str(m.name) for m in made.members] == [m.name for m in data_type.members]

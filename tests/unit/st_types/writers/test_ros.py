@@ -3,13 +3,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.errors import DeclarationError
-from st_types.resolve.table import TypeTable, resolve
+from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
 from st_types.syntax.printer import print_item
 from st_types.types.derived import StructType, resolve_alias
 from st_types.types.elementary import ELEMENTARY
 from st_types.types.values import encode
 from st_types.writers.ros import PRIMITIVES, Limits, structs_from_ros
+
+from ..checked import checked
 
 DEFINITIONS = {
     ("sensor_msgs/JointState", "msg"): (
@@ -42,9 +44,9 @@ def text_of(name: str, limits: Limits | None = None) -> str:
     return print_item(found.types) + print_item(found.constants)
 
 
-def table_of(name: str, limits: Limits | None = None) -> TypeTable:
+def table_of(name: str, limits: Limits | None = None) -> Scope:
     file = parse_text(text_of(name, limits))
-    table = resolve([file], strict=True)
+    table = checked([file], strict=True)
     file.diagnostics.raise_errors()
     return table
 
@@ -204,7 +206,7 @@ def test_any_text_is_converted_or_refused(text: str) -> None:
         found = structs_from_ros("p/B", any_message)
     except DeclarationError:
         return
-    table = resolve(
+    table = checked(
         [parse_text(print_item(found.types) + print_item(found.constants))], strict=True
     )
     data_type = table.find_type("p_B")

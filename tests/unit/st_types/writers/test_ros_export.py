@@ -3,16 +3,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.errors import DeclarationError
-from st_types.resolve.table import resolve
 from st_types.syntax.declarations import parse_text
 from st_types.syntax.printer import print_item
 from st_types.types.derived import StructType
 from st_types.writers.ros import PRIMITIVES, TIMES, parse_message, structs_from_ros
 from st_types.writers.ros_export import message_name, messages_from_struct
 
+from ..checked import checked
+
 
 def struct(text: str, name: str) -> StructType[object]:
-    found = resolve([parse_text(text)], strict=True).find_type(name)
+    found = checked([parse_text(text)], strict=True).find_type(name)
     assert isinstance(found, StructType)
     return found
 

@@ -1,0 +1,200 @@
+"""The declarations of one scope, by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+from st_types.syntax.tree import (
+    EnumerationSpecification,
+    FunctionBlockDeclaration,
+    FunctionDeclaration,
+    TypeBlock,
+    VariableBlock,
+)
+from st_types.types.spelling import Spellings
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from st_types.resolve.declared import Function, FunctionBlock, Variable
+    from st_types.resolve.dialect import Dialect
+    from st_types.resolve.file_resolver import FileResolver
+    from st_types.resolve.scope import Scope
+    from st_types.syntax.expressions import Node
+    from st_types.syntax.tree import Declaration
+    from st_types.types.elementary import DataType
+
+NameSpace = Literal["types", "functions", "variables", "constants"]
+"""Names of one name space hide one another: types and function blocks; functions; variables; what
+has a value before the run, which is VAR CONSTANT and the values of enumerations."""
+
+NEW: Final = 0
+OPEN: Final = 1
+DONE: Final = 2
+
+
+class Entry:
+    """One declaration and what became of it.
+
+    Attributes:
+        resolver: resolves the file it stands in.
+        node: the declaration.
+        state: NEW, OPEN while it is being resolved, DONE.
+        user: while it is OPEN, the entry that needs it.
+        data_type: None until it is resolved, and where it has no layout.
+        depth: how many types lie one inside the other, this one counted.
+    """
+
+    # Most entries are resolved once and asked for by nobody: what is not set stands here.
+    state = NEW
+    user: Entry | None = None
+    data_type: DataType[object] | None = None
+    depth = 0
+
+    def __init__(self, resolver: FileResolver, node: Node) -> None:
+        self.resolver = resolver
+        self.node: Any = node
+
+    @property
+    def name(self) -> str:
+        """The name as it is declared."""
+        name: str = self.node.name
+        return name
+
+
+class TypeEntry(Entry):
+    """A type of a TYPE block; an enumeration is the entry of each of its values, too."""
+
+    node: Declaration
+
+
+class PouEntry(Entry):
+    """A function, whose ``data_type`` is its result, or a function block with its data block.
+
+    Attributes:
+        scope: of its variables, once it is resolved.
+        made: what `Scope` makes of it for others.
+    """
+
+    node: FunctionDeclaration | FunctionBlockDeclaration
+    scope: Scope | None = None
+    made: Function | FunctionBlock | None = None
+
+
+class VariableEntry(Entry):
+    """A variable or a constant.
+
+    Attributes:
+        block: the VAR block it stands in.
+        is_constant: that is a VAR CONSTANT.
+        value: initial value; None for that of the type.
+        made: what `Scope` makes of it for others.
+    """
+
+    node: Declaration
+    value: object = None
+    made: Variable | None = None
+
+    def __init__(
+        self, resolver: FileResolver, node: Declaration, block: VariableBlock, *, is_constant: bool
+    ) -> None:
+        self.resolver = resolver
+        self.node = node
+        self.block = block
+        self.is_constant = is_constant
+
+
+class Index:
+    """All declarations of the files of a scope.
+
+    Attributes:
+        types: types and function blocks, in order, those of equal names too.
+        functions: likewise.
+        variables: of the VAR blocks outside functions and function blocks.
+    """
+
+    def __init__(self, resolvers: Sequence[FileResolver]) -> None:
+        self.types: list[TypeEntry | PouEntry] = []
+        self.functions: list[PouEntry] = []
+        self.variables: list[VariableEntry] = []
+        self._names: dict[NameSpace, dict[str, Entry]] = {}
+        self._spellings: dict[NameSpace, Spellings] = {}
+        for resolver in resolvers:
+            self._add_file(resolver)
+
+    def _add_file(self, resolver: FileResolver) -> None:
+        for item in resolver.file.items:
+            match item:
+                case TypeBlock():
+                    self.types += [TypeEntry(resolver, node) for node in item.declarations]
+                case VariableBlock():
+                    self._add_variables(resolver, item)
+                case FunctionBlockDeclaration():
+                    self.types.append(PouEntry(resolver, item))
+                case FunctionDeclaration():
+                    self.functions.append(PouEntry(resolver, item))
+
+    def _add_variables(self, resolver: FileResolver, block: VariableBlock) -> None:
+        is_constant = "CONSTANT" in block.qualifiers
+        self.variables += [
+            VariableEntry(resolver, node, block, is_constant=is_constant)
+            for node in block.declarations
+        ]
+
+    def names(self, space: NameSpace) -> dict[str, Entry]:
+        """Return the entries of a name space by name; of equal names the first."""
+        found = self._names.get(space)
+        if found is None:
+            found = self._names[space] = self._named(space)
+        return found
+
+    def spellings(self, space: NameSpace) -> Spellings:
+        """Return the names of a name space, to be asked without regard to case."""
+        found = self._spellings.get(space)
+        if found is None:
+            found = self._spellings[space] = Spellings(self.names(space))
+        return found
+
+    def _named(self, space: NameSpace) -> dict[str, Entry]:
+        found: dict[str, Entry] = {}
+        if space == "constants":
+            self._add_constants(found)
+            return found
+        for entry in getattr(self, space):
+            found.setdefault(entry.node.name, entry)
+        return found
+
+    def _add_constants(self, found: dict[str, Entry]) -> None:
+        for entry in self.variables:
+            if entry.is_constant:
+                found.setdefault(entry.node.name, entry)
+        for each in self.types:
+            if type(each) is TypeEntry:
+                specification = each.node.specification
+                if type(specification) is EnumerationSpecification:
+                    for value in specification.values:
+                        found.setdefault(value.name, each)
+
+    def report_duplicates(self, dialect: Dialect) -> bool:
+        """Record what is declared twice, in one file an error, in two a warning; False if none."""
+        found = False
+        lists: tuple[Sequence[Entry], ...] = (self.types, self.functions, self.variables)
+        for entries in lists:
+            names = [entry.node.name for entry in entries]
+            if not dialect.case_sensitive:
+                names = [name.upper() for name in names]
+            if len(set(names)) == len(names):
+                continue
+            first_of_name: dict[str, Entry] = {}
+            for name, entry in zip(names, entries, strict=True):
+                first = first_of_name.setdefault(name, entry)
+                if first is not entry:
+                    found = True
+                    _report_duplicate(first, entry)
+        return found
+
+
+def _report_duplicate(first: Entry, entry: Entry) -> None:
+    file, other = entry.resolver.file, first.resolver.file
+    message = f"{entry.node.name} is declared twice; first at {other.location(first.node)}"
+    (file.error if file is other else file.warning)(entry.node, message)

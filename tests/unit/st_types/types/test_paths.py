@@ -1,0 +1,96 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from st_types import ARRAY, BOOL, INT, REAL, STRING, UINT, Struct, var
+from st_types.types.derived import AliasType, Member, StructType
+from st_types.types.paths import find
+from st_types.types.views import type_of
+
+
+class Axis(Struct):
+    on = var(BOOL)
+    speed = var(REAL, 1.5)
+
+
+class Cell(Struct):
+    number = var(INT, -3)
+    main = var(Axis)
+    axes = var(ARRAY(Axis, (1, 3)))
+    grid = var(ARRAY(INT, (0, 1), (-1, 1)))
+    name = var(STRING(5), "cell")
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "offset"),
+    [
+        ("", "Cell", 0),
+        ("number", "INT", 0),
+        ("NUMBER", "INT", 0),
+        ("main.speed", "REAL", 8),
+        ("axes", "ARRAY[1..3] OF Axis", 12),
+        ("axes[1]", "Axis", 12),
+        ("axes[3].Speed", "REAL", 32),
+        ("grid[0,-1]", "INT", 36),
+        ("grid[1, 0]", "INT", 44),
+        ("name", "STRING[5]", 48),
+    ],
+)
+def test_find(path, name, offset):
+    data_type, found = find(type_of(Cell), path)
+    assert (data_type.name, found) == (name, offset)
+
+
+def test_find_starts_at_an_array_and_sees_through_aliases():
+    rows = AliasType("Rows", ARRAY(ARRAY(AliasType("Speed", UINT), (1, 2)), (0, 1)))
+    assert find(rows, "[1][2]") == (UINT, 6)
+    assert find(rows, "") == (rows.target, 0)
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("speed", "Cell has no member speed"),
+        ("main.torque", "Axis has no member torque"),
+        ("axes[4]", "[4]: ARRAY[1..3] OF Axis: index 4 is outside 1..3."),
+        ("axes[1,1]", "[1,1]: ARRAY[1..3] OF Axis: 1 indices wanted, not 2."),
+        ("grid[0]", "[0]: ARRAY[0..1, -1..1] OF INT: 2 indices wanted, not 1."),
+        ("axes[x]", "[x]: "),
+        ("axes[]", "[]: "),
+        ("axes.on", "ARRAY[1..3] OF Axis has no members (on)"),
+        ("number.x", "INT has no members (x)"),
+        ("number[0]", "INT has no elements ([0])"),
+        ("name[0]", "STRING[5] has no elements ([0])"),
+    ],
+)
+def test_a_wrong_path_says_which_step(path, message):
+    with pytest.raises(KeyError) as caught:
+        find(type_of(Cell), path)
+    assert caught.value.args[0].startswith(message)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [".", "main.", ".main", "main..speed", "axes[1", "axes1]", "axes[[1]]", "axes.[1]", "a b"],
+)
+def test_what_is_not_a_path_is_refused(path):
+    with pytest.raises(KeyError) as caught:
+        find(type_of(Cell), path)
+    assert caught.value.args[0] == f"{path} is not a path such as axes[3].name"
+
+
+STEPS = ["axes", "grid", "main", "on", "name", "[", "]", "[2]", "[0,1]", "1", "-", ",", ".", ".on"]
+
+
+@given(st.lists(st.sampled_from(STEPS), max_size=5).map("".join) | st.text())
+def test_any_text_is_a_path_or_a_key_error(path):
+    try:
+        data_type, offset = find(type_of(Cell), path)
+    except KeyError:
+        return
+    assert 0 <= offset <= type_of(Cell).size - data_type.size
+
+
+def test_members_that_differ_in_case_only_are_two() -> None:
+    limits = StructType("limits", [Member("A1", INT), Member("a1", INT), Member("V", INT)])
+    assert (find(limits, "A1")[1], find(limits, "a1")[1], find(limits, "v")[1]) == (0, 2, 4)
