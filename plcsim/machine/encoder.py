@@ -4,6 +4,9 @@ A compiler appends the instructions of a function (`plcsim.machine.opcodes`) to 
 here makes an object per instruction. Indices of imports, functions and types are given out when
 they are asked for, so calls can be written before their targets have bodies.
 
+There are no data sections: who loads a module puts its data into PLC memory, where addresses are
+checked.
+
 Source: WebAssembly Core Specification 2.0, chapter 5 (binary format) and appendix 7.4 (names).
 """
 
@@ -149,7 +152,6 @@ class ModuleWriter:
         self._globals: list[bytes] = []
         self._exports: list[bytes] = []
         self._elements: list[bytes] = []
-        self._data: list[bytes] = []
         self._custom: list[bytes] = []
 
     def type_index(self, signature: Signature) -> int:
@@ -235,11 +237,6 @@ class ModuleWriter:
         kind = b"" if table == 0 else b"\x00"
         self._elements.append(head + I32_CONST + sleb(offset) + END + kind + items)
 
-    def data(self, address: int, content: bytes) -> None:
-        """Fill the memory at instantiation."""
-        signed = address - ((address & 0x8000_0000) << 1)
-        self._data.append(b"\x00" + I32_CONST + sleb(signed) + END + uleb(len(content)) + content)
-
     def export_function(self, field: str, index: int) -> None:
         """Export a function."""
         self._exports.append(name(field) + _ONE_BYTE[_FUNCTION] + uleb(index))
@@ -282,7 +279,7 @@ class ModuleWriter:
             ]
         )
         head = b"\x0a" + uleb(len(code)) if code else b""
-        after = [_vector_section(11, self._data), self._names(), *self._custom]
+        after = [self._names(), *self._custom]
         base = len(before) + len(head)
         wasm = b"".join([before, head, code, *after])
         return Module(wasm, [base + start for start in starts])
