@@ -12,7 +12,7 @@ from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.messages import MessageTypes
 from crosnode.plc.bridge import Bridge
 from crosnode.plc.master_watch import MasterWatch
-from crosnode.plc.project import MASTER_IP, OPTIONS, Surroundings
+from crosnode.plc.project import MASTER_IP, Surroundings
 from crosnode.plc.settings import RosSettings, read_settings
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.extension import Attachment
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from plcsim.core.context import Context
     from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
-    from plcsim.project.table import Table
+    from plcsim.settings.table import Table
 
 HOSTS: Final = Path("/etc/hosts")
 LOOK_NS: Final = 500_000_000
@@ -78,7 +78,7 @@ class RosExtension:
         first = min(controller.classes, key=lambda each: each.cycle_ns)
         if settings.is_embedded and settings.is_in_process:
             found = found._replace(master=_master_in_scan(controller, first))
-        controller.context.options[OPTIONS] = {"surroundings": found}
+        controller.context.give_settings(found)
         if settings.publish or settings.subscribe:
             step = _BridgeStep(controller, first, settings.file)
             step.bridge()  # its types are compiled before the first cycle

@@ -1,6 +1,6 @@
 """Nodes of programs: ``create_node`` in INIT, with what [ros] in plc.toml says.
 
-The settings lie in the options of the controller's context, where `crosnode.plc.extension` put
+The settings lie in the controller's context, where `crosnode.plc.extension` put
 them; without a table [ros] the ROS_* environment counts.
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from functools import partial
-from typing import TYPE_CHECKING, Final, NamedTuple, cast
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.graph.names import NodeSettings, node_settings
 from crosnode.messages import MessageTypes
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from crosnode.plc.settings import RosSettings
     from crosnode.transport.budget import StepLimits
     from plcsim.core.context import Context
-
-OPTIONS: Final = "ros"
 
 MASTER_IP: Final = "192.168.0.1"
 """Where tests have the master, unless it is embedded (`crosnode.testing.Ros`)."""
@@ -49,7 +47,7 @@ class Surroundings(NamedTuple):
 
 def surroundings(context: Context) -> Surroundings | None:
     """Return what the extension left, None where the project has no table [ros]."""
-    return cast("Surroundings | None", context.options.get(OPTIONS, {}).get("surroundings"))
+    return context.settings(Surroundings)
 
 
 class SharedTypes(MessageTypes):

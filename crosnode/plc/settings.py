@@ -11,7 +11,7 @@ from crosnode.graph.names import check_base_name, check_name, node_settings, par
 from crosnode.graph.uri import DEFAULT_PORT, make_uri, parse_uri
 from plcsim.network.protocol import is_ipv4
 from plcsim.project.plc_toml import FILE_NAME
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

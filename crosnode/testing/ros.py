@@ -12,11 +12,11 @@ from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.plc.extension import EXTENSION
 from crosnode.plc.in_process_master import InProcessMaster
-from crosnode.plc.project import MASTER_IP, OPTIONS, SharedTypes, step_beside, surroundings
+from crosnode.plc.project import MASTER_IP, SharedTypes, step_beside, surroundings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.core.system import State
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class Ros:
             raise PlcTestError("ros: this controller has its ROS network already")
         self._found = found
         self._is_embedded = found.settings.is_embedded
-        self._context.options[OPTIONS] = {"surroundings": found._replace(beside=self._step)}
+        self._context.give_settings(found._replace(beside=self._step))
 
     def _attach(self) -> None:
         """Act as an empty table [ros] would, before any program makes a node."""

@@ -57,7 +57,7 @@ def check(options: argparse.Namespace) -> int:
     console.print(
         f"{project.name}: {count} program{'s' * (count != 1)}, {controller.memory.used} of "
         f"{controller.memory.size} bytes of PLC memory used, tick "
-        f"{format_duration(project.tick_ns)}"
+        f"{format_duration(project.plc.tick_ns)}"
     )
     for note in notes:
         console.print(f"on this host: {note}", soft_wrap=True)
@@ -66,7 +66,7 @@ def check(options: argparse.Namespace) -> int:
 
 def notes_on_cpu(project: Project) -> list[str]:
     """Return what this host makes of ``plc.cpu``, where that is not what was asked for."""
-    missing = "" if project.realtime == "off" else missing_cpu(project.cpu)
+    missing = "" if project.plc.realtime == "off" else missing_cpu(project.plc.pinned_cpu)
     return [f"plc.cpu: {missing}"] if missing else []
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from plcsim.core.system_area import RELEASE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable
 
     from plcsim.core.memory import Memory
     from plcsim.core.task import Violation
@@ -18,26 +18,30 @@ T = TypeVar("T")
 class Context:
     """The surroundings of the programs of one controller.
 
+    Args:
+        memory: where all variables lie.
+        network: see below.
+        settings: objects that `settings` answers, one of a class.
+
     Attributes:
         memory: where all variables lie.
         network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
         violation: the violation an exception program was called for, None before the first.
-        options: settings of controller libraries: table [library.NAME] of plc.toml by NAME.
     """
 
-    __slots__ = ("_libraries", "_system", "memory", "network", "options", "violation")
+    __slots__ = ("_libraries", "_settings", "_system", "memory", "network", "violation")
 
     def __init__(
         self,
         memory: Memory,
         network: object,
-        options: Mapping[str, Mapping[str, object]] | None = None,
+        settings: Iterable[object] = (),
     ) -> None:
         self.memory = memory
         self.network = network
         self._system = memory.system.cells
         self.violation: Violation | None = None
-        self.options = dict(options or {})
+        self._settings = {type(value): value for value in settings}
         self._libraries: dict[object, object] = {}
 
     @property
@@ -52,6 +56,17 @@ class Context:
     @release_ns.setter
     def release_ns(self, time_ns: int) -> None:
         self._system[RELEASE] = time_ns
+
+    def settings(self, kind: type[T]) -> T | None:
+        """Return the settings of this class, None where the project has none.
+
+        Libraries have them from tables [library.NAME] of plc.toml, extensions give theirs.
+        """
+        return cast("T | None", self._settings.get(kind))
+
+    def give_settings(self, value: object) -> None:
+        """Keep settings for those who ask for them by their class."""
+        self._settings[type(value)] = value
 
     def library(self, factory: Callable[[Context], T]) -> T:
         """Return a library's state of this controller, made by ``factory`` at the first call.

@@ -16,7 +16,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 
 class PlcError(Exception):
@@ -24,7 +28,42 @@ class PlcError(Exception):
 
 
 class ConfigurationError(PlcError):
-    """A project cannot be loaded; the message names the file and the field."""
+    """A project cannot be loaded; the message names the file and the field.
+
+    Attributes:
+        findings: everything that is wrong, a line or more for each.
+    """
+
+    def __init__(self, *findings: str) -> None:
+        super().__init__("\n".join(findings))
+        self.findings = findings
+
+
+class Findings:
+    """Gathers what is wrong, so that a person is told everything in one go."""
+
+    def __init__(self) -> None:
+        self._texts: list[str] = []
+
+    def __bool__(self) -> bool:
+        return bool(self._texts)
+
+    def add(self, error: ConfigurationError) -> None:
+        """Add the findings of an error; what is there already is not told twice."""
+        self._texts += [text for text in error.findings if text not in self._texts]
+
+    @contextmanager
+    def gathered(self) -> Iterator[None]:
+        """Add what is raised inside, and go on after it."""
+        try:
+            yield
+        except ConfigurationError as error:
+            self.add(error)
+
+    def check(self) -> None:
+        """Raise one ConfigurationError with all findings, if there are any."""
+        if self._texts:
+            raise ConfigurationError(*self._texts)
 
 
 class PageFault(PlcError):  # noqa: N818  # the field's term

@@ -12,10 +12,13 @@ if TYPE_CHECKING:
 def did_you_mean(name: str, known: Iterable[str], most: int = 1) -> str:
     """Return "; did you mean ...?" with the names that are near, the nearest first; "" for none.
 
+    Letters count alike in either case: ``q`` is near ``Q``.
+
     Args:
         name: that is not there.
         known: names that are.
         most: names offered.
     """
-    near = difflib.get_close_matches(name, list(known), n=most)
+    spelt = {each.lower(): each for each in known}
+    near = [spelt[each] for each in difflib.get_close_matches(name.lower(), spelt, n=most)]
     return f"; did you mean {', '.join(near)}?" if near else ""

@@ -1,30 +1,37 @@
-"""Tables [library.NAME] of plc.toml: which libraries have options, and who reads them."""
+"""Tables [library.NAME] of plc.toml: which libraries have settings, and what they are."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from plcsim.core.errors import ConfigurationError
-from plcsim.library.astcp.settings import Settings as AsTcpSettings
+from plcsim.core.errors import Findings
+from plcsim.core.suggestion import did_you_mean
+from plcsim.library.astcp.settings import AsTcpSettings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-READERS = {"AsTCP": AsTcpSettings.read}
+    from plcsim.settings import Table
+
+SETTINGS: Final[dict[str, type]] = {"AsTCP": AsTcpSettings}
 
 
-def check_options(options: Mapping[str, Mapping[str, object]]) -> None:
-    """Find wrong options before anything runs.
+def read_options(tables: Mapping[str, Table]) -> list[object]:
+    """Return the settings of libraries.
 
     Args:
-        options: table of each library by its name.
+        tables: of each library by its name.
 
     Raises:
-        ConfigurationError: no such library has options, or one of them is wrong; names the field.
+        ConfigurationError: no such library has settings, or some of them are wrong.
     """
-    for name, table in options.items():
-        reader = READERS.get(name)
-        if reader is None:
-            known = ", ".join(READERS)
-            raise ConfigurationError(f"library.{name}: no such library; with options are {known}")
-        reader(table)
+    findings = Findings()
+    result: list[object] = []
+    for name, table in tables.items():
+        with findings.gathered():
+            if name not in SETTINGS:
+                hint = did_you_mean(name, SETTINGS) or f"; there are {', '.join(SETTINGS)}"
+                raise table.error("", f"no library with settings is called so{hint}")
+            result.append(table.read(SETTINGS[name]))
+    findings.check()
+    return result

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.controller import Controller
     from plcsim.modbus.settings import ModbusSettings
-    from plcsim.project.table import Table
+    from plcsim.settings.table import Table
 
 
 class ModbusProject(NamedTuple):

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from plcsim.project.table import Table
+    from plcsim.settings.table import Table
 
 TAGS_FILE: Final = "tags.csv"
 AUDIT_FILE: Final = ".plcsim/modbus-audit.jsonl"

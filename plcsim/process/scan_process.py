@@ -158,11 +158,11 @@ def _share(controller: Controller, project: Project, order: RunOrder) -> None:
 
 
 def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:
-    if order.virtual or project.realtime == "off":
+    if order.virtual or project.plc.realtime == "off":
         realtime.sharpen_timers()
         return realtime.Rights((), ())
-    rights = realtime.acquire(project.priority, project.cpu)
-    if project.realtime == "require" and not rights.complete:
+    rights = realtime.acquire(project.plc.priority, project.plc.pinned_cpu)
+    if project.plc.realtime == "require" and not rights.complete:
         file = project.folder / FILE_NAME
         raise ConfigurationError(
             f"{file}: plc.realtime: required, but not given: {'; '.join(rights.refused)}"

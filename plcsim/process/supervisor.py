@@ -33,7 +33,8 @@ from plcsim.shared_image.status_page import StatusPage
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.project.plc_toml import Project, TaskClassEntry
+    from plcsim.project.plc_toml import Project
+    from plcsim.project.tables import TaskClassEntry
 
 POLL_S = 0.02
 """The watchdog looks this often."""
@@ -105,13 +106,13 @@ class Supervisor:
         self._kill_reason = ""
         self._stopped_while_loading = False
         self._cpus = os.sched_getaffinity(0)
-        if not virtual and project.realtime != "off":
-            realtime.keep_off(realtime.scan_cpu(project.cpu))
+        if not virtual and project.plc.realtime != "off":
+            realtime.keep_off(realtime.scan_cpu(project.plc.pinned_cpu))
 
     @staticmethod
     def _class_of_each_task(project: Project) -> list[TaskClassEntry | None]:
         classes: list[TaskClassEntry | None] = [c for c in project.classes for _ in c.programs]
-        return [*classes, None] if project.exception_program else classes
+        return [*classes, None] if project.plc.exception_program else classes
 
     def __enter__(self) -> Self:
         return self
@@ -190,8 +191,8 @@ class Supervisor:
             self._seen = (heartbeat, now_ns)
             self._signalled_ns = 0
         elif self._is_loading:
-            if now_ns - self._seen[1] > self._project.init_timeout_ns:
-                limit = format_duration(self._project.init_timeout_ns)
+            if now_ns - self._seen[1] > self._project.plc.init_timeout_ns:
+                limit = format_duration(self._project.plc.init_timeout_ns)
                 self._kill(f"the programs were not loaded within {limit}")
         elif self._signalled_ns:
             if now_ns - self._signalled_ns > PATIENCE_NS:
@@ -211,8 +212,8 @@ class Supervisor:
         """Return how long the active unit may take."""
         task_class = self._classes[self.page.active or 0]
         if self.page.state is not State.RUN or task_class is None:
-            return self._project.init_timeout_ns
-        return max(self._project.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
+            return self._project.plc.init_timeout_ns
+        return max(self._project.plc.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
 
     def _kill(self, reason: str) -> None:
         """End a scan process that does not hear; keep where it is stuck."""

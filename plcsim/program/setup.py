@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from plcsim.core.context import Context
@@ -12,7 +12,7 @@ from plcsim.core.task import Policy, TaskClass
 from plcsim.program.language import Site
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Heartbeat
@@ -50,13 +50,13 @@ class Setup:
         classes: the task classes.
         memory_size: bytes of PLC memory.
         exception_program: runs once for each violation under the policy "exception".
-        options: tables [library.NAME] of plc.toml by NAME.
+        settings: what libraries find by `Context.settings`.
     """
 
     classes: Sequence[TaskClassSetup]
     memory_size: int = DEFAULT_SIZE
     exception_program: ProgramSetup | None = None
-    options: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    settings: Sequence[object] = ()
 
 
 def make_controller(
@@ -79,7 +79,7 @@ def make_controller(
     Raises:
         ConfigurationError: the variables do not fit into the memory.
     """
-    context = Context(Memory(setup.memory_size), network, setup.options)
+    context = Context(Memory(setup.memory_size), network, setup.settings)
     site = Site(context)
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program

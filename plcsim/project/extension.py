@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
-    from plcsim.project.table import Table
+    from plcsim.settings.table import Table
 
 GROUP = "plcsim.extensions"
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from plcsim.library.astcp.constants import tcpINVALID_IDENT
-from plcsim.library.astcp.settings import Settings
+from plcsim.library.astcp.settings import AsTcpSettings
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -39,7 +39,7 @@ class IdentTable:
     """
 
     def __init__(self, context: Context) -> None:
-        self.settings = Settings.read(context.options.get("AsTCP", {}))
+        self.settings = context.settings(AsTcpSettings) or AsTcpSettings()
         self._endpoints: dict[int, Endpoint] = {}
         self._last = tcpINVALID_IDENT
 

@@ -15,7 +15,7 @@ from plcsim.network import VirtualNetwork
 from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 from st_types import BOOL, UDINT, var
 
 MS = 1_000_000

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from crosnode.plc.project import OPTIONS, SharedTypes, Surroundings, create_node, surroundings
+from crosnode.plc.project import SharedTypes, Surroundings, create_node, surroundings
 from crosnode.plc.settings import read_settings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import VirtualNetwork
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 
 
 def test_without_a_table_the_environment_counts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,7 +34,7 @@ def test_the_namespace_of_the_table_goes_before_the_environment_that_before_the_
         context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
         values = {"namespace": namespace} if namespace else {}
         settings = read_settings(Table(Path("plc.toml"), "ros", values), Path(), environment)
-        context.options[OPTIONS] = {"surroundings": Surroundings(settings, 0, lambda: 0)}
+        context.give_settings(Surroundings(settings, 0, lambda: 0))
         return create_node(context, "x", namespace="/mine").name
 
     assert name("/table", {"ROS_NAMESPACE": "/desk"}) == "/table/x"
@@ -47,9 +47,9 @@ def test_beside_a_node_in_exit_goes_on_what_a_test_has_there() -> None:
     settings = read_settings(Table(Path("plc.toml"), "ros", {}), Path(), {})
     steps: list[int] = []
     found = Surroundings(settings, 0, lambda: 0)
-    context.options[OPTIONS] = {"surroundings": found}
+    context.give_settings(found)
     node = create_node(context, "x")
-    context.options[OPTIONS] = {"surroundings": found._replace(beside=lambda: steps.append(1))}
+    context.give_settings(found._replace(beside=lambda: steps.append(1)))
     node.set_param("/a", 1)  # waits for the master
     node.destroy(steps=3)
     assert steps

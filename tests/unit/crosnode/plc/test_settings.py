@@ -5,7 +5,7 @@ import pytest
 
 from crosnode.plc.settings import Publication, RosSettings, Subscription, read_settings
 from plcsim.core.errors import ConfigurationError
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 
 FILE = Path("plc.toml")
 

@@ -10,6 +10,7 @@ from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST, tcpERR_INVALID
 from plcsim.library.astcp.idents import IdentTable
+from plcsim.library.astcp.settings import AsTcpSettings
 from plcsim.network import VirtualNetwork
 
 FAILED, IN_PROGRESS, DISCONNECTED, DONE, UNKNOWN = TcpipSocketState
@@ -22,9 +23,9 @@ class Pair:
 
     def __init__(self, idents: int = 128, seed: int = 0) -> None:
         net = VirtualNetwork(lambda: 0, seed=seed)
-        options = {"AsTCP": {"idents": idents}}
+        settings = [AsTcpSettings(idents=idents)]
         self.net = net
-        self.context = Context(Memory(), net.host(IP), options)
+        self.context = Context(Memory(), net.host(IP), settings)
         self.pool = self.context.library(SocketPool)
         self.listener = self.pool.get()
         self.listener.init("", PORT)

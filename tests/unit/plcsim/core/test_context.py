@@ -1,7 +1,13 @@
+from typing import NamedTuple
+
 import pytest
 
 from plcsim.core.context import Context
 from plcsim.core.memory import PAGE, Memory
+
+
+class Idents(NamedTuple):
+    count: int
 
 
 class Library:
@@ -15,13 +21,18 @@ class Library:
 
 @pytest.fixture
 def context():
-    return Context(Memory(2 * PAGE), network="network", options={"astcp": {"idents": 4}})
+    return Context(Memory(2 * PAGE), network="network", settings=[Idents(4)])
 
 
 def test_a_context_starts_at_release_0_with_what_it_was_given(context):
     assert (context.release_ns, context.network) == (0, "network")
-    assert context.options == {"astcp": {"idents": 4}}
-    assert Context(context.memory, network=None).options == {}
+    assert context.settings(Idents) == Idents(4)
+    assert Context(context.memory, network=None).settings(Idents) is None
+
+
+def test_settings_that_are_given_later_take_the_place_of_those_before(context):
+    context.give_settings(Idents(5))
+    assert context.settings(Idents) == Idents(5)
 
 
 def test_a_library_is_made_once_by_the_first_block_that_asks(context):

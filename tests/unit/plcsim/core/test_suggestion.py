@@ -11,6 +11,11 @@ def test_the_nearest_name_is_offered() -> None:
     assert did_you_mean("speed_st", KNOWN, 3) == "; did you mean speed_set, speed?"
 
 
+def test_case_does_not_matter() -> None:
+    assert did_you_mean("q", ["Q", "ET"]) == "; did you mean Q?"
+    assert did_you_mean("astcp", ["AsTCP"]) == "; did you mean AsTCP?"
+
+
 def test_nothing_is_offered_where_nothing_is_near() -> None:
     assert did_you_mean("x", KNOWN) == did_you_mean("speed", []) == ""
 

@@ -55,9 +55,9 @@ def test_the_floor_skips_what_it_missed(floor):
 @pytest.mark.parametrize("realtime", [False, True])
 def test_the_empty_project_asks_for_the_rights_it_is_measured_with(tmp_path, realtime):
     project = read_project(write_project(tmp_path, Order(MS, 1, realtime)))
-    assert project.realtime == ("require" if realtime else "off")
-    assert (project.tick_ns, project.classes[0].cycle_ns) == (MS, MS)
-    assert project.priority == loops.PRIORITY
+    assert project.plc.realtime == ("require" if realtime else "off")
+    assert (project.plc.tick_ns, project.classes[0].cycle_ns) == (MS, MS)
+    assert project.plc.priority == loops.PRIORITY
 
 
 def test_the_compiler_in_the_environment_comes_first(tmp_path, monkeypatch):

@@ -5,7 +5,7 @@ import pytest
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.settings import ModbusSettings, read_settings, settings_from
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from plcsim.project import extension
 from plcsim.project import plc_toml as project
 from plcsim.project.extension import Attachment, check_settings, services_of
 from plcsim.project.plc_toml import read_project
-from plcsim.project.table import Table
+from plcsim.settings.table import Table
 
 TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from plcsim.core.context import Context
@@ -18,7 +19,9 @@ from plcsim.library.astcp import (
     TcpServer,
 )
 from plcsim.library.astcp.idents import IdentTable
+from plcsim.library.astcp.settings import AsTcpSettings
 from plcsim.network import Limits, Link, VirtualNetwork
+from plcsim.settings import Table
 
 if TYPE_CHECKING:
     from plcsim.core.function_block import FunctionBlock
@@ -38,8 +41,9 @@ class Plc:
     """A controller's context, and shortcuts to call its blocks."""
 
     def __init__(self, network: Network, **options: object) -> None:
+        settings = Table(Path("plc.toml"), "library.AsTCP", options).read(AsTcpSettings)
         self.memory = Memory(1024 * 1024)
-        self.context = Context(self.memory, network, {"AsTCP": options})
+        self.context = Context(self.memory, network, [settings])
         self.buffer = self.memory.allocate(8192)
 
     @property

@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import pytest
 
-from plcsim.core.errors import ConfigurationError
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
     ERR_FUB_ENABLE_FALSE,
@@ -74,12 +73,6 @@ def test_programs_may_spin_on_busy(world: World) -> None:
     while server.status == ERR_FUB_BUSY:
         server()
     assert (client.status, server.status) == (ERR_OK, ERR_OK)
-
-
-def test_wrong_settings_are_told_at_the_first_call() -> None:
-    plc = World(idents=0).server
-    with pytest.raises(ConfigurationError, match="idents"):
-        plc.open(PORT)
 
 
 def test_a_controller_has_idents_of_its_own(world: World) -> None:

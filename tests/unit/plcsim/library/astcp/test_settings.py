@@ -1,18 +1,28 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.library.astcp.settings import Settings
+from plcsim.library.astcp.settings import AsTcpSettings
+from plcsim.settings import Table
+
+
+def read(**values: object) -> AsTcpSettings:
+    return Table(Path("plc.toml"), "library.AsTCP", values).read(AsTcpSettings)
 
 
 def test_defaults() -> None:
-    assert Settings.read({}) == Settings(128, 0, 32600)
+    found = read()
+    assert (found.idents, found.connect_timeout_ns, found.closed_while_busy) == (128, 0, 32600)
 
 
 def test_all_keys() -> None:
-    options = {"idents": 3, "connect_timeout": "1.5s", "closed_while_busy": 32609}
-    assert Settings.read(options) == Settings(3, 1_500_000_000, 32609)
+    found = read(idents=3, connect_timeout="1.5s", closed_while_busy=32609)
+    assert found == AsTcpSettings(
+        idents=3, connect_timeout_ns=1_500_000_000, closed_while_busy=32609
+    )
 
 
 @pytest.mark.parametrize(
@@ -32,5 +42,5 @@ def test_all_keys() -> None:
     ],
 )
 def test_wrong_values_name_the_field(key: str, value: object) -> None:
-    with pytest.raises(ConfigurationError, match=rf"^library\.AsTCP\.{key}: "):
-        Settings.read({key: value})
+    with pytest.raises(ConfigurationError, match=rf"^plc\.toml: library\.AsTCP\.{key}: "):
+        read(**{key: value})
