@@ -11,11 +11,11 @@ import sys
 import time
 from typing import Any
 
-from crosnode.graph.names import node_settings
+from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
-from crosnode.transport.budget import UNPACED, Budget
-from crosnode.xmlrpc import Limits
+from crosnode.transport.budget import UNPACED, StepBudget
+from crosnode.xmlrpc import XmlRpcLimits
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
@@ -90,12 +90,12 @@ class Idle:
         pass
 
 
-class Call:
+class MethodCall:
     """Calls getBusInfo of the node ``/plc`` over so many connections, as often as it answers."""
 
     def __init__(self, node: CrosNode, count: str) -> None:
         core = node.core
-        self.callers = [ApiCaller(core.loop, core.hosts, Limits()) for _ in range(int(count))]
+        self.callers = [ApiCaller(core.loop, core.hosts, XmlRpcLimits()) for _ in range(int(count))]
         self.node = node
         self.lookup: ApiCall | None = None
 
@@ -107,10 +107,10 @@ class Call:
                 if caller.is_idle:
                     call = ApiCall(str(self.lookup.value), "getBusInfo", ["/peer"])
                     caller.start(call, keep=True)
-                caller.step(now_ns, Budget(UNPACED))
+                caller.step(now_ns, StepBudget(UNPACED))
 
 
-ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle, "call": Call}
+ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle, "call": MethodCall}
 
 
 def main() -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import InvalidNameError
-from crosnode.graph.uri import Address, parse_uri
+from crosnode.graph.uri import parse_uri
+from plcsim.network import Address
 from plcsim.network.protocol import is_ipv4
 
 if TYPE_CHECKING:

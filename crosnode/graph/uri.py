@@ -17,14 +17,14 @@ DEFAULT_PORT: Final = 11311
 """Of a master."""
 
 
-class Address(NamedTuple):
-    """A host name or number, IPv6 without brackets, and a port."""
+class Authority(NamedTuple):
+    """What a URI names (RFC 3986): a host name or number, IPv6 without brackets, and a port."""
 
     host: str
     port: int
 
 
-def parse_uri(uri: str, scheme: str) -> Address:
+def parse_uri(uri: str, scheme: str) -> Authority:
     """Return the address of a URI, with or without a path.
 
     Raises:
@@ -33,7 +33,7 @@ def parse_uri(uri: str, scheme: str) -> Address:
     match = _URI.fullmatch(uri)
     if not match or match["scheme"] != scheme or not 0 < int(match["port"]) < 65536:
         raise InvalidNameError(f"{uri[:100]!r} is not a URI of the form {scheme}://host:port/.")
-    return Address(match["host"].strip("[]"), int(match["port"]))
+    return Authority(match["host"].strip("[]"), int(match["port"]))
 
 
 def make_uri(scheme: str, host: str, port: int) -> str:

@@ -14,9 +14,17 @@ from crosnode.errors import InvalidNameError, MessageTypeError, MessageValueErro
 from crosnode.graph.names import PRIVATE, SEPARATOR, join, namespace_of
 from crosnode.graph.uri import parse_uri
 from crosnode.master.parameters import ParameterTree, changes_for, slashed
-from crosnode.master.registrations import ANY_TYPE, Graph, Node, Registrations, Replaced
+from crosnode.master.registrations import ANY_TYPE, Graph, RegisteredNode, Registrations, Replaced
 from crosnode.messages.definition import split_type_name
-from crosnode.xmlrpc import MULTICALL, Call, Fault, Response, Value, check_value, run_multicall
+from crosnode.xmlrpc import (
+    MULTICALL,
+    MethodCall,
+    MethodFault,
+    MethodResponse,
+    Value,
+    check_value,
+    run_multicall,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,7 +50,7 @@ class OutgoingCall(NamedTuple):
 class Answer(NamedTuple):
     """The reply to a request, and the calls that it causes."""
 
-    reply: Response | Fault
+    reply: MethodResponse | MethodFault
     calls: list[OutgoingCall]
 
 
@@ -58,7 +66,7 @@ class MasterLimits(NamedTuple):
     max_parameters: int = 16 << 20
 
 
-Status: TypeAlias = tuple[int, str, Any]
+ApiReply: TypeAlias = tuple[int, str, Any]
 Check: TypeAlias = "Callable[[Value, str], Any]"
 
 
@@ -89,11 +97,13 @@ class Master:
         for name, value in (parameters or {}).items():
             self._parameters.set(name, value)
 
-    def handle(self, call: Call) -> Answer:
+    def handle(self, call: MethodCall) -> Answer:
         """Answer a request, ``system.multicall`` included."""
         self._calls = []
         if call.method == MULTICALL:
-            reply: Response | Fault = Response(list(run_multicall(call.params, self._answer)))
+            reply: MethodResponse | MethodFault = MethodResponse(
+                list(run_multicall(call.params, self._answer))
+            )
         else:
             reply = self._answer(call)
         return Answer(reply, self._calls)
@@ -107,15 +117,15 @@ class Master:
             if node.uri == call.uri:
                 self._graph.unregister(self._graph.parameters, key, node)
 
-    def _answer(self, call: Call) -> Response | Fault:
+    def _answer(self, call: MethodCall) -> MethodResponse | MethodFault:
         if call.method == "system.listMethods":
-            return Response([*METHODS, "system.listMethods", MULTICALL])
+            return MethodResponse([*METHODS, "system.listMethods", MULTICALL])
         method = METHODS.get(call.method)
         if method is None:
-            return Fault(1, f"method {call.method[:100]!r} is not supported")
-        return Response(list(self._run(method, call.params)))
+            return MethodFault(1, f"method {call.method[:100]!r} is not supported")
+        return MethodResponse(list(self._run(method, call.params)))
 
-    def _run(self, method: Method, params: list[Value]) -> Status:
+    def _run(self, method: Method, params: list[Value]) -> ApiReply:
         if not params or not isinstance(params[0], str) or len(params[0]) > MAX_NAME:
             return ERROR, "caller_id must be a string, and no long one", method.fallback
         caller, *rest = params
@@ -131,7 +141,7 @@ class Master:
         except ValueError as error:  # a limit of ours
             return FAILURE, str(error), method.fallback
 
-    def _register(self, kind: Registrations, key: str, node: Node) -> None:
+    def _register(self, kind: Registrations, key: str, node: RegisteredNode) -> None:
         self._shut_down(self._graph.register(kind, key, node))
 
     def _shut_down(self, replaced: Replaced | None) -> None:
@@ -163,103 +173,107 @@ class Master:
 
     # The master API
 
-    def register_publisher(self, caller: str, topic: str, type_name: str, uri: str) -> Status:
+    def register_publisher(self, caller: str, topic: str, type_name: str, uri: str) -> ApiReply:
         """Add a publisher, tell the subscribers, and give their URIs."""
-        self._register(self._graph.publishers, topic, Node(caller, uri))
+        self._register(self._graph.publishers, topic, RegisteredNode(caller, uri))
         self._graph.set_topic_type(topic, type_name, by_publisher=True)
         self._tell_subscribers(topic)
         subscribers = self._graph.subscribers.uris(topic)
         return SUCCESS, f"Registered [{caller}] as publisher of [{topic}]", subscribers
 
-    def unregister_publisher(self, caller: str, topic: str, uri: str) -> Status:
+    def unregister_publisher(self, caller: str, topic: str, uri: str) -> ApiReply:
         """Remove a publisher and tell the subscribers."""
-        removed = self._graph.unregister(self._graph.publishers, topic, Node(caller, uri))
+        removed = self._graph.unregister(self._graph.publishers, topic, RegisteredNode(caller, uri))
         if removed:
             self._tell_subscribers(topic)
         return _unregistered(caller, topic, removed=removed)
 
-    def register_subscriber(self, caller: str, topic: str, type_name: str, uri: str) -> Status:
+    def register_subscriber(self, caller: str, topic: str, type_name: str, uri: str) -> ApiReply:
         """Add a subscriber and give the URIs of the publishers."""
-        self._register(self._graph.subscribers, topic, Node(caller, uri))
+        self._register(self._graph.subscribers, topic, RegisteredNode(caller, uri))
         self._graph.set_topic_type(topic, type_name, by_publisher=False)
         return SUCCESS, f"Subscribed to [{topic}]", self._graph.publishers.uris(topic)
 
-    def unregister_subscriber(self, caller: str, topic: str, uri: str) -> Status:
+    def unregister_subscriber(self, caller: str, topic: str, uri: str) -> ApiReply:
         """Remove a subscriber."""
-        removed = self._graph.unregister(self._graph.subscribers, topic, Node(caller, uri))
+        removed = self._graph.unregister(
+            self._graph.subscribers, topic, RegisteredNode(caller, uri)
+        )
         return _unregistered(caller, topic, removed=removed)
 
-    def register_service(self, caller: str, service: str, service_uri: str, uri: str) -> Status:
+    def register_service(self, caller: str, service: str, service_uri: str, uri: str) -> ApiReply:
         """Make the caller the provider of a service."""
-        self._shut_down(self._graph.register_service(service, service_uri, Node(caller, uri)))
+        self._shut_down(
+            self._graph.register_service(service, service_uri, RegisteredNode(caller, uri))
+        )
         return SUCCESS, f"Registered [{caller}] as provider of [{service}]", 1
 
-    def unregister_service(self, caller: str, service: str, service_uri: str) -> Status:
+    def unregister_service(self, caller: str, service: str, service_uri: str) -> ApiReply:
         """Remove a provider, where it is still the one."""
         removed = self._graph.unregister_service(service, service_uri, caller)
         return _unregistered(caller, service, removed=removed)
 
-    def lookup_service(self, _caller: str, service: str) -> Status:
+    def lookup_service(self, _caller: str, service: str) -> ApiReply:
         """Give the rosrpc URI of a service."""
         uri = self._graph.service_uris.get(service)
         return (SUCCESS, f"rosrpc URI: [{uri}]", uri) if uri else (ERROR, "no provider", "")
 
-    def lookup_node(self, _caller: str, name: str) -> Status:
+    def lookup_node(self, _caller: str, name: str) -> ApiReply:
         """Give the URI of a node."""
         node = self._graph.find(name)
         return (SUCCESS, "node api", node.uri) if node else (ERROR, f"unknown node [{name}]", "")
 
-    def get_published_topics(self, _caller: str, subgraph: str) -> Status:
+    def get_published_topics(self, _caller: str, subgraph: str) -> ApiReply:
         """Give ``[topic, type]`` of all topics with a publisher below a namespace."""
         below = subgraph.rstrip(SEPARATOR) + SEPARATOR
         types = self._graph.topic_types
         topics = [t for t in self._graph.publishers.nodes if t.startswith(below)]
         return SUCCESS, "current topics", [[topic, types[topic]] for topic in topics]
 
-    def get_topic_types(self, _caller: str) -> Status:
+    def get_topic_types(self, _caller: str) -> ApiReply:
         """Give ``[topic, type]`` of all topics."""
         return SUCCESS, "current topic types", [list(it) for it in self._graph.topic_types.items()]
 
-    def get_system_state(self, _caller: str) -> Status:
+    def get_system_state(self, _caller: str) -> ApiReply:
         """Give publishers, subscribers and services with the names of their nodes."""
         graph = self._graph
         kinds = (graph.publishers, graph.subscribers, graph.services)
         return SUCCESS, "current system state", [kind.state() for kind in kinds]
 
-    def get_uri(self, _caller: str) -> Status:
+    def get_uri(self, _caller: str) -> ApiReply:
         """Give the URI of the master."""
         return SUCCESS, "", self.uri
 
-    def get_pid(self, _caller: str) -> Status:
+    def get_pid(self, _caller: str) -> ApiReply:
         """Give the process number."""
         return SUCCESS, "", self._pid
 
-    def shutdown(self, _caller: str, _reason: Value) -> Status:
+    def shutdown(self, _caller: str, _reason: Value) -> ApiReply:
         """Ask the owner to end the master: ``is_shut_down`` is True from here on."""
         self.is_shut_down = True
         return SUCCESS, "shutdown", 0
 
     # The parameter server API
 
-    def set_param(self, caller: str, name: str, value: Value) -> Status:
+    def set_param(self, caller: str, name: str, value: Value) -> ApiReply:
         """Set a parameter or a whole namespace."""
         check_value(value)
         self._parameters.set(name, value)
         self._tell_watchers(name, value, caller)
         return SUCCESS, f"parameter {name} set", 0
 
-    def get_param(self, _caller: str, name: str) -> Status:
+    def get_param(self, _caller: str, name: str) -> ApiReply:
         """Give a parameter or a whole namespace."""
         try:
             return SUCCESS, f"Parameter [{name}]", self._parameters.get(name)
         except KeyError:
             return ERROR, f"Parameter [{name}] is not set", 0
 
-    def has_param(self, _caller: str, name: str) -> Status:
+    def has_param(self, _caller: str, name: str) -> ApiReply:
         """Give whether a parameter is set."""
         return SUCCESS, name, name in self._parameters
 
-    def delete_param(self, _caller: str, name: str) -> Status:
+    def delete_param(self, _caller: str, name: str) -> ApiReply:
         """Delete a parameter or a whole namespace."""
         try:
             self._parameters.delete(name)
@@ -268,30 +282,30 @@ class Master:
         self._tell_watchers(name, {}, None)
         return SUCCESS, f"parameter {name} deleted", 0
 
-    def search_param(self, caller: str, key: str) -> Status:
+    def search_param(self, caller: str, key: str) -> ApiReply:
         """Give the name of a parameter, searched from the caller's name upwards."""
         name = self._parameters.search(join(SEPARATOR, caller), key)
         if name is None:
             return ERROR, f"Cannot find parameter [{key}] in an upwards search", ""
         return SUCCESS, f"Found [{name}]", name
 
-    def get_param_names(self, _caller: str) -> Status:
+    def get_param_names(self, _caller: str) -> ApiReply:
         """Give the names of all parameters."""
         return SUCCESS, "Parameter names", self._parameters.names()
 
-    def subscribe_param(self, caller: str, uri: str, name: str) -> Status:
+    def subscribe_param(self, caller: str, uri: str, name: str) -> ApiReply:
         """Add a watcher and give the value, an empty dictionary where there is none."""
-        self._register(self._graph.parameters, name, Node(caller, uri))
+        self._register(self._graph.parameters, name, RegisteredNode(caller, uri))
         value = self._parameters.get(name) if name in self._parameters else {}
         return SUCCESS, f"Subscribed to parameter [{name}]", value
 
-    def unsubscribe_param(self, caller: str, uri: str, name: str) -> Status:
+    def unsubscribe_param(self, caller: str, uri: str, name: str) -> ApiReply:
         """Remove a watcher."""
-        removed = self._graph.unregister(self._graph.parameters, name, Node(caller, uri))
+        removed = self._graph.unregister(self._graph.parameters, name, RegisteredNode(caller, uri))
         return _unregistered(caller, name, removed=removed)
 
 
-def _unregistered(caller: str, key: str, *, removed: bool) -> Status:
+def _unregistered(caller: str, key: str, *, removed: bool) -> ApiReply:
     if removed:
         return SUCCESS, f"Unregistered [{caller}] as provider of [{key}]", 1
     return SUCCESS, f"[{caller}] is not a known provider of [{key}]", 0
@@ -346,7 +360,7 @@ def _any(value: Value, _caller: str) -> Value:
 class Method(NamedTuple):
     """A method: what answers it, how its parameters are checked, and its value on an error."""
 
-    run: Callable[..., Status]
+    run: Callable[..., ApiReply]
     checks: tuple[Check, ...]
     fallback: Value
 

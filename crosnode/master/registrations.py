@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 ANY_TYPE: Final = "*"
 
 
-class Node(NamedTuple):
+class RegisteredNode(NamedTuple):
     """A node as it registers itself: its name and the URI of its slave API."""
 
     name: str
@@ -18,7 +18,7 @@ class Node(NamedTuple):
 class Replaced(NamedTuple):
     """A node that lost its name to another one, and the topics it published."""
 
-    node: Node
+    node: RegisteredNode
     topics: list[str]
 
 
@@ -26,15 +26,15 @@ class Replaced(NamedTuple):
 class Registrations:
     """Nodes by what they registered for, in order of registration; empty entries vanish."""
 
-    nodes: dict[str, list[Node]] = field(default_factory=dict)
+    nodes: dict[str, list[RegisteredNode]] = field(default_factory=dict)
 
-    def add(self, key: str, node: Node) -> None:
+    def add(self, key: str, node: RegisteredNode) -> None:
         """Register a node once."""
         entry = self.nodes.setdefault(key, [])
         if node not in entry:
             entry.append(node)
 
-    def remove(self, key: str, node: Node) -> bool:
+    def remove(self, key: str, node: RegisteredNode) -> bool:
         """Unregister a node; return whether it was registered."""
         if node not in self.nodes.get(key, []):
             return False
@@ -43,7 +43,7 @@ class Registrations:
             del self.nodes[key]
         return True
 
-    def remove_all(self, node: Node) -> list[str]:
+    def remove_all(self, node: RegisteredNode) -> list[str]:
         """Unregister a node from everything and return the keys."""
         keys = [key for key, nodes in self.nodes.items() if node in nodes]
         for key in keys:
@@ -77,17 +77,17 @@ class Graph:
         self.parameters = Registrations()
         self.service_uris: dict[str, str] = {}
         self.topic_types: dict[str, str] = {}
-        self._nodes: dict[str, Node] = {}
+        self._nodes: dict[str, RegisteredNode] = {}
 
     @property
     def _kinds(self) -> tuple[Registrations, ...]:
         return (self.publishers, self.subscribers, self.services, self.parameters)
 
-    def find(self, name: str) -> Node | None:
+    def find(self, name: str) -> RegisteredNode | None:
         """Return the node of a name."""
         return self._nodes.get(name)
 
-    def register(self, kind: Registrations, key: str, node: Node) -> Replaced | None:
+    def register(self, kind: Registrations, key: str, node: RegisteredNode) -> Replaced | None:
         """Register a node; return the node of the same name and another URI that it replaces.
 
         Raises:
@@ -101,7 +101,9 @@ class Graph:
         kind.add(key, node)
         return replaced
 
-    def register_service(self, service: str, service_uri: str, node: Node) -> Replaced | None:
+    def register_service(
+        self, service: str, service_uri: str, node: RegisteredNode
+    ) -> Replaced | None:
         """Register the provider of a service in the place of any other; as ``register``."""
         replaced = self.register(self.services, service, node)
         for other in [other for other in self.services.nodes[service] if other != node]:
@@ -110,7 +112,7 @@ class Graph:
         self.service_uris[service] = service_uri
         return replaced
 
-    def unregister(self, kind: Registrations, key: str, node: Node) -> bool:
+    def unregister(self, kind: Registrations, key: str, node: RegisteredNode) -> bool:
         """Unregister a node; return whether it was registered."""
         removed = kind.remove(key, node)
         self._clean(node)
@@ -132,7 +134,7 @@ class Graph:
         elif by_publisher or self.topic_types.get(topic, ANY_TYPE) == ANY_TYPE:
             self.topic_types[topic] = type_name
 
-    def _forget(self, node: Node) -> list[str]:
+    def _forget(self, node: RegisteredNode) -> list[str]:
         """Unregister a node from everything and return the topics it published."""
         topics = self.publishers.remove_all(node)
         for kind in self._kinds:
@@ -140,7 +142,7 @@ class Graph:
         self._clean(node)
         return topics
 
-    def _clean(self, node: Node) -> None:
+    def _clean(self, node: RegisteredNode) -> None:
         """Drop what no registration refers to any more."""
         is_used = any(node in nodes for kind in self._kinds for nodes in kind.nodes.values())
         if not is_used and self._nodes.get(node.name) == node:

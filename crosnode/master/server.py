@@ -7,17 +7,24 @@ from typing import TYPE_CHECKING, NamedTuple
 from crosnode.graph.hosts import HostTable
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.master.master import Master, OutgoingCall
-from crosnode.node.acceptors import SlaveAcceptor
-from crosnode.transport.budget import Budget, StepLimits
+from crosnode.transport.budget import StepBudget, StepLimits
 from crosnode.transport.event_loop import EventLoop
-from crosnode.xmlrpc import Call, CallReceived, Fault, Limits, Value, XmlRpcServerConnection
+from crosnode.xmlrpc import (
+    CallReceived,
+    MethodCall,
+    MethodFault,
+    Value,
+    XmlRpcLimits,
+    XmlRpcServerConnection,
+)
+from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode import tcpros, xmlrpc
-    from crosnode.transport.link import Link
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.link import PeerLink
     from plcsim.core.context import Context
 
 
@@ -47,7 +54,7 @@ class MasterOptions(NamedTuple):
     parameters: Mapping[str, Value] | None = None
     hosts: Mapping[str, str] | None = None
     step: StepLimits = StepLimits()
-    xmlrpc: Limits = Limits()
+    xmlrpc: XmlRpcLimits = XmlRpcLimits()
 
 
 class MasterServer:
@@ -66,7 +73,7 @@ class MasterServer:
         self.options = options = options or MasterOptions()
         self._context = context
         self._loop = EventLoop(context, options.step)
-        acceptor = SlaveAcceptor(self, options.xmlrpc)
+        acceptor = ApiAcceptor(self, options.xmlrpc)
         self._listener = self._loop.listen(options.bind_ip, options.port, acceptor)
         self._api = ApiCaller(self._loop, HostTable(options.hosts), options.xmlrpc)
         self.uri = make_uri("http", options.host, options.port)
@@ -84,7 +91,7 @@ class MasterServer:
 
     def step(self) -> None:
         """Answer calls and make those that they cause, within the budget of a step."""
-        now_ns, budget = self._context.release_ns, Budget(self.options.step)
+        now_ns, budget = self._context.release_ns, StepBudget(self.options.step)
         self._api.step_first(now_ns, budget)
         self._loop.step(now_ns, budget)
         self._api.step(now_ns, budget)
@@ -94,15 +101,15 @@ class MasterServer:
         """Close the port and all connections."""
         self._loop.close(self._context.release_ns)
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Answer a call."""
         connection = link.connection
         if not isinstance(event, CallReceived) or not isinstance(
             connection, XmlRpcServerConnection
         ):
             return
-        reply, calls = self.master.handle(Call(event.method, event.params))
-        if isinstance(reply, Fault):
+        reply, calls = self.master.handle(MethodCall(event.method, event.params))
+        if isinstance(reply, MethodFault):
             connection.fault(*reply)
         else:
             connection.respond(reply.value)
@@ -116,12 +123,12 @@ class MasterServer:
 
         self._api.start(ApiCall(call.uri, call.method, call.params, answered))
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """A caller may always call."""
         return True
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Answers go to the connection at once."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Nothing is kept for a caller."""

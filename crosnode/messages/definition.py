@@ -42,7 +42,7 @@ MAX_FIXED_ARRAY = 1 << 28
 """Elements; a longer array does not travel in one message."""
 
 
-class Constant(NamedTuple):
+class MessageConstant(NamedTuple):
     """A constant: ``value`` converted, ``md5_line`` as it enters the md5."""
 
     name: str
@@ -79,7 +79,7 @@ class Definition(NamedTuple):
 
     name: str
     text: str
-    constants: tuple[Constant, ...]
+    constants: tuple[MessageConstant, ...]
     fields: tuple[Field, ...]
 
 
@@ -108,7 +108,7 @@ def parse_message(name: str, text: str) -> Definition:
     """
     package, _ = split_type_name(name)
     text = text.replace("\r\n", "\n")
-    constants: list[Constant] = []
+    constants: list[MessageConstant] = []
     fields: list[Field] = []
     for number, line in enumerate(text.split("\n"), 1):
         clean = line.split("#", 1)[0].strip()
@@ -169,7 +169,7 @@ def _words(text: str) -> list[str]:
     return [word.strip() for word in text.split(" ") if word.strip()]
 
 
-def _parse_constant(line: str, clean: str) -> Constant:
+def _parse_constant(line: str, clean: str) -> MessageConstant:
     primitive = clean.split(" ", 1)[0]
     if primitive not in PRIMITIVES:
         raise ValueError(f"{primitive!r} is not a type for a constant.")
@@ -185,7 +185,9 @@ def _parse_constant(line: str, clean: str) -> Constant:
             raise ValueError(f"expected 'type NAME=value', got {clean!r}.")
     # genmsg takes any words for the name, so the md5 has them all; the last is what people mean.
     name, value = words.split(" ")[-1], value.strip()
-    return Constant(name, primitive, _convert(primitive, value), f"{primitive} {words}={value}")
+    return MessageConstant(
+        name, primitive, _convert(primitive, value), f"{primitive} {words}={value}"
+    )
 
 
 def _convert(primitive: str, value: str) -> bool | int | float | str:

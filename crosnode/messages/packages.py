@@ -31,7 +31,7 @@ MAX_FILE_SIZE = 1 << 20
 """Bytes; no definition is larger."""
 
 
-class Kind(Enum):
+class DefinitionKind(Enum):
     """Kinds of definition files; the value is folder and suffix."""
 
     MESSAGE = "msg"
@@ -50,7 +50,7 @@ class PackagePath:
         self.paths = tuple(Path(path) for path in paths)
         self._packages: dict[Path, dict[str, Path]] = {}
 
-    def read(self, name: str, kind: Kind) -> str | None:
+    def read(self, name: str, kind: DefinitionKind) -> str | None:
         """Return the text of a definition, or None where no file has it.
 
         Raises:
@@ -109,9 +109,9 @@ def _package_name(folder: Path) -> str | None:
         if file.is_file():
             match = re.search(r"<name>\s*([A-Za-z]\w*)\s*</name>", _read_text(file), re.A)
             return match[1] if match else folder.name
-    holds = any((folder / kind.value).is_dir() for kind in Kind)
+    holds = any((folder / kind.value).is_dir() for kind in DefinitionKind)
     return folder.name if holds or any(_flat_files(folder)) else None
 
 
 def _flat_files(folder: Path) -> Iterator[Path]:
-    return (file for kind in Kind for file in folder.glob(f"*.{kind.value}"))
+    return (file for kind in DefinitionKind for file in folder.glob(f"*.{kind.value}"))

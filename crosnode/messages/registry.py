@@ -22,7 +22,7 @@ from crosnode.messages.definition import (
     split_parts,
     split_type_name,
 )
-from crosnode.messages.packages import SHARE, Kind, PackagePath
+from crosnode.messages.packages import SHARE, DefinitionKind, PackagePath
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -162,7 +162,7 @@ class MessageTypes:
         """Return the service type ``name``; raises as ``message`` does."""
         name = "/".join(split_type_name(name))
         if name not in self._services:
-            text = self._packages.read(name, Kind.SERVICE)
+            text = self._packages.read(name, DefinitionKind.SERVICE)
             if text is None:
                 raise UnknownTypeError(f"No service type {name}.")
             self._services[name] = ServiceType(self, name, text)
@@ -175,7 +175,7 @@ class MessageTypes:
         """
         short = "/".join(split_type_name(name))
         wanted = "/srv/" in name or self._lacks(short)
-        if wanted and self._packages.read(short, Kind.SERVICE) is not None:
+        if wanted and self._packages.read(short, DefinitionKind.SERVICE) is not None:
             return self.service(short)
         if self._lacks(short):
             raise UnknownTypeError(f"No message or service type {short}.")
@@ -250,7 +250,7 @@ class MessageTypes:
     def _message_text(self, name: str) -> str | None:
         if name in self._defined:
             return self._defined[name]
-        text = self._packages.read(name, Kind.MESSAGE)
+        text = self._packages.read(name, DefinitionKind.MESSAGE)
         if text is None:
             text = self._action_text(name)
         return self._service_half(name) if text is None else text
@@ -258,7 +258,7 @@ class MessageTypes:
     def _service_half(self, name: str) -> str | None:
         for index, half in enumerate(_HALVES):
             if name.endswith(half) and not name.endswith("/" + half):
-                text = self._packages.read(name.removesuffix(half), Kind.SERVICE)
+                text = self._packages.read(name.removesuffix(half), DefinitionKind.SERVICE)
                 return None if text is None else split_parts(name, text, 2)[index]
         return None
 
@@ -266,7 +266,7 @@ class MessageTypes:
         for suffix in (*_ACTION_MESSAGES, *_PARTS):
             if name.endswith(suffix) and not name.endswith("/" + suffix):
                 action = name.removesuffix(suffix)
-                text = self._packages.read(action, Kind.ACTION)
+                text = self._packages.read(action, DefinitionKind.ACTION)
                 if text is not None:
                     return _part_of_action(action, suffix, text)
         return None

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from crosnode.node.status import Status, StatusKind
 
 if TYPE_CHECKING:
     from crosnode.graph.hosts import HostTable
     from crosnode.node.master_client import MasterClient
+    from crosnode.node.parameter import ParameterSubscription
+    from crosnode.node.publisher import Publisher
     from crosnode.node.queues import DropOldestQueue
-    from crosnode.tcpros import Limits
-    from crosnode.transport.event_loop import EventLoop
+    from crosnode.node.service_provider import ServiceProvider
+    from crosnode.node.subscriber import Subscriber
+    from crosnode.tcpros import TcprosLimits
+    from crosnode.transport.event_loop import EventLoop, PortListener
     from crosnode.xmlrpc.api_caller import ApiCaller
 
 
@@ -36,7 +40,7 @@ class NodeCore:
         api: ApiCaller,
         master: MasterClient,
         hosts: HostTable,
-        tcpros_limits: Limits,
+        tcpros_limits: TcprosLimits,
         statuses: DropOldestQueue[Status],
     ) -> None:
         self.name = name
@@ -55,3 +59,19 @@ class NodeCore:
     def next_number(self) -> int:
         """Return the number of a new connection, for getBusInfo."""
         return next(self._numbers)
+
+
+class NodeView(Protocol):
+    """What those who answer at its ports see of a node."""
+
+    core: NodeCore
+    host: str
+    pid: int
+    publishers: dict[str, Publisher]
+    subscribers: dict[str, Subscriber]
+    providers: dict[str, ServiceProvider]
+    params: list[ParameterSubscription]
+    topic_listener: PortListener
+
+    def shut_down(self, reason: str) -> None:
+        """End the node."""

@@ -13,29 +13,29 @@ from crosnode.errors import InvalidNameError, NodeError
 from crosnode.graph.hosts import HostTable
 from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
-from crosnode.node.acceptors import ServiceAcceptor, SlaveAcceptor, TopicAcceptor
 from crosnode.node.core import NodeCore
 from crosnode.node.master_client import MasterClient, Registration
 from crosnode.node.options import NodeOptions
-from crosnode.node.parameter import ParameterSubscription
-from crosnode.node.publisher import Publisher
+from crosnode.node.parameter import ParameterSubscription, check_parameters
+from crosnode.node.publisher import Publisher, TopicAcceptor
 from crosnode.node.queues import DropOldestQueue
 from crosnode.node.ros_time import RosTime
 from crosnode.node.rosout import LogLevel, Rosout
 from crosnode.node.service_caller import ServiceCaller
-from crosnode.node.service_provider import ServiceProvider
+from crosnode.node.service_provider import ServiceAcceptor, ServiceProvider
 from crosnode.node.slave_api import SlaveApi
 from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
-from crosnode.transport.budget import Budget
+from crosnode.transport.budget import StepBudget
 from crosnode.transport.event_loop import EventLoop
+from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 from plcsim.core.statistics import Histogram
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode.graph.names import NodeSettings
+    from crosnode.graph.arguments import NodeSettings
     from crosnode.xmlrpc import Value
     from plcsim.core.context import Context
 
@@ -52,9 +52,13 @@ class CrosNode:
     Args:
         context: of the controller.
         settings: name, namespace, master, host and remappings
-            (`crosnode.graph.names.node_settings`).
+            (`crosnode.graph.arguments.node_settings`).
         types: message types; ``MessageTypes()`` has the common ones.
         options: see ``NodeOptions``.
+
+    Raises:
+        MessageValueError: a private parameter has a value that XML-RPC cannot carry.
+        NodeError: no port can be opened.
 
     Attributes:
         name: resolved.
@@ -74,6 +78,7 @@ class CrosNode:
         types: MessageTypes | None = None,
         options: NodeOptions | None = None,
     ) -> None:
+        check_parameters(settings.parameters)
         self.options = options or NodeOptions()
         self.types = types or MessageTypes()
         self.name = settings.names.node
@@ -101,7 +106,7 @@ class CrosNode:
         """Open the three ports and make what needs their numbers."""
         now_ns, options = self._context.release_ns, self.options
         loop = EventLoop(self._context, options.step)
-        slave = SlaveAcceptor(SlaveApi(self), options.xmlrpc)
+        slave = ApiAcceptor(SlaveApi(self), options.xmlrpc)
         topics, services = TopicAcceptor(self), ServiceAcceptor(self)
         self._slave_listener = loop.listen(options.bind_ip, 0, slave)
         self.topic_listener = loop.listen(options.bind_ip, 0, topics)
@@ -348,11 +353,11 @@ class CrosNode:
             return
         clock_ns = self.options.clock_ns
         start_ns = clock_ns() if clock_ns else 0
-        self._step(self._context.release_ns, Budget(self.options.step))
+        self._step(self._context.release_ns, StepBudget(self.options.step))
         if clock_ns:
             self.statistics.record(clock_ns() - start_ns)
 
-    def _step(self, now_ns: int, budget: Budget) -> None:
+    def _step(self, now_ns: int, budget: StepBudget) -> None:
         core = self.core
         core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crosnode.tcpros import Limits as TcprosLimits
+from crosnode.tcpros import TcprosLimits
 from crosnode.transport.budget import StepLimits
-from crosnode.xmlrpc import Limits as XmlRpcLimits
+from crosnode.xmlrpc import XmlRpcLimits
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from crosnode.errors import MessageValueError
 from crosnode.graph.names import SEPARATOR, canonical
 from crosnode.node.master_client import Wish
 from crosnode.node.queues import DropOldestQueue
+from crosnode.xmlrpc import check_value
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from crosnode.node.master_client import Registration
     from crosnode.xmlrpc import Value
 
@@ -17,6 +21,19 @@ MAX_EARLY: Final = 100
 
 UNSET: Final[dict[str, object]] = {}
 """What a master tells of a parameter that is not there (any more)."""
+
+
+def check_parameters(parameters: Mapping[str, Value]) -> None:
+    """Check that XML-RPC can carry the values of parameters.
+
+    Raises:
+        MessageValueError: it cannot; the parameter is named.
+    """
+    for name, value in parameters.items():
+        try:
+            check_value(value)
+        except MessageValueError as error:
+            raise MessageValueError(f"parameter {name}: {error}") from None
 
 
 class ParameterUpdate(NamedTuple):

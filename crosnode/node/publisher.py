@@ -14,11 +14,12 @@ from crosnode.transport.tcpip_socket import AREA_SIZE
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode import tcpros, xmlrpc
     from crosnode.messages import Message, MessageType
-    from crosnode.node.core import NodeCore
+    from crosnode.node.core import NodeCore, NodeView
     from crosnode.node.master_client import Registration
-    from crosnode.transport.link import Link
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.event_loop import Accepted
+    from crosnode.transport.link import PeerLink
 
 SEQ_MASK: Final = 0xFFFF_FFFF
 
@@ -57,7 +58,7 @@ class Publisher:
         self.queue_size = queue_size
         self.sent = 0
         self.bytes_sent = 0
-        self.links: dict[Link, SubscriberLink] = {}
+        self.links: dict[PeerLink, SubscriberLink] = {}
         DropOldestQueue[bytes](queue_size)  # a wrong size is an error now, not in the cycle
         self._latched: memoryview | bytes | None = None
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
@@ -107,7 +108,7 @@ class Publisher:
         if self._period.is_due(now_ns):
             self._packets.push(self.message_type.new())
 
-    def accept(self, link: Link, owner: SubscriberLink) -> None:
+    def accept(self, link: PeerLink, owner: SubscriberLink) -> None:
         """Take a new subscriber."""
         self.links[link] = owner
         owner.queue = DropOldestQueue(self.queue_size)
@@ -118,6 +119,23 @@ class Publisher:
         """Return what the header says of the type."""
         found = self.message_type
         return TypeInfo(found.name, found.md5sum, found.full_text)
+
+
+class TopicAcceptor:
+    """Takes subscribers of a node's topics.
+
+    Args:
+        node: that publishes.
+    """
+
+    def __init__(self, node: NodeView) -> None:
+        self._node = node
+
+    def accepted(self, now_ns: int) -> Accepted:
+        """Serve a new subscriber."""
+        core = self._node.core
+        connection = PublisherConnection(core.tcpros_limits, now_ns)
+        return connection, SubscriberLink(connection, self._node.publishers, core)
 
 
 def printable(text: str) -> str:
@@ -149,7 +167,7 @@ class SubscriberLink:
         self._publishers = publishers
         self._core = core
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take or refuse the subscriber by its header."""
         if not isinstance(event, HeaderReceived):
             return
@@ -171,11 +189,11 @@ class SubscriberLink:
             StatusKind.PEER_REFUSED, topic[:100], f"{self.subscriber[:100]} at {link.peer}"
         )
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """A subscriber has nothing to say behind its header."""
         return self.publisher is None
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Hand messages over until about one transfer area of them waits."""
         queue = self.queue
         if not queue:
@@ -187,7 +205,7 @@ class SubscriberLink:
             self._connection.send_message(body)
             size += len(body) + 4
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Forget the subscriber."""
         if self.publisher:
             self.publisher.links.pop(link, None)

@@ -10,7 +10,7 @@ from crosnode.xmlrpc.api_caller import CallState
 
 if TYPE_CHECKING:
     from crosnode.node.node import CrosNode
-    from crosnode.node.subscriber import Packet, Subscriber
+    from crosnode.node.subscriber import QueuedMessage, Subscriber
     from crosnode.xmlrpc.api_caller import ApiCall
 
 CLOCK: Final = "rosgraph_msgs/Clock"
@@ -33,7 +33,7 @@ class RosTime:
         self._epoch_ns = epoch_ns
         self._simulated_ns = 0
         self._clock: Subscriber | None = None
-        self._seen: Packet | None = None
+        self._seen: QueuedMessage | None = None
         self._question: ApiCall | None = None
         self._is_known = False
 

@@ -8,23 +8,22 @@ from crosnode.errors import DecodeError, InvalidNameError
 from crosnode.node.period import Period
 from crosnode.node.queues import DropOldestQueue
 from crosnode.tcpros import (
-    Failed,
     HeaderReceived,
     Refused,
     ReplyReceived,
     ServiceClientConnection,
     TypeInfo,
 )
-from crosnode.transport.connection import State
+from crosnode.transport.connection import ConnectionState, Failed
 from crosnode.xmlrpc.api_caller import ApiCall, CallState
 
 if TYPE_CHECKING:
-    from crosnode import tcpros, xmlrpc
-    from crosnode.graph.uri import Address
     from crosnode.messages import Message, ServiceType
     from crosnode.node.core import NodeCore
-    from crosnode.transport.budget import Budget
-    from crosnode.transport.link import Link
+    from crosnode.transport.budget import StepBudget
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.link import PeerLink
+    from plcsim.network import Address
 
 
 class ServiceReply(NamedTuple):
@@ -75,7 +74,7 @@ class ServiceCaller:
         self._overrun = 0
         self._lookup: ApiCall | None = None
         self._address: Address | None = None
-        self._link: Link | None = None
+        self._link: PeerLink | None = None
         self._connection: ServiceClientConnection | None = None
 
     def new(self, **values: object) -> Message:
@@ -110,9 +109,9 @@ class ServiceCaller:
     @property
     def _is_ready(self) -> bool:
         """Whether a call may begin: a connection that is about to end cannot carry it."""
-        return self._connection is None or self._connection.state is State.IDLE
+        return self._connection is None or self._connection.state is ConnectionState.IDLE
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Go on with the running call, or take the next."""
         if self._period.is_due(now_ns):
             self._packets.push(self.new())
@@ -147,7 +146,7 @@ class ServiceCaller:
         except InvalidNameError as error:
             self._fail(str(error))
 
-    def _connect(self, address: Address, now_ns: int, budget: Budget) -> None:
+    def _connect(self, address: Address, now_ns: int, budget: StepBudget) -> None:
         if not budget.start_call():
             return
         self._address = None
@@ -159,15 +158,13 @@ class ServiceCaller:
             limits=self._core.tcpros_limits,
             now_ns=now_ns,
         )
-        self._link = self._core.loop.connect(
-            address, self._connection, self, now_ns, is_xmlrpc=False
-        )
+        self._link = self._core.loop.connect(address, self._connection, self, now_ns)
 
     def _request(self, body: bytes | memoryview, now_ns: int) -> None:
-        if self._connection and self._connection.state is State.IDLE:
+        if self._connection and self._connection.state is ConnectionState.IDLE:
             self._connection.send_request(body, now_ns)
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take the header, then the reply."""
         if isinstance(event, HeaderReceived) and self._running is not None:
             self._request(self._running, now_ns)
@@ -178,7 +175,7 @@ class ServiceCaller:
         elif isinstance(event, Failed):
             self._fail(event.reason)
 
-    def _reply(self, link: Link, event: ReplyReceived) -> None:
+    def _reply(self, link: PeerLink, event: ReplyReceived) -> None:
         if not event.ok:
             self._fail(bytes(event.body).decode(errors="replace") or "the provider failed")
             return
@@ -205,14 +202,14 @@ class ServiceCaller:
             self.replies.push(ServiceReply(None, "too many calls wait"))
         self._overrun = 0
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """Whether a call waits for its header or its reply."""
         return self._running is not None
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Requests go to the connection one by one."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Fail the call that was under way."""
         self._link = self._connection = None
         self._fail(reason or "the provider closed the connection")

@@ -8,22 +8,22 @@ from crosnode.errors import DecodeError
 from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import (
-    Failed,
     HeaderReceived,
     RequestReceived,
     ServiceServerConnection,
     TypeInfo,
 )
-from crosnode.transport.connection import State
+from crosnode.transport.connection import ConnectionState, Failed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode import tcpros, xmlrpc
     from crosnode.messages import Message, MessageType, ServiceType
-    from crosnode.node.core import NodeCore
+    from crosnode.node.core import NodeCore, NodeView
     from crosnode.node.master_client import Registration
-    from crosnode.transport.link import Link
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.event_loop import Accepted
+    from crosnode.transport.link import PeerLink
 
 
 class ServiceRequest:
@@ -62,7 +62,7 @@ class ServiceRequest:
 
     def _take(self) -> bool:
         is_open, self._is_open = self._is_open, False
-        return is_open and self._owner.connection.state is State.REPLY
+        return is_open and self._owner.connection.state is ConnectionState.REPLY
 
 
 class ServiceProvider:
@@ -110,6 +110,23 @@ class ServiceProvider:
         return TypeInfo(self.service_type.name, self.service_type.md5sum)
 
 
+class ServiceAcceptor:
+    """Takes callers of a node's services.
+
+    Args:
+        node: that provides.
+    """
+
+    def __init__(self, node: NodeView) -> None:
+        self._node = node
+
+    def accepted(self, now_ns: int) -> Accepted:
+        """Serve a new caller."""
+        core = self._node.core
+        connection = ServiceServerConnection(core.tcpros_limits, now_ns)
+        return connection, CallerLink(connection, self._node.providers, core)
+
+
 class CallerLink:
     """Owner of the link to one caller.
 
@@ -135,7 +152,7 @@ class CallerLink:
         assert self.provider is not None
         return self.provider.service_type.response
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take or refuse the caller, then its requests."""
         if isinstance(event, HeaderReceived):
             self._decide(link, event.fields)
@@ -144,7 +161,7 @@ class CallerLink:
         elif isinstance(event, Failed) and self.provider:
             self._core.tell(StatusKind.BAD_MESSAGE, self.provider.service, event.reason)
 
-    def _decide(self, link: Link, fields: dict[str, str]) -> None:
+    def _decide(self, link: PeerLink, fields: dict[str, str]) -> None:
         service = fields.get("service", "")
         provider = self._providers.get(service)
         if provider is None and "service" in fields:
@@ -156,7 +173,7 @@ class CallerLink:
             return
         self._core.tell(StatusKind.PEER_REFUSED, service[:100], link.peer)
 
-    def _request(self, provider: ServiceProvider, link: Link, body: bytes | memoryview) -> None:
+    def _request(self, provider: ServiceProvider, link: PeerLink, body: bytes | memoryview) -> None:
         provider.bytes_in += len(body)
         try:
             request = provider.service_type.request.decode(body)
@@ -167,12 +184,12 @@ class CallerLink:
             return
         provider.push(ServiceRequest(request, self.connection.header.get("callerid", ""), self))
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """A caller may always ask."""
         return True
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Answers go to the connection at once."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """A request of this caller may still wait; its answer will do nothing."""

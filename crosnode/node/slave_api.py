@@ -6,16 +6,16 @@ getBusInfo and getBusStats follow rospy where rosnode, roswtf and rqt read them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 from crosnode.graph.names import canonical
 from crosnode.node.status import StatusKind
 from crosnode.xmlrpc import (
     MULTICALL,
-    Call,
     CallReceived,
-    Fault,
-    Response,
+    MethodCall,
+    MethodFault,
+    MethodResponse,
     Value,
     XmlRpcServerConnection,
     run_multicall,
@@ -24,14 +24,9 @@ from crosnode.xmlrpc import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from crosnode import tcpros, xmlrpc
-    from crosnode.node.core import NodeCore
-    from crosnode.node.parameter import ParameterSubscription
-    from crosnode.node.publisher import Publisher
-    from crosnode.node.service_provider import ServiceProvider
-    from crosnode.node.subscriber import Subscriber
-    from crosnode.transport.event_loop import Listener
-    from crosnode.transport.link import Link
+    from crosnode.node.core import NodeView
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.link import PeerLink
 
 SUCCESS: Final = 1
 ERROR: Final = -1
@@ -39,22 +34,6 @@ LARGEST: Final = 2**31 - 1
 """XML-RPC has no larger integer; counters stop there."""
 
 TRANSPORT: Final = "TCPROS"
-
-
-class NodeView(Protocol):
-    """What the slave API sees of a node."""
-
-    core: NodeCore
-    host: str
-    pid: int
-    publishers: dict[str, Publisher]
-    subscribers: dict[str, Subscriber]
-    providers: dict[str, ServiceProvider]
-    params: list[ParameterSubscription]
-    topic_listener: Listener
-
-    def shut_down(self, reason: str) -> None:
-        """End the node."""
 
 
 class SlaveApi:
@@ -67,7 +46,7 @@ class SlaveApi:
     def __init__(self, node: NodeView) -> None:
         self._node = node
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Answer a call at once."""
         connection = link.connection
         if not isinstance(event, CallReceived) or not isinstance(
@@ -77,35 +56,35 @@ class SlaveApi:
         if event.method == MULTICALL:
             connection.respond(run_multicall(event.params, self.answer))
             return
-        reply = self.answer(Call(event.method, event.params))
-        if isinstance(reply, Fault):
+        reply = self.answer(MethodCall(event.method, event.params))
+        if isinstance(reply, MethodFault):
             connection.fault(*reply)
         else:
             connection.respond(reply.value)
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """A caller may always call."""
         return True
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Answers go to the connection at once."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Nothing is kept for a caller."""
 
-    def answer(self, call: Call) -> Response | Fault:
+    def answer(self, call: MethodCall) -> MethodResponse | MethodFault:
         """Answer one call."""
         if call.method == "system.listMethods":
-            return Response([*_METHODS, "system.listMethods", MULTICALL])
+            return MethodResponse([*_METHODS, "system.listMethods", MULTICALL])
         method = _METHODS.get(call.method)
         if method is None:
-            return Fault(1, f"method {call.method[:100]!r} is not supported")
+            return MethodFault(1, f"method {call.method[:100]!r} is not supported")
         run, kinds = method
         params = call.params[1:]
         if len(call.params) < 1 + len(kinds) or not all(map(isinstance, params, kinds)):
             names = ", ".join(kind.__name__ for kind in (str, *kinds))
-            return Response([ERROR, f"{call.method} takes ({names})", 0])
-        return Response(run(self, *params[: len(kinds)]))
+            return MethodResponse([ERROR, f"{call.method} takes ({names})", 0])
+        return MethodResponse(run(self, *params[: len(kinds)]))
 
     def get_bus_stats(self) -> Value:
         """Give counts of bytes and messages of all connections."""

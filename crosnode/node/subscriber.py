@@ -9,24 +9,24 @@ from crosnode.node.master_client import Wish
 from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import (
-    Failed,
     HeaderReceived,
     MessageReceived,
     Refused,
     SubscriberConnection,
     TypeInfo,
 )
+from crosnode.transport.connection import Failed
 from crosnode.xmlrpc.api_caller import ApiCall, CallState
 
 if TYPE_CHECKING:
-    from crosnode import tcpros, xmlrpc
-    from crosnode.graph.uri import Address
     from crosnode.messages import Message, MessageType
     from crosnode.node.core import NodeCore
     from crosnode.node.master_client import Registration
-    from crosnode.transport.budget import Budget
-    from crosnode.transport.link import Link
+    from crosnode.transport.budget import StepBudget
+    from crosnode.transport.connection import ConnectionEvent
+    from crosnode.transport.link import PeerLink
     from crosnode.xmlrpc import Value
+    from plcsim.network import Address
 
 FIRST_RETRY_NS: Final = 100_000_000
 LONGEST_RETRY_NS: Final = 5_000_000_000
@@ -37,7 +37,7 @@ Each has its part in every step, and a controller has fewer sockets by default.
 """
 
 
-class Packet(NamedTuple):
+class QueuedMessage(NamedTuple):
     """A message as it came, and where from."""
 
     body: bytes | memoryview
@@ -69,7 +69,7 @@ class Subscriber:
         self.topic = topic
         self.message_type = message_type
         self.registration = registration
-        self.queue: DropOldestQueue[Packet] = DropOldestQueue(queue_size)
+        self.queue: DropOldestQueue[QueuedMessage] = DropOldestQueue(queue_size)
         self.bad_messages = 0
         self.peers: dict[str, PublisherLink] = {}
         self.tcp_nodelay = tcp_nodelay
@@ -148,7 +148,7 @@ class Subscriber:
                 self.peers.pop(uri).leave()
         self._unlisted = kept
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Go on connecting."""
         if self._unlisted:
             self._part()
@@ -175,7 +175,7 @@ class PublisherLink:
 
     def __init__(self, subscriber: Subscriber, uri: str) -> None:
         self.uri = uri
-        self.link: Link | None = None
+        self.link: PeerLink | None = None
         self.is_streaming = False
         self.received = 0
         self.number = subscriber.core.next_number()
@@ -186,7 +186,7 @@ class PublisherLink:
         self._pause_ns = FIRST_RETRY_NS
         self._has_left = False
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Ask for the address, then connect, each when it is time."""
         if self._address is not None:
             if budget.start_call():
@@ -223,18 +223,18 @@ class PublisherLink:
             limits=core.tcpros_limits,
             now_ns=now_ns,
         )
-        self.link = core.loop.connect(address, connection, self, now_ns, is_xmlrpc=False)
+        self.link = core.loop.connect(address, connection, self, now_ns)
 
     def _later(self, now_ns: int) -> None:
         """Wait a little longer each time before the next attempt."""
         self._retry_ns = now_ns + self._pause_ns
         self._pause_ns = min(2 * self._pause_ns, LONGEST_RETRY_NS)
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Put messages into the program's queue."""
         if isinstance(event, MessageReceived):
             self.received += 1
-            self._subscriber.queue.push(Packet(event.body, self))
+            self._subscriber.queue.push(QueuedMessage(event.body, self))
         elif isinstance(event, HeaderReceived):
             self.is_streaming = True
             self._pause_ns = FIRST_RETRY_NS
@@ -244,14 +244,14 @@ class PublisherLink:
         elif isinstance(event, Failed):
             self._tell(StatusKind.BAD_MESSAGE, event.reason)
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """A publisher may always send."""
         return True
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """A subscriber sends nothing after its header."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Try again later, as long as the master names the publisher."""
         self.link = None
         if self.is_streaming:

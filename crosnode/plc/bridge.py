@@ -16,7 +16,7 @@ from crosnode.node.period import Period
 from crosnode.node.publisher import printable
 from crosnode.plc.conversion import tag_conversion
 from crosnode.plc.project import make_node, surroundings
-from crosnode.transport.budget import Budget
+from crosnode.transport.budget import StepBudget
 from crosnode.transport.link import QUIET_TURNS
 from plcsim.core.errors import ConfigurationError, TagError
 from plcsim.core.logbook import Severity
@@ -96,7 +96,7 @@ class Bridge:
         """End with the controller, whose sockets are closed already: take back by a new one."""
         node = self.node
         for _ in range(QUIET_TURNS):
-            node.core.loop.step(self._controller.context.release_ns, Budget(node.options.step))
+            node.core.loop.step(self._controller.context.release_ns, StepBudget(node.options.step))
         node.destroy()
 
     def _log_news(self, status: Status) -> None:

@@ -10,7 +10,7 @@ import os
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.graph.names import NodeSettings, node_settings
+from crosnode.graph.arguments import NodeSettings, node_settings
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.plc.master_watch import MasterWatch
@@ -80,6 +80,7 @@ def create_node(
 
     Raises:
         InvalidNameError: a name is not legal.
+        MessageValueError: an argument sets a parameter to a value that XML-RPC cannot carry.
         NodeError: no port can be opened.
     """
     node = make_node(context, name, *arguments, namespace=namespace, step=step)

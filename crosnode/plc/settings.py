@@ -6,9 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.errors import CrosnodeError
+from crosnode.graph.arguments import node_settings, parse_arguments
 from crosnode.graph.hosts import parse_hosts
-from crosnode.graph.names import check_base_name, check_name, node_settings, parse_arguments
+from crosnode.graph.names import check_base_name, check_name
 from crosnode.graph.uri import DEFAULT_PORT, make_uri, parse_uri
+from crosnode.node.parameter import check_parameters
 from plcsim.network.protocol import is_ipv4
 from plcsim.project.plc_toml import FILE_NAME
 from plcsim.settings.table import Table
@@ -101,6 +103,7 @@ def read_settings(
     arguments = table.strings("arguments")
     try:
         own = node_settings("x", arguments, environment, host="127.0.0.1")
+        check_parameters(parse_arguments(arguments).parameters)
     except CrosnodeError as error:
         raise table.error("arguments", str(error)) from None
     if "name" in parse_arguments(arguments).special:

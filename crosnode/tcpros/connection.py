@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
 from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
-from crosnode.transport.connection import Act, Closed, Connection, Failed, State
+from crosnode.transport.budget import CONNECTION_WORK, MESSAGE_WORK
+from crosnode.transport.connection import (
+    ConnectionEvent,
+    ConnectionState,
+    Failed,
+    ProtocolConnection,
+    Trigger,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
@@ -17,7 +24,7 @@ if TYPE_CHECKING:
 MIB: Final = 1 << 20
 
 
-class Limits(NamedTuple):
+class TcprosLimits(NamedTuple):
     """What one connection may take.
 
     Attributes:
@@ -40,28 +47,28 @@ class TypeInfo(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class HeaderReceived:
+class HeaderReceived(ConnectionEvent):
     """The header of the peer, unknown fields included."""
 
     fields: dict[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class MessageReceived:
+class MessageReceived(ConnectionEvent):
     """A message of a topic; ``body`` may be empty."""
 
     body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
-class RequestReceived:
+class RequestReceived(ConnectionEvent):
     """A request to a service; ``body`` may be empty."""
 
     body: bytes | memoryview
 
 
 @dataclass(frozen=True, slots=True)
-class ReplyReceived:
+class ReplyReceived(ConnectionEvent):
     """The reply of a service: a response where ``ok``, else the text of an error."""
 
     ok: bool
@@ -69,38 +76,42 @@ class ReplyReceived:
 
 
 @dataclass(frozen=True, slots=True)
-class Refused:
+class Refused(ConnectionEvent):
     """The peer answered our header with ``error``."""
 
     error: str
 
 
-Event: TypeAlias = (
-    HeaderReceived | MessageReceived | RequestReceived | ReplyReceived | Refused | Failed | Closed
-)
-
-
-class TcprosConnection(Connection, ABC):
+class TcprosConnection(ProtocolConnection):
     """One end of a TCPROS connection.
 
     Args:
-        limits: see ``Limits``.
+        limits: see ``TcprosLimits``.
         now_ns: time of the step in which the connection was made.
     """
 
-    PAUSED: ClassVar[frozenset[State]] = frozenset({State.DECISION, State.CLOSED})
-    TIMED: ClassVar[frozenset[State]] = frozenset({State.HANDSHAKE})
+    IS_PARSED: ClassVar[bool] = False
+    PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
+        {ConnectionState.DECISION, ConnectionState.CLOSED}
+    )
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.HANDSHAKE})
 
-    def __init__(self, limits: Limits, now_ns: int) -> None:
-        super().__init__(State.HANDSHAKE, limits.timeout_ns, now_ns)
+    def __init__(self, limits: TcprosLimits, now_ns: int) -> None:
+        super().__init__(ConnectionState.HANDSHAKE, limits.timeout_ns, now_ns)
         self.limits = limits
         self.header: dict[str, str] = {}
         self._reader = ByteReader()
         self._parser = self._parse()
 
+    @property
+    def event_price(self) -> int:
+        """A header is the price of a new connection."""
+        is_new = self.state is ConnectionState.HANDSHAKE
+        return CONNECTION_WORK if is_new else MESSAGE_WORK
+
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
-        if self.state is not State.CLOSED:
+        if self.state is not ConnectionState.CLOSED:
             self._reader.feed(data)
             self._is_drained = False
 
@@ -108,7 +119,7 @@ class TcprosConnection(Connection, ABC):
         """Take the end of the stream; then call ``next_event`` as for bytes."""
         self._reader.feed_eof()
 
-    def next_event(self, now_ns: int) -> Event | None:
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Return the next event, None where none can be had from the bytes so far."""
         if self.state in self.PAUSED:
             return None
@@ -128,7 +139,7 @@ class TcprosConnection(Connection, ABC):
         self._reader.clear()
 
     @abstractmethod
-    def _parse(self) -> Generator[Event | None, None, None]:
+    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         """Turn bytes into events; yield None where bytes are missing."""
 
     def _read_header(self) -> Generator[None, None, dict[str, str]]:
@@ -146,12 +157,12 @@ class TcprosConnection(Connection, ABC):
 class ClientConnection(TcprosConnection):
     """The end that connects: its header is sent at once, and the answer read."""
 
-    def __init__(self, fields: Mapping[str, str], limits: Limits, now_ns: int) -> None:
+    def __init__(self, fields: Mapping[str, str], limits: TcprosLimits, now_ns: int) -> None:
         super().__init__(limits, now_ns)
         self._send_header(fields)
 
     def _read_answer(
-        self, md5sum: str, act: Act = Act.HEADER
+        self, md5sum: str, trigger: Trigger = Trigger.HEADER
     ) -> Generator[None, None, HeaderReceived | Refused]:
         fields = yield from self._read_header()
         if "error" in fields:
@@ -159,7 +170,7 @@ class ClientConnection(TcprosConnection):
             return Refused(fields["error"])
         if not sums_agree(md5sum, fields.get("md5sum", md5sum)):
             raise TcprosError(f"md5sum {fields['md5sum']} answers our {md5sum}")
-        self._move(act)
+        self._move(trigger)
         return HeaderReceived(fields)
 
 
@@ -170,11 +181,11 @@ class ServerConnection(TcprosConnection):
 
     def refuse(self, reason: str) -> None:
         """Answer the header with ``error`` and end the connection."""
-        self._move(Act.REFUSE)
+        self._move(Trigger.REFUSE)
         self._send_header({"error": reason})
 
     def _fail(self, reason: str) -> Failed:
-        if self.state is State.HANDSHAKE:
+        if self.state is ConnectionState.HANDSHAKE:
             self._send_header({"error": reason})
         return super()._fail(reason)
 
@@ -187,5 +198,5 @@ class ServerConnection(TcprosConnection):
 
     def _read_offer(self) -> Generator[None, None, HeaderReceived]:
         fields = yield from self._read_header()
-        self._move(Act.HEADER)
+        self._move(Trigger.HEADER)
         return HeaderReceived(fields)

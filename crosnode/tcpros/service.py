@@ -12,37 +12,57 @@ from typing import TYPE_CHECKING, ClassVar, Final
 from crosnode.errors import TcprosError
 from crosnode.tcpros.connection import (
     ClientConnection,
-    Event,
-    Limits,
     ReplyReceived,
     RequestReceived,
     ServerConnection,
+    TcprosLimits,
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
-from crosnode.transport.connection import Act, Closed, State, Table
+from crosnode.transport.connection import Closed, ConnectionEvent, ConnectionState, Table, Trigger
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
 SERVER: Final[Table] = {
-    State.HANDSHAKE: {Act.HEADER: State.DECISION, Act.END: State.CLOSED},
-    State.DECISION: {
-        Act.ACCEPT: State.REQUEST,
-        Act.LAST: State.CLOSED,
-        Act.REFUSE: State.CLOSED,
-        Act.END: State.CLOSED,
+    ConnectionState.HANDSHAKE: {
+        Trigger.HEADER: ConnectionState.DECISION,
+        Trigger.END: ConnectionState.CLOSED,
     },
-    State.REQUEST: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
-    State.REPLY: {Act.REPLY: State.REQUEST, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.DECISION: {
+        Trigger.ACCEPT: ConnectionState.REQUEST,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.REFUSE: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.REQUEST: {
+        Trigger.REQUEST: ConnectionState.REPLY,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.REPLY: {
+        Trigger.REPLY: ConnectionState.REQUEST,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 CLIENT: Final[Table] = {
-    State.HANDSHAKE: {Act.HEADER: State.IDLE, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
-    State.IDLE: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
-    State.REPLY: {Act.REPLY: State.IDLE, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.HANDSHAKE: {
+        Trigger.HEADER: ConnectionState.IDLE,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.IDLE: {
+        Trigger.REQUEST: ConnectionState.REPLY,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.REPLY: {
+        Trigger.REPLY: ConnectionState.IDLE,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 
@@ -54,13 +74,13 @@ class ServiceServerConnection(ServerConnection):
     """
 
     TABLE: ClassVar[Table] = SERVER
-    PAUSED: ClassVar[frozenset[State]] = ServerConnection.PAUSED | {State.REPLY}
+    PAUSED: ClassVar[frozenset[ConnectionState]] = ServerConnection.PAUSED | {ConnectionState.REPLY}
     REQUIRED: ClassVar[tuple[str, ...]] = ("callerid", "service", "md5sum")
 
     @property
     def deadline_ns(self) -> int | None:
-        """As in ``Connection``; a client that is not persistent must also ask in time."""
-        if self.state is State.REQUEST and not self.is_persistent:
+        """As in ``ProtocolConnection``; a client that is not persistent must also ask in time."""
+        if self.state is ConnectionState.REQUEST and not self.is_persistent:
             return self._since_ns + self.limits.timeout_ns
         return super().deadline_ns
 
@@ -74,7 +94,7 @@ class ServiceServerConnection(ServerConnection):
         if fault := self._fault(type_info.md5sum):
             self.refuse(fault)
             return False
-        self._move(Act.LAST if self.header.get("probe") == "1" else Act.ACCEPT)
+        self._move(Trigger.LAST if self.header.get("probe") == "1" else Trigger.ACCEPT)
         self._send_header(
             {
                 "callerid": caller_id,
@@ -95,14 +115,14 @@ class ServiceServerConnection(ServerConnection):
         self._reply(b"\x00", reason.encode(errors="replace"))
 
     def _reply(self, ok: bytes, body: bytes | memoryview) -> None:
-        self._move(Act.REPLY if self.is_persistent else Act.LAST)
+        self._move(Trigger.REPLY if self.is_persistent else Trigger.LAST)
         self._outbox += (ok + length_of(body), body)
 
-    def _parse(self) -> Generator[Event | None, None, None]:
+    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_offer())
         while (yield from self._reader.more()):
             body = yield from self._read_message()
-            self._move(Act.REQUEST)
+            self._move(Trigger.REQUEST)
             yield RequestReceived(body)
         self.close()
         yield Closed()
@@ -117,12 +137,14 @@ class ServiceClientConnection(ClientConnection):
         caller_id: name of the node.
         persistent: keep the connection for more than one call.
         probe: only fetch the header of the service.
-        limits: see ``Limits``; its time limit also holds for each reply.
+        limits: see ``TcprosLimits``; its time limit also holds for each reply.
         now_ns: time of the step.
     """
 
     TABLE: ClassVar[Table] = CLIENT
-    TIMED: ClassVar[frozenset[State]] = frozenset({State.HANDSHAKE, State.REPLY})
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset(
+        {ConnectionState.HANDSHAKE, ConnectionState.REPLY}
+    )
 
     def __init__(
         self,
@@ -132,7 +154,7 @@ class ServiceClientConnection(ClientConnection):
         *,
         persistent: bool = False,
         probe: bool = False,
-        limits: Limits,
+        limits: TcprosLimits,
         now_ns: int,
     ) -> None:
         self._md5sum = type_info.md5sum
@@ -150,19 +172,19 @@ class ServiceClientConnection(ClientConnection):
 
     def send_request(self, body: bytes | memoryview, now_ns: int) -> None:
         """Call the service; the reply must come within the time limit."""
-        self._move(Act.REQUEST)
+        self._move(Trigger.REQUEST)
         self._since_ns = now_ns
         self._outbox += (length_of(body), body)
 
-    def _parse(self) -> Generator[Event | None, None, None]:
-        act = Act.LAST if self._probe else Act.HEADER
-        yield (yield from self._read_answer(self._md5sum, act))
+    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
+        trigger = Trigger.LAST if self._probe else Trigger.HEADER
+        yield (yield from self._read_answer(self._md5sum, trigger))
         while (yield from self._reader.more()):
-            if self.state is not State.REPLY:
+            if self.state is not ConnectionState.REPLY:
                 raise TcprosError("bytes without a request")
             ok = yield from self._reader.exactly(1)
             body = yield from self._read_message()
-            self._move(Act.REPLY if self._persistent else Act.LAST)
+            self._move(Trigger.REPLY if self._persistent else Trigger.LAST)
             yield ReplyReceived(ok != b"\x00", body)
         self.close()
         yield Closed()

@@ -11,33 +11,44 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from crosnode.tcpros.connection import (
     ClientConnection,
-    Event,
-    Limits,
     MessageReceived,
     ServerConnection,
+    TcprosLimits,
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
-from crosnode.transport.connection import Act, Closed, State, Table
+from crosnode.transport.connection import Closed, ConnectionEvent, ConnectionState, Table, Trigger
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
 PUBLISHER: Final[Table] = {
-    State.HANDSHAKE: {Act.HEADER: State.DECISION, Act.END: State.CLOSED},
-    State.DECISION: {
-        Act.ACCEPT: State.STREAMING,
-        Act.REFUSE: State.CLOSED,
-        Act.END: State.CLOSED,
+    ConnectionState.HANDSHAKE: {
+        Trigger.HEADER: ConnectionState.DECISION,
+        Trigger.END: ConnectionState.CLOSED,
     },
-    State.STREAMING: {Act.MESSAGE: State.STREAMING, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.DECISION: {
+        Trigger.ACCEPT: ConnectionState.STREAMING,
+        Trigger.REFUSE: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.STREAMING: {
+        Trigger.MESSAGE: ConnectionState.STREAMING,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 SUBSCRIBER: Final[Table] = {
-    State.HANDSHAKE: {Act.HEADER: State.STREAMING, Act.END: State.CLOSED},
-    State.STREAMING: {Act.MESSAGE: State.STREAMING, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.HANDSHAKE: {
+        Trigger.HEADER: ConnectionState.STREAMING,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.STREAMING: {
+        Trigger.MESSAGE: ConnectionState.STREAMING,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 
@@ -55,7 +66,7 @@ class PublisherConnection(ServerConnection):
         if fault := self._fault(type_info.md5sum):
             self.refuse(fault)
             return False
-        self._move(Act.ACCEPT)
+        self._move(Trigger.ACCEPT)
         self._send_header(
             {
                 "callerid": caller_id,
@@ -70,10 +81,10 @@ class PublisherConnection(ServerConnection):
 
     def send_message(self, body: bytes | memoryview) -> None:
         """Send a message; ``body`` must not change until it is written."""
-        self._move(Act.MESSAGE)
+        self._move(Trigger.MESSAGE)
         self._outbox += (length_of(body), body)
 
-    def _parse(self) -> Generator[Event | None, None, None]:
+    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_offer())
         while (yield from self._reader.more()):
             self._reader.clear()
@@ -89,7 +100,7 @@ class SubscriberConnection(ClientConnection):
         type_info: the type expected; name and md5sum ``*`` take any.
         caller_id: name of the node.
         tcp_nodelay: ask the publisher to send at once.
-        limits: see ``Limits``.
+        limits: see ``TcprosLimits``.
         now_ns: time of the step.
     """
 
@@ -102,7 +113,7 @@ class SubscriberConnection(ClientConnection):
         caller_id: str,
         *,
         tcp_nodelay: bool,
-        limits: Limits,
+        limits: TcprosLimits,
         now_ns: int,
     ) -> None:
         self._md5sum = type_info.md5sum
@@ -116,11 +127,11 @@ class SubscriberConnection(ClientConnection):
         }
         super().__init__(fields, limits, now_ns)
 
-    def _parse(self) -> Generator[Event | None, None, None]:
+    def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_answer(self._md5sum))
         while (yield from self._reader.more()):
             body = yield from self._read_message()
-            self._move(Act.MESSAGE)
+            self._move(Trigger.MESSAGE)
             yield MessageReceived(body)
         self.close()
         yield Closed()

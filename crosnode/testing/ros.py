@@ -7,7 +7,7 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.graph.names import node_settings
+from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.plc.extension import EXTENSION

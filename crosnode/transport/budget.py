@@ -59,7 +59,7 @@ UNPACED = StepLimits(
 """Limits of a node that owns its process, such as a benchmark, where a long step hurts nobody."""
 
 
-class Budget:
+class StepBudget:
     """What is left of the limits within a step.
 
     Args:

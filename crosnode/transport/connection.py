@@ -1,4 +1,4 @@
-"""What the ends of all connections share, TCPROS and XML-RPC: states, acts, time, bytes to send.
+"""What the ends of all connections share, TCPROS and XML-RPC: states, time, bytes to send.
 
 A connection is a pure object. The owner hands it received bytes (``receive_data``), takes events
 one by one (``next_event``) and writes what ``data_to_send`` gives; how many events it takes in a
@@ -11,15 +11,18 @@ CLOSED the owner writes what is left to send, then closes the socket.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import Enum, auto
-from typing import ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
-from crosnode.errors import LocalProtocolError
+from crosnode.transport.transitions import Transitions, next_state
+
+if TYPE_CHECKING:
+    from crosnode.transport.dyn_buffer import Data
 
 
-class State(Enum):
+class ConnectionState(Enum):
     """States of all roles; a role uses those in its table."""
 
     HANDSHAKE = auto()  # waiting for the header of the peer
@@ -31,7 +34,7 @@ class State(Enum):
     CLOSED = auto()
 
 
-class Act(Enum):
+class Trigger(Enum):
     """What moves a connection from state to state."""
 
     HEADER = auto()
@@ -44,22 +47,33 @@ class Act(Enum):
     END = auto()  # the peer closed or broke the protocol, time ran out, or this program closes
 
 
+Table: TypeAlias = Transitions[ConnectionState, Trigger]
+
+
+class ConnectionEvent:
+    """Base of all that a connection tells its owner."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class Failed:
+class Failed(ConnectionEvent):
     """The connection is over because the peer broke the protocol or a time limit."""
 
     reason: str
 
 
 @dataclass(frozen=True, slots=True)
-class Closed:
+class Closed(ConnectionEvent):
     """The peer closed between two messages."""
 
 
-Table: TypeAlias = Mapping[State, Mapping[Act, State]]
+@dataclass(frozen=True, slots=True)
+class Progress(ConnectionEvent):
+    """Some of a long document was read or written; there is more to do. Owners are not told."""
 
 
-class Connection:
+class ProtocolConnection(ABC):
     """One end of a connection.
 
     Args:
@@ -69,15 +83,35 @@ class Connection:
     """
 
     TABLE: ClassVar[Table]
-    PAUSED: ClassVar[frozenset[State]] = frozenset({State.CLOSED})
-    TIMED: ClassVar[frozenset[State]] = frozenset()
+    IS_PARSED: ClassVar[bool]
+    """Whether what is read are documents, whose price lies in their events and not in the bytes."""
 
-    def __init__(self, state: State, timeout_ns: int, now_ns: int) -> None:
+    PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.CLOSED})
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset()
+
+    def __init__(self, state: ConnectionState, timeout_ns: int, now_ns: int) -> None:
         self.state = state
         self._timeout_ns = timeout_ns
         self._since_ns = now_ns
         self._is_drained = True
         self._outbox: list[bytes | memoryview] = []
+
+    @property
+    @abstractmethod
+    def event_price(self) -> int:
+        """What the next event costs of the work of a step, at the prices of `StepLimits`."""
+
+    @abstractmethod
+    def receive_data(self, data: Data) -> None:
+        """Take received bytes; what is kept of them is copied. Then call ``next_event``."""
+
+    @abstractmethod
+    def receive_eof(self) -> None:
+        """Take the end of the stream; then call ``next_event`` as for bytes."""
+
+    @abstractmethod
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
+        """Return the next event, None where none can be had from the bytes so far."""
 
     @property
     def wants_data(self) -> bool:
@@ -106,15 +140,11 @@ class Connection:
 
     def close(self) -> None:
         """End the connection from this side."""
-        if self.state is not State.CLOSED:
-            self._move(Act.END)
+        if self.state is not ConnectionState.CLOSED:
+            self._move(Trigger.END)
 
-    def _move(self, act: Act) -> None:
-        try:
-            self.state = self.TABLE[self.state][act]
-        except KeyError:
-            message = f"{type(self).__name__}: {act.name} in state {self.state.name}"
-            raise LocalProtocolError(message) from None
+    def _move(self, trigger: Trigger) -> None:
+        self.state = next_state(self.TABLE, self.state, trigger, type(self).__name__)
 
     def _fail(self, reason: str) -> Failed:
         self.close()

@@ -9,16 +9,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
-from crosnode.transport.link import Link
+from crosnode.transport.link import LinkState, PeerLink
 from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
 
 if TYPE_CHECKING:
-    from crosnode.graph.uri import Address
-    from crosnode.tcpros import TcprosConnection
-    from crosnode.transport.budget import Budget, StepLimits
+    from crosnode.transport.budget import StepBudget, StepLimits
+    from crosnode.transport.connection import ProtocolConnection
     from crosnode.transport.link import Owner
-    from crosnode.xmlrpc import XmlRpcConnection
     from plcsim.core.context import Context
+    from plcsim.network import Address
 
 BACKLOG: Final = 64
 LARGE_BLOCK: Final = 8 << 20
@@ -27,9 +26,8 @@ LARGE_BLOCK: Final = 8 << 20
 REOPEN_NS: Final = 1_000_000_000
 """Nanoseconds between two attempts to open a port that is in use."""
 
-
-Accepted: TypeAlias = "tuple[TcprosConnection | XmlRpcConnection, Owner, bool]"
-"""The protocol for a new connection, its owner, and whether it is XML-RPC."""
+Accepted: TypeAlias = "tuple[ProtocolConnection, Owner]"
+"""The protocol for a new connection, and its owner."""
 
 
 class Acceptor(Protocol):
@@ -39,7 +37,7 @@ class Acceptor(Protocol):
         """Return what a new connection speaks and who owns it."""
 
 
-class Listener:
+class PortListener:
     """A port that peers connect to.
 
     Args:
@@ -87,7 +85,7 @@ class Listener:
             self._next.close()
         return True
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Take waiting connections within the budget."""
         if not self.open(now_ns):
             return
@@ -102,8 +100,8 @@ class Listener:
             budget.accepts -= 1
             budget.work -= CONNECTION_WORK
             client.set_options()
-            connection, owner, is_xmlrpc = self._acceptor.accepted(now_ns)
-            self._loop.add(Link(client, connection, owner, now_ns, is_xmlrpc=is_xmlrpc))
+            connection, owner = self._acceptor.accepted(now_ns)
+            self._loop.add(PeerLink(client, connection, owner, now_ns))
 
     def close(self) -> None:
         """Close the port."""
@@ -137,40 +135,34 @@ class EventLoop:
         self.pool = context.library(SocketPool)
         keep_large_blocks()
         self.limits = limits
-        self.links: list[Link] = []
-        self.listeners: list[Listener] = []
-        self._new: list[Link] = []
+        self.links: list[PeerLink] = []
+        self.listeners: list[PortListener] = []
+        self._new: list[PeerLink] = []
         self._turn = 0
         self._listener_turn = 0
 
-    def listen(self, ip: str, port: int, acceptor: Acceptor) -> Listener:
+    def listen(self, ip: str, port: int, acceptor: Acceptor) -> PortListener:
         """Add a port to listen at."""
-        listener = Listener(self, ip, port, acceptor)
+        listener = PortListener(self, ip, port, acceptor)
         self.listeners.append(listener)
         return listener
 
     def connect(
-        self,
-        address: Address,
-        connection: TcprosConnection | XmlRpcConnection,
-        owner: Owner,
-        now_ns: int,
-        *,
-        is_xmlrpc: bool,
-    ) -> Link:
+        self, address: Address, connection: ProtocolConnection, owner: Owner, now_ns: int
+    ) -> PeerLink:
         """Add a connection to a peer; it is made in the steps to come."""
         socket = self.pool.get()
         socket.init(*address)
-        link = Link(socket, connection, owner, now_ns, is_xmlrpc=is_xmlrpc)
+        link = PeerLink(socket, connection, owner, now_ns)
         self.add(link)
         return link
 
-    def add(self, link: Link) -> None:
+    def add(self, link: PeerLink) -> None:
         """Add a link."""
         self.links.append(link)
         self._new.append(link)
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Look at one listener, then at each link in turn while the budget lasts.
 
         The next step begins with the first link that had to wait.
@@ -180,17 +172,17 @@ class EventLoop:
             self.listeners[self._listener_turn].step(now_ns, budget)
         budget.is_short = False
         self._turn = self._go_round(now_ns, budget)
-        if any(link.is_over for link in self.links):
+        if any(link.state is LinkState.OVER for link in self.links):
             self._remove_ended()
 
-    def step_new(self, now_ns: int, budget: Budget) -> None:
+    def step_new(self, now_ns: int, budget: StepBudget) -> None:
         """Give links that were added in this step their first turn, at the end of it."""
         new, self._new = self._new, []
         for link in new:
             if budget.polls > 0 and not link.is_over:
                 link.step(now_ns, budget)
 
-    def _go_round(self, now_ns: int, budget: Budget) -> int:
+    def _go_round(self, now_ns: int, budget: StepBudget) -> int:
         """Give links their turn while the budget lasts; return where the next step begins."""
         links, count = self.links, len(self.links)
         start = self._turn if self._turn < count else 0

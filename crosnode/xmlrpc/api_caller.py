@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import InvalidNameError, MessageValueError
 from crosnode.transport.budget import CALL_WORK
-from crosnode.transport.connection import State
+from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
     FaultReceived,
-    Limits,
     ResponseReceived,
     Value,
     XmlRpcClientConnection,
+    XmlRpcLimits,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from crosnode import tcpros, xmlrpc
     from crosnode.graph.hosts import HostTable
-    from crosnode.transport.budget import Budget
+    from crosnode.transport.budget import StepBudget
+    from crosnode.transport.connection import ConnectionEvent
     from crosnode.transport.event_loop import EventLoop
-    from crosnode.transport.link import Link
+    from crosnode.transport.link import PeerLink
 
 MAX_WAITING: Final = 1000
 """Calls that wait for one node; the oldest one fails for the next."""
@@ -110,7 +110,7 @@ class ApiCaller:
         limits: of each connection.
     """
 
-    def __init__(self, loop: EventLoop, hosts: HostTable, limits: Limits) -> None:
+    def __init__(self, loop: EventLoop, hosts: HostTable, limits: XmlRpcLimits) -> None:
         self._loop = loop
         self._hosts = hosts
         self._limits = limits
@@ -140,13 +140,13 @@ class ApiCaller:
             oldest.fail("too many calls wait for this node")
         return call
 
-    def step_first(self, now_ns: int, budget: Budget) -> None:
+    def step_first(self, now_ns: int, budget: StepBudget) -> None:
         """Go before the connections in every other step, so that these cannot use up all of it."""
         self._is_first = not self._is_first
         if self._is_first:
             self.step(now_ns, budget)
 
-    def step(self, now_ns: int, budget: Budget) -> None:
+    def step(self, now_ns: int, budget: StepBudget) -> None:
         """Make connections for waiting calls, and send the next call of each, in turn."""
         channels = list(self._channels.items())
         self._turn = (self._turn + 1) % max(1, len(channels))
@@ -165,8 +165,8 @@ class ApiCaller:
         except InvalidNameError as error:
             channel.fail_all(str(error))
             return
-        connection = XmlRpcClientConnection(f"{address.host}:{address.port}", self._limits, now_ns)
-        channel.link = self._loop.connect(address, connection, channel, now_ns, is_xmlrpc=True)
+        connection = XmlRpcClientConnection(f"{address.ip}:{address.port}", self._limits, now_ns)
+        channel.link = self._loop.connect(address, connection, channel, now_ns)
         channel.connection = connection
 
 
@@ -175,14 +175,14 @@ class _Channel:
 
     def __init__(self) -> None:
         self.calls: deque[ApiCall] = deque()
-        self.link: Link | None = None
+        self.link: PeerLink | None = None
         self.connection: XmlRpcClientConnection | None = None
         self.keep = False
 
-    def advance(self, now_ns: int, budget: Budget) -> None:
+    def advance(self, now_ns: int, budget: StepBudget) -> None:
         """Send the next call, or close a connection that is needed no more."""
         connection = self.connection
-        if connection is None or connection.state is not State.IDLE:
+        if connection is None or connection.state is not ConnectionState.IDLE:
             return
         if not self.calls:
             if not self.keep and self.link:
@@ -203,21 +203,21 @@ class _Channel:
         for call in calls:
             call.fail(reason)
 
-    def handle_event(self, link: Link, event: tcpros.Event | xmlrpc.Event, now_ns: int) -> None:
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take the answer to the running call."""
         if isinstance(event, ResponseReceived):
             self.calls.popleft().answer(event.value)
         elif isinstance(event, FaultReceived):
             self.calls.popleft().fail(event.text, was_answered=True)
 
-    def expects_data(self, link: Link) -> bool:
+    def expects_data(self, link: PeerLink) -> bool:
         """Whether a call waits for its answer."""
         return bool(self.calls)
 
-    def fill(self, link: Link) -> None:
+    def fill(self, link: PeerLink) -> None:
         """Nothing waits beside the call that was sent."""
 
-    def ended(self, link: Link, reason: str, now_ns: int) -> None:
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Fail what waits; an idle connection that the node closed is made again when needed."""
         if link is self.link:
             self.link = self.connection = None

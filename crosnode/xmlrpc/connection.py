@@ -8,11 +8,21 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 import h11
 
 from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
-from crosnode.transport.connection import Act, Closed, Connection, Failed, State, Table
+from crosnode.transport.budget import XMLRPC_WORK
+from crosnode.transport.connection import (
+    Closed,
+    ConnectionEvent,
+    ConnectionState,
+    Failed,
+    Progress,
+    ProtocolConnection,
+    Table,
+    Trigger,
+)
 from crosnode.xmlrpc.values import (
-    Call,
-    Fault,
-    Response,
+    MethodCall,
+    MethodFault,
+    MethodResponse,
     Value,
     ValueLimits,
     ValueParser,
@@ -23,15 +33,29 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 SERVER: Final[Table] = {
-    State.REQUEST: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
-    State.REPLY: {Act.REPLY: State.REQUEST, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.REQUEST: {
+        Trigger.REQUEST: ConnectionState.REPLY,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.REPLY: {
+        Trigger.REPLY: ConnectionState.REQUEST,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 CLIENT: Final[Table] = {
-    State.IDLE: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
-    State.REPLY: {Act.REPLY: State.IDLE, Act.LAST: State.CLOSED, Act.END: State.CLOSED},
-    State.CLOSED: {},
+    ConnectionState.IDLE: {
+        Trigger.REQUEST: ConnectionState.REPLY,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.REPLY: {
+        Trigger.REPLY: ConnectionState.IDLE,
+        Trigger.LAST: ConnectionState.CLOSED,
+        Trigger.END: ConnectionState.CLOSED,
+    },
+    ConnectionState.CLOSED: {},
 }
 
 PARSE_ERROR: Final = -32700
@@ -39,12 +63,13 @@ PARSE_ERROR: Final = -32700
 
 INTERNAL_ERROR: Final = -32603
 
+Document: TypeAlias = MethodCall | MethodResponse | MethodFault
 Role: TypeAlias = type[h11.CLIENT] | type[h11.SERVER]
 
 _CONTENT_TYPE: Final = ("Content-Type", "text/xml")
 
 
-class Limits(NamedTuple):
+class XmlRpcLimits(NamedTuple):
     """What one connection may take.
 
     Attributes:
@@ -59,7 +84,7 @@ class Limits(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class CallReceived:
+class CallReceived(ConnectionEvent):
     """A peer calls a method."""
 
     method: str
@@ -67,57 +92,58 @@ class CallReceived:
 
 
 @dataclass(frozen=True, slots=True)
-class ResponseReceived:
+class ResponseReceived(ConnectionEvent):
     """The answer of a server."""
 
     value: Value
 
 
 @dataclass(frozen=True, slots=True)
-class FaultReceived:
+class FaultReceived(ConnectionEvent):
     """The server answers with a fault."""
 
     code: int
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Progress:
-    """Some of a long document was read or written; there is more to do."""
-
-
-Event: TypeAlias = CallReceived | ResponseReceived | FaultReceived | Progress | Failed | Closed
-
-
-class XmlRpcConnection(Connection):
-    """What both ends share; see ``Connection`` for its use.
+class XmlRpcConnection(ProtocolConnection):
+    """What both ends share; see ``ProtocolConnection`` for its use.
 
     Args:
         role: h11.CLIENT or h11.SERVER.
         state: the first state.
-        limits: see ``Limits``.
+        limits: see ``XmlRpcLimits``.
         now_ns: time of the step in which the connection was made.
     """
 
-    def __init__(self, role: Role, state: State, limits: Limits, now_ns: int) -> None:
+    IS_PARSED: ClassVar[bool] = True
+
+    def __init__(
+        self, role: Role, state: ConnectionState, limits: XmlRpcLimits, now_ns: int
+    ) -> None:
         super().__init__(state, limits.timeout_ns, now_ns)
         self.limits = limits
         self._http = h11.Connection(role, max_incomplete_event_size=limits.max_head)
         self._values = ValueParser(limits.values)
         self._unparsed = b""
 
+    @property
+    def event_price(self) -> int:
+        """A call that is taken and answered, an answer, or a part of a long document."""
+        return XMLRPC_WORK
+
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
-        if data and self.state is not State.CLOSED:
+        if data and self.state is not ConnectionState.CLOSED:
             self._receive(bytes(data))
             self._is_drained = False
 
     def receive_eof(self) -> None:
         """Take the end of the stream; then call ``next_event`` as for bytes."""
-        if self.state is not State.CLOSED:
+        if self.state is not ConnectionState.CLOSED:
             self._receive(b"")
 
-    def next_event(self, now_ns: int) -> Event | None:
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Return the next event, None where none can be had from the bytes so far."""
         if self.state in self.PAUSED:
             return None
@@ -131,7 +157,7 @@ class XmlRpcConnection(Connection):
         except RuntimeError as error:  # bytes behind the end of the stream
             raise LocalProtocolError(str(error)) from error
 
-    def _next_event(self, now_ns: int) -> Event | None:
+    def _next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Do what the next HTTP events say, until one of ours comes of them."""
         try:
             while True:
@@ -150,7 +176,7 @@ class XmlRpcConnection(Connection):
         except XmlRpcError as error:
             return self._refuse(str(error), http_status=200)
 
-    def _handle(self, http_event: object, now_ns: int) -> Event | None:
+    def _handle(self, http_event: object, now_ns: int) -> ConnectionEvent | None:
         if isinstance(http_event, h11.Data):
             self._unparsed = bytes(http_event.data)
             return None
@@ -163,11 +189,11 @@ class XmlRpcConnection(Connection):
             return Closed()
         return self._head(http_event)
 
-    def _head(self, http_event: object) -> Event | None:
+    def _head(self, http_event: object) -> ConnectionEvent | None:
         """Check a request or status line."""
         raise NotImplementedError
 
-    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
+    def _document(self, document: Document, now_ns: int) -> ConnectionEvent:
         """Make an event of a document and move on."""
         raise NotImplementedError
 
@@ -179,9 +205,9 @@ class XmlRpcConnection(Connection):
         """Make ready for the next call, where both ends keep the connection alive."""
         if self._http.our_state is h11.DONE and self._http.their_state is h11.DONE:
             self._http.start_next_cycle()
-            self._move(Act.REPLY)
+            self._move(Trigger.REPLY)
         else:
-            self._move(Act.LAST)
+            self._move(Trigger.LAST)
 
     def _send(self, *http_events: h11.Event) -> None:
         for http_event in http_events:
@@ -198,22 +224,24 @@ class XmlRpcServerConnection(XmlRpcConnection):
     """
 
     TABLE: ClassVar[Table] = SERVER
-    PAUSED: ClassVar[frozenset[State]] = frozenset({State.REPLY, State.CLOSED})
-    TIMED: ClassVar[frozenset[State]] = frozenset({State.REQUEST})
+    PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
+        {ConnectionState.REPLY, ConnectionState.CLOSED}
+    )
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REQUEST})
 
-    def __init__(self, limits: Limits, now_ns: int) -> None:
-        super().__init__(h11.SERVER, State.REQUEST, limits, now_ns)
+    def __init__(self, limits: XmlRpcLimits, now_ns: int) -> None:
+        super().__init__(h11.SERVER, ConnectionState.REQUEST, limits, now_ns)
         self._is_idle = False
         self._writer: ResponseWriter | None = None
 
     @property
     def deadline_ns(self) -> int | None:
-        """As in ``Connection``; None between two calls."""
+        """As in ``ProtocolConnection``; None between two calls."""
         return None if self._is_idle else super().deadline_ns
 
-    def next_event(self, now_ns: int) -> Event | None:
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Return the next event, None where none can be had from the bytes so far."""
-        if self._writer is not None and self.state is State.REPLY:
+        if self._writer is not None and self.state is ConnectionState.REPLY:
             self._write_late(self._writer)
             return Progress()
         event = super().next_event(now_ns)
@@ -245,17 +273,17 @@ class XmlRpcServerConnection(XmlRpcConnection):
         try:
             document = writer.write()
         except MessageValueError as error:
-            document = dump_fault(Fault(INTERNAL_ERROR, str(error)))
+            document = dump_fault(MethodFault(INTERNAL_ERROR, str(error)))
         if document is not None:
             self._answer(document)
 
     def fault(self, code: int, text: str) -> None:
         """Answer the call with a fault."""
         self._check_turn()
-        self._answer(dump_fault(Fault(code, text)))
+        self._answer(dump_fault(MethodFault(code, text)))
 
     def _check_turn(self) -> None:
-        if self.state is not State.REPLY or self._writer is not None:
+        if self.state is not ConnectionState.REPLY or self._writer is not None:
             raise LocalProtocolError(f"an answer in state {self.state.name}")
 
     def _answer(self, document: bytes) -> None:
@@ -269,7 +297,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
         response = h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
         self._send(response, h11.Data(data=document), h11.EndOfMessage())
 
-    def _head(self, http_event: object) -> Event | None:
+    def _head(self, http_event: object) -> ConnectionEvent | None:
         assert isinstance(http_event, h11.Request)
         if http_event.method != b"POST":
             raise h11.RemoteProtocolError("only POST is served", error_status_hint=405)
@@ -277,17 +305,17 @@ class XmlRpcServerConnection(XmlRpcConnection):
             self._send(h11.InformationalResponse(status_code=100, headers=[]))
         return None
 
-    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
-        if not isinstance(document, Call):
+    def _document(self, document: Document, now_ns: int) -> ConnectionEvent:
+        if not isinstance(document, MethodCall):
             raise XmlRpcError("a reply, where a call was expected")
-        self._move(Act.REQUEST)
+        self._move(Trigger.REQUEST)
         self._since_ns = now_ns
         return CallReceived(document.method, document.params)
 
     def _refuse(self, reason: str, *, http_status: int) -> Failed:
         if self._http.our_state in (h11.IDLE, h11.SEND_RESPONSE):
-            document = dump_fault(Fault(PARSE_ERROR, reason))
-            self._send_document(document, http_status, ("Connection", "close"))
+            document = dump_fault(MethodFault(PARSE_ERROR, reason))
+            self._send_document(document, http_status, ("ProtocolConnection", "close"))
         return self._fail(reason)
 
 
@@ -296,15 +324,15 @@ class XmlRpcClientConnection(XmlRpcConnection):
 
     Args:
         host: what the ``Host`` header says: name or number, and port.
-        limits: see ``Limits``.
+        limits: see ``XmlRpcLimits``.
         now_ns: time of the step.
     """
 
     TABLE: ClassVar[Table] = CLIENT
-    TIMED: ClassVar[frozenset[State]] = frozenset({State.REPLY})
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REPLY})
 
-    def __init__(self, host: str, limits: Limits, now_ns: int) -> None:
-        super().__init__(h11.CLIENT, State.IDLE, limits, now_ns)
+    def __init__(self, host: str, limits: XmlRpcLimits, now_ns: int) -> None:
+        super().__init__(h11.CLIENT, ConnectionState.IDLE, limits, now_ns)
         self._host = host
 
     def call(self, method: str, params: Sequence[Value], now_ns: int) -> None:
@@ -314,22 +342,22 @@ class XmlRpcClientConnection(XmlRpcConnection):
             MessageValueError: XML-RPC cannot carry a parameter; nothing is sent.
         """
         document = dump_call(method, tuple(params))
-        self._move(Act.REQUEST)
+        self._move(Trigger.REQUEST)
         self._since_ns = now_ns
         headers = [("Host", self._host), _CONTENT_TYPE, ("Content-Length", str(len(document)))]
         request = h11.Request(method="POST", target="/RPC2", headers=headers)
         self._send(request, h11.Data(data=document), h11.EndOfMessage())
 
-    def _head(self, http_event: object) -> Event | None:
+    def _head(self, http_event: object) -> ConnectionEvent | None:
         if isinstance(http_event, h11.Response) and http_event.status_code != 200:
             raise XmlRpcError(f"HTTP status {http_event.status_code}")
         return None
 
-    def _document(self, document: Call | Response | Fault, now_ns: int) -> Event:
-        if isinstance(document, Call):
+    def _document(self, document: Document, now_ns: int) -> ConnectionEvent:
+        if isinstance(document, MethodCall):
             raise XmlRpcError("a call, where a reply was expected")
         self._end_call()
         self._since_ns = now_ns
-        if isinstance(document, Fault):
+        if isinstance(document, MethodFault):
             return FaultReceived(*document)
         return ResponseReceived(document.value)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from crosnode.xmlrpc.values import Call, Fault, Response, Value
+from crosnode.xmlrpc.values import MethodCall, MethodFault, MethodResponse, Value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -24,30 +24,32 @@ REPLY_TOO_LARGE: Final = -32500
 INVALID_PARAMETERS: Final = -32602
 """Fault codes, as in xmlrpc-epi's fault code interoperability."""
 
-TOO_LARGE: Final = Fault(REPLY_TOO_LARGE, f"the answers before have more than {MAX_VALUES} values")
+TOO_LARGE: Final = MethodFault(
+    REPLY_TOO_LARGE, f"the answers before have more than {MAX_VALUES} values"
+)
 
 
-def split_multicall(params: list[Value]) -> list[Call | Fault]:
+def split_multicall(params: list[Value]) -> list[MethodCall | MethodFault]:
     """Return the calls in one call's parameters, with a fault in the place of each that is none."""
     if len(params) != 1 or not isinstance(params[0], list):
-        return [Fault(INVALID_PARAMETERS, f"{MULTICALL} takes one list of structs")]
+        return [MethodFault(INVALID_PARAMETERS, f"{MULTICALL} takes one list of structs")]
     if len(params[0]) > MAX_CALLS:
-        return [Fault(INVALID_PARAMETERS, f"{MULTICALL} takes at most {MAX_CALLS} calls")]
+        return [MethodFault(INVALID_PARAMETERS, f"{MULTICALL} takes at most {MAX_CALLS} calls")]
     return [_call(entry) for entry in params[0]]
 
 
-def _call(entry: Value) -> Call | Fault:
+def _call(entry: Value) -> MethodCall | MethodFault:
     method = entry.get("methodName") if isinstance(entry, dict) else None
     params = entry.get("params", []) if isinstance(entry, dict) else None
     if not isinstance(method, str) or not isinstance(params, list):
-        return Fault(INVALID_PARAMETERS, "expected a struct of methodName and params")
+        return MethodFault(INVALID_PARAMETERS, "expected a struct of methodName and params")
     if method == MULTICALL:
-        return Fault(INVALID_PARAMETERS, f"{MULTICALL} within {MULTICALL}")
-    return Call(method, params)
+        return MethodFault(INVALID_PARAMETERS, f"{MULTICALL} within {MULTICALL}")
+    return MethodCall(method, params)
 
 
 def run_multicall(
-    params: list[Value], answer: Callable[[Call], Response | Fault]
+    params: list[Value], answer: Callable[[MethodCall], MethodResponse | MethodFault]
 ) -> Iterator[Value]:
     """Answer calls in order, each when its turn in the value of the whole comes.
 
@@ -55,10 +57,10 @@ def run_multicall(
     """
     left = MAX_VALUES
     for call in split_multicall(params):
-        if isinstance(call, Call) and left > 0:
+        if isinstance(call, MethodCall) and left > 0:
             packed = _packed(answer(call))
         else:
-            packed = _packed(call if isinstance(call, Fault) else TOO_LARGE)
+            packed = _packed(call if isinstance(call, MethodFault) else TOO_LARGE)
         left -= _count(packed)
         yield packed
 
@@ -69,7 +71,7 @@ def _count(value: Value) -> int:
     return 1 + sum(map(_count, inner))
 
 
-def _packed(reply: Response | Fault) -> Value:
-    if isinstance(reply, Fault):
+def _packed(reply: MethodResponse | MethodFault) -> Value:
+    if isinstance(reply, MethodFault):
         return {"faultCode": reply.code, "faultString": reply.text}
     return [reply.value]

@@ -40,21 +40,21 @@ class ValueLimits(NamedTuple):
     max_elements: int = 500_000
 
 
-class Call(NamedTuple):
+class MethodCall(NamedTuple):
     """A method call."""
 
     method: str
     params: list[Value]
 
 
-class Fault(NamedTuple):
+class MethodFault(NamedTuple):
     """A fault reply."""
 
     code: int
     text: str
 
 
-class Response(NamedTuple):
+class MethodResponse(NamedTuple):
     """A reply with a value."""
 
     value: Value
@@ -105,7 +105,7 @@ class ValueParser:
         if self._silent > MAX_TOKEN:
             raise LimitError(f"tag or comment of more than {MAX_TOKEN} bytes")
 
-    def close(self) -> Call | Response | Fault:
+    def close(self) -> MethodCall | MethodResponse | MethodFault:
         """Return what the document says; raises as ``feed`` does."""
         self._parse(b"", is_final=True)
         # The parser and this object hold each other; without a collector they would stay.
@@ -114,15 +114,15 @@ class ValueParser:
         try:
             params = self._target.close()
         except xmlrpc.client.Fault as fault:
-            return Fault(int(fault.faultCode), str(fault.faultString))
+            return MethodFault(int(fault.faultCode), str(fault.faultString))
         except _FAULTS as error:
             raise XmlRpcError(f"not an XML-RPC document: {error!r}") from error
         method = self._target.getmethodname()
         if method is not None:
-            return Call(method, list(params))
+            return MethodCall(method, list(params))
         if len(params) != 1:
             raise XmlRpcError(f"reply with {len(params)} values")
-        return Response(params[0])
+        return MethodResponse(params[0])
 
     def _parse(self, data: bytes, *, is_final: bool) -> None:
         try:

@@ -18,7 +18,7 @@ from crosnode.errors import MessageValueError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from crosnode.xmlrpc.values import Fault, Value
+    from crosnode.xmlrpc.values import MethodFault, Value
 
 AT_ONCE: Final = 100
 """Tags and values that are written in one part."""
@@ -68,7 +68,7 @@ def dump_call(method: str, params: Sequence[Value]) -> bytes:
     ).encode()
 
 
-def dump_fault(fault: Fault) -> bytes:
+def dump_fault(fault: MethodFault) -> bytes:
     """Return the XML of a fault; what XML cannot hold in its text is replaced."""
     value = {"faultCode": fault.code, "faultString": _NOT_XML.sub("?", fault.text)}
     written = "".join(_pieces(value, 0))

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from crosnode.graph.names import node_settings
+from crosnode.graph.arguments import node_settings
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from plcsim.core.context import Context

@@ -10,7 +10,7 @@ from typing import Any
 
 from crosnode.graph.uri import parse_uri
 from crosnode.master.master import Master, OutgoingCall
-from crosnode.transport.connection import State
+from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
     Call,
     CallReceived,
@@ -40,7 +40,7 @@ def next_event(connection: Any, sock: socket.socket) -> Any:
         event = connection.next_event(time.monotonic_ns())
         if event is not None:
             return event
-        if connection.state is State.CLOSED:
+        if connection.state is ConnectionState.CLOSED:
             return None
         data = sock.recv(CHUNK)
         if data:

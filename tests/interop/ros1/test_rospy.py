@@ -13,7 +13,6 @@ from crosnode.messages import MessageTypes
 from crosnode.tcpros import (
     ANY,
     HeaderReceived,
-    Limits,
     MessageReceived,
     PublisherConnection,
     Refused,
@@ -22,15 +21,16 @@ from crosnode.tcpros import (
     ServiceClientConnection,
     ServiceServerConnection,
     SubscriberConnection,
+    TcprosLimits,
     TypeInfo,
 )
-from crosnode.transport.connection import State
-from crosnode.xmlrpc import Call, Fault, Response
+from crosnode.transport.connection import ConnectionState
+from crosnode.xmlrpc import MethodCall, MethodFault, MethodResponse
 
 from . import shell
 
 PYTHON = "/usr/bin/python3"
-LIMITS = Limits()
+LIMITS = TcprosLimits()
 TYPES = MessageTypes()
 STRING = TYPES.message("std_msgs/String")
 EMPTY = TYPES.message("std_msgs/Empty")
@@ -114,10 +114,10 @@ def our_publisher(uri: str, topic: str, info: TypeInfo, body: bytes) -> Iterator
 
     with shell.listening(serve) as port:
 
-        def answer(call: Call) -> Response | Fault:
+        def answer(call: MethodCall) -> MethodResponse | MethodFault:
             if call.method == "requestTopic":
-                return Response([1, "", ["TCPROS", "127.0.0.1", port]])
-            return Response([1, "", 0])
+                return MethodResponse([1, "", ["TCPROS", "127.0.0.1", port]])
+            return MethodResponse([1, "", 0])
 
         with shell.xmlrpc_server(answer) as slave:
             slave_uri = f"http://127.0.0.1:{slave}/"
@@ -190,7 +190,7 @@ def test_we_call_a_rospy_service(uri: str, peer: Peer, persistent: bool) -> None
         event = shell.next_event(connection, sock)
         assert isinstance(event, ReplyReceived)
         assert SET_BOOL.response.decode(event.body).message == "done"
-        assert connection.state is (State.IDLE if persistent else State.CLOSED)
+        assert connection.state is (ConnectionState.IDLE if persistent else ConnectionState.CLOSED)
 
 
 def test_rospy_calls_our_service(uri: str, peer: Peer) -> None:
@@ -208,7 +208,7 @@ def test_rospy_calls_our_service(uri: str, peer: Peer) -> None:
 
     with (
         shell.listening(serve) as port,
-        shell.xmlrpc_server(lambda _: Response([1, "", 0])) as slave,
+        shell.xmlrpc_server(lambda _: MethodResponse([1, "", 0])) as slave,
     ):
         address = f"rosrpc://127.0.0.1:{port}"
         shell.call(

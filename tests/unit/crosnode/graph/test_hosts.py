@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from crosnode.errors import InvalidNameError
 from crosnode.graph.hosts import HostTable, parse_hosts
-from crosnode.graph.uri import Address
+from plcsim.network import Address
 
 
 def test_names_are_found_without_a_name_server() -> None:

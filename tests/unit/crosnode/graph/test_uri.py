@@ -5,19 +5,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.errors import InvalidNameError
-from crosnode.graph.uri import Address, make_uri, parse_uri
+from crosnode.graph.uri import Authority, make_uri, parse_uri
 
 
 @pytest.mark.parametrize(
     ("uri", "scheme", "address"),
     [
-        ("rosrpc://host:34691", "rosrpc", Address("host", 34691)),
-        ("rosrpc://host:34691/", "rosrpc", Address("host", 34691)),
-        ("http://10.0.0.1:80/", "http", Address("10.0.0.1", 80)),
-        ("http://[fe80::1%eth0]:11311/RPC2", "http", Address("fe80::1%eth0", 11311)),
+        ("rosrpc://host:34691", "rosrpc", Authority("host", 34691)),
+        ("rosrpc://host:34691/", "rosrpc", Authority("host", 34691)),
+        ("http://10.0.0.1:80/", "http", Authority("10.0.0.1", 80)),
+        ("http://[fe80::1%eth0]:11311/RPC2", "http", Authority("fe80::1%eth0", 11311)),
     ],
 )
-def test_parse(uri: str, scheme: str, address: Address) -> None:
+def test_parse(uri: str, scheme: str, address: Authority) -> None:
     assert parse_uri(uri, scheme) == address
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.master.master import MASTER_NAME, METHODS, Master, MasterLimits, OutgoingCall
-from crosnode.xmlrpc import Call, Fault, Response, check_value
+from crosnode.xmlrpc import MethodCall, MethodFault, MethodResponse, check_value
 
 TALKER, LISTENER = "http://h:1/", "http://h:2/"
 STRING = "std_msgs/String"
@@ -18,13 +18,13 @@ def master() -> Master:
 
 
 def ask(to: Master, method: str, *params: object) -> Any:
-    reply = to.handle(Call(method, list(params))).reply
-    assert isinstance(reply, Response)
+    reply = to.handle(MethodCall(method, list(params))).reply
+    assert isinstance(reply, MethodResponse)
     return reply.value
 
 
 def calls(to: Master, method: str, *params: object) -> list[OutgoingCall]:
-    return to.handle(Call(method, list(params))).calls
+    return to.handle(MethodCall(method, list(params))).calls
 
 
 def update(uri: str, topic: str, publishers: list[str]) -> OutgoingCall:
@@ -182,9 +182,9 @@ def test_multicall() -> None:
         {"methodName": "nonsense", "params": []},
         {"methodName": "getPid", "params": ["/t"]},
     ]
-    answer = m.handle(Call("system.multicall", [entries]))
+    answer = m.handle(MethodCall("system.multicall", [entries]))
     assert answer.calls == [update(LISTENER, "/chatter", [])]
-    assert isinstance(answer.reply, Response)
+    assert isinstance(answer.reply, MethodResponse)
     first, second, third = answer.reply.value
     assert first[0][::2] == [1, 1]
     assert second["faultCode"] == 1
@@ -220,7 +220,7 @@ def test_bad_requests(method: str, params: list[object], reply: list[object]) ->
 
 
 def test_unknown_method() -> None:
-    assert master().handle(Call("nonsense", [])).reply == Fault(
+    assert master().handle(MethodCall("nonsense", [])).reply == MethodFault(
         1, "method 'nonsense' is not supported"
     )
 
@@ -249,8 +249,8 @@ ANYTHING = st.recursive(
 def test_any_requests(requests: list[tuple[str, list[object]]]) -> None:
     m = master()
     for method, params in requests:
-        answer = m.handle(Call(method, params))
-        assert isinstance(answer.reply, Response)
+        answer = m.handle(MethodCall(method, params))
+        assert isinstance(answer.reply, MethodResponse)
         code, message, _ = answer.reply.value
         assert code in (-1, 0, 1)
         assert isinstance(message, str)

@@ -2,9 +2,13 @@
 
 import pytest
 
-from crosnode.master.registrations import Graph, Node, Registrations, Replaced
+from crosnode.master.registrations import Graph, RegisteredNode, Registrations, Replaced
 
-A, A2, B = Node("/a", "http://h:1/"), Node("/a", "http://h:2/"), Node("/b", "http://h:3/")
+A, A2, B = (
+    RegisteredNode("/a", "http://h:1/"),
+    RegisteredNode("/a", "http://h:2/"),
+    RegisteredNode("/b", "http://h:3/"),
+)
 
 
 def test_registrations() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from crosnode.errors import DefinitionError
-from crosnode.messages.packages import MAX_FILE_SIZE, SHARE, Kind, PackagePath
+from crosnode.messages.packages import MAX_FILE_SIZE, SHARE, DefinitionKind, PackagePath
 
 
 def write(file: Path, text: str) -> None:
@@ -26,48 +26,50 @@ def write(file: Path, text: str) -> None:
 )
 def test_layouts(tmp_path: Path, file: str, path: str) -> None:
     write(tmp_path / file, "int32 x")
-    assert PackagePath([tmp_path / path]).read("pkg/Name", Kind.MESSAGE) == "int32 x"
+    assert PackagePath([tmp_path / path]).read("pkg/Name", DefinitionKind.MESSAGE) == "int32 x"
 
 
 def test_manifest_names_the_package(tmp_path: Path) -> None:
     write(tmp_path / "checkout/package.xml", "<package><name> pkg </name></package>")
     write(tmp_path / "checkout/srv/Ask.srv", "---\n")
-    assert PackagePath([tmp_path]).read("pkg/Ask", Kind.SERVICE) == "---\n"
-    assert PackagePath([tmp_path]).read("pkg/Ask", Kind.MESSAGE) is None
+    assert PackagePath([tmp_path]).read("pkg/Ask", DefinitionKind.SERVICE) == "---\n"
+    assert PackagePath([tmp_path]).read("pkg/Ask", DefinitionKind.MESSAGE) is None
 
 
 def test_same_name_of_stack_and_package(tmp_path: Path) -> None:
     write(tmp_path / "pkg/README.md", "")
     write(tmp_path / "pkg/pkg/package.xml", "<package><name>pkg</name></package>")
     write(tmp_path / "pkg/pkg/action/Do.action", "---\n---\n")
-    assert PackagePath([tmp_path]).read("pkg/Do", Kind.ACTION) == "---\n---\n"
+    assert PackagePath([tmp_path]).read("pkg/Do", DefinitionKind.ACTION) == "---\n---\n"
 
 
 def test_first_path_wins(tmp_path: Path) -> None:
     write(tmp_path / "a/pkg/msg/Name.msg", "int32 a")
     write(tmp_path / "b/pkg/msg/Name.msg", "int32 b")
     paths = [tmp_path / "none", tmp_path / "b", tmp_path / "a"]
-    assert PackagePath(paths).read("pkg/Name", Kind.MESSAGE) == "int32 b"
+    assert PackagePath(paths).read("pkg/Name", DefinitionKind.MESSAGE) == "int32 b"
 
 
 def test_line_ends_and_encoding(tmp_path: Path) -> None:
     file = tmp_path / "pkg/msg/Name.msg"
     write(file, "\ufeffint32 x\r\nint32 y\r\n")
-    assert PackagePath([tmp_path]).read("pkg/Name", Kind.MESSAGE) == "int32 x\nint32 y\n"
+    assert PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE) == "int32 x\nint32 y\n"
     file.write_bytes(b"int32 x # gr\xfcn\n")
-    assert PackagePath([tmp_path]).read("pkg/Name", Kind.MESSAGE) == "int32 x # gr\ufffdn\n"
+    assert (
+        PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE) == "int32 x # gr\ufffdn\n"
+    )
 
 
 def test_hidden_and_deep_folders_are_left(tmp_path: Path) -> None:
     write(tmp_path / ".git/pkg/msg/Name.msg", "int32 x")
     write(tmp_path / "1/2/3/4/5/6/7/pkg/msg/Name.msg", "int32 x")
-    assert PackagePath([tmp_path]).read("pkg/Name", Kind.MESSAGE) is None
+    assert PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE) is None
 
 
 def test_large_file(tmp_path: Path) -> None:
     write(tmp_path / "pkg/msg/Name.msg", "#" * (MAX_FILE_SIZE + 1))
     with pytest.raises(DefinitionError, match=r"Name\.msg: larger than"):
-        PackagePath([tmp_path]).read("pkg/Name", Kind.MESSAGE)
+        PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE)
 
 
 def test_common_packages_are_bare_and_plain() -> None:

@@ -1,13 +1,15 @@
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from crosnode.errors import MessageValueError
 from crosnode.node import ParameterUpdate, StatusKind
 from crosnode.node.master_client import Registration, Wish
-from crosnode.node.parameter import ParameterSubscription
+from crosnode.node.parameter import ParameterSubscription, check_parameters
 
-from .world import OTHER_IP, World, drain, news
+from .world import OTHER_IP, PLC_IP, World, drain, news
 
 
 def subscription(name: str = "/p") -> ParameterSubscription:
@@ -133,3 +135,15 @@ def test_what_the_own_node_sets_reaches_its_subscriptions() -> None:
     node.set_param("/armchair", 3)
     world.run(20)
     assert (leaf.value, space.value) == ({}, {})
+
+
+@pytest.mark.parametrize("value", [3_000_000_000, [None], {"a": 1.0, "b": None}])
+def test_a_value_that_xml_rpc_cannot_carry(value: object) -> None:
+    with pytest.raises(MessageValueError, match=r"parameter p: XML-RPC cannot carry"):
+        check_parameters({"p": value})
+
+
+def test_a_node_with_such_an_argument_opens_nothing() -> None:
+    world = World()
+    with pytest.raises(MessageValueError, match="parameter /n/p: "):
+        world.node("n", PLC_IP, "_p:=3000000000")

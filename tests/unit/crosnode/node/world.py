@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from crosnode.graph.names import node_settings
+from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions, Status, StatusKind
 from crosnode.tcpros.header import encode_header
@@ -76,9 +76,9 @@ class World:
         self.steps.append(node.do_events_loop)
         return node
 
-    def run(self, ms: int = 50) -> None:
-        for _ in range(ms):
-            self.now_ns += MS
+    def run(self, ms: int = 50, step_ms: int = 1) -> None:
+        for _ in range(0, ms, step_ms):
+            self.now_ns += step_ms * MS
             for context in self._contexts:
                 context.release_ns = self.now_ns
             for step in list(self.steps):

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from crosnode.graph.names import node_settings
+from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, StatusKind
 from crosnode.plc.bridge import is_power_of_two

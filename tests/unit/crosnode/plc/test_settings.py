@@ -79,6 +79,7 @@ def test_packages_hosts_and_the_bridge(tmp_path: Path) -> None:
         ({"arguments": ["__name:=x"]}, "ros.arguments: __name would give all nodes"),
         ({"namespace": "a b"}, "ros.namespace"),
         ({"arguments": ["a b:=c"]}, "ros.arguments"),
+        ({"arguments": ["_p:=[null]"]}, "ros.arguments: parameter p: XML-RPC cannot carry"),
         ({"publish": {"/a": {"type": "std_msgs/Bool"}}}, "ros.publish./a.tag: is missing"),
         ({"publish": {"a b": {"tag": "x", "type": "y"}}}, "ros.publish.a b"),
         ({"publish": {"/a": {"tag": "x", "type": "y", "often": 1}}}, "ros.publish./a.often"),

@@ -8,39 +8,36 @@ from hypothesis import strategies as st
 
 from crosnode.errors import LocalProtocolError
 from crosnode.tcpros import (
-    Event,
-    Failed,
     HeaderReceived,
-    Limits,
     PublisherConnection,
     ServiceClientConnection,
     ServiceServerConnection,
-    State,
     SubscriberConnection,
+    TcprosLimits,
     TypeInfo,
 )
-from crosnode.tcpros.connection import TcprosConnection as Connection
+from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
 from crosnode.tcpros.reader import length_of
-from crosnode.transport.connection import Act
+from crosnode.transport.connection import ConnectionEvent, ConnectionState, Failed, Trigger
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
-LIMITS = Limits(max_header=300, max_message=50, timeout_ns=1000)
+LIMITS = TcprosLimits(max_header=300, max_message=50, timeout_ns=1000)
 
 
-def publisher() -> Connection:
+def publisher() -> TcprosConnection:
     return PublisherConnection(LIMITS, 0)
 
 
-def subscriber() -> Connection:
+def subscriber() -> TcprosConnection:
     return SubscriberConnection("/t", STRING, "/n", tcp_nodelay=True, limits=LIMITS, now_ns=0)
 
 
-def server() -> Connection:
+def server() -> TcprosConnection:
     return ServiceServerConnection(LIMITS, 0)
 
 
-def client() -> Connection:
+def client() -> TcprosConnection:
     connection = ServiceClientConnection("/s", STRING, "/n", limits=LIMITS, now_ns=0)
     connection.data_to_send()
     return connection
@@ -50,24 +47,28 @@ ROLES = [publisher, subscriber, server, client]
 roles = pytest.mark.parametrize("role", ROLES)
 
 
-def events_of(connection: Connection) -> list[Event]:
+def events_of(connection: TcprosConnection) -> list[ConnectionEvent]:
     """Take all events, and answer them as an owner does."""
-    events: list[Event] = []
+    events: list[ConnectionEvent] = []
     while event := connection.next_event(0):
         events.append(event)
-        if connection.state is State.DECISION:
+        if connection.state is ConnectionState.DECISION:
             assert isinstance(connection, (PublisherConnection, ServiceServerConnection))
             connection.accept(STRING, "/us")
-        elif connection.state is State.IDLE:
+        elif connection.state is ConnectionState.IDLE:
             assert isinstance(connection, ServiceClientConnection)
             connection.send_request(b"", 0)
-        elif connection.state is State.REPLY and isinstance(connection, ServiceServerConnection):
+        elif connection.state is ConnectionState.REPLY and isinstance(
+            connection, ServiceServerConnection
+        ):
             connection.send_response(b"")
     return events
 
 
-def fed(connection: Connection, pieces: list[bytes]) -> tuple[list[Event], State, bytes]:
-    events: list[Event] = []
+def fed(
+    connection: TcprosConnection, pieces: list[bytes]
+) -> tuple[list[ConnectionEvent], ConnectionState, bytes]:
+    events: list[ConnectionEvent] = []
     for piece in pieces:
         connection.receive_data(piece)
         events += events_of(connection)
@@ -101,36 +102,36 @@ STREAMS = st.tuples(st.sampled_from([b"", HEADER]), BLOCKS).map(b"".join)
 
 @given(st.sampled_from(ROLES), STREAMS, st.data())
 def test_any_split_gives_the_same_events(
-    role: Callable[[], Connection], stream: bytes, data: st.DataObject
+    role: Callable[[], TcprosConnection], stream: bytes, data: st.DataObject
 ) -> None:
     cuts = sorted(data.draw(st.sets(st.integers(0, len(stream)), max_size=5)))
     pieces = [stream[a:b] for a, b in zip([0, *cuts], [*cuts, len(stream)], strict=True)]
     whole = fed(role(), [stream])
     assert fed(role(), pieces) == whole
     assert fed(role(), [stream[i : i + 1] for i in range(len(stream))]) == whole
-    assert whole[1] in (State.CLOSED, State.DECISION)
+    assert whole[1] in (ConnectionState.CLOSED, ConnectionState.DECISION)
 
 
 @roles
-def test_silent_peer(role: Callable[[], Connection]) -> None:
+def test_silent_peer(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     assert connection.deadline_ns == 1000
     assert connection.handle_timer(999) is None
     assert connection.handle_timer(1000) == Failed("silent for 1000 ns")
-    assert connection.state is State.CLOSED
+    assert connection.state is ConnectionState.CLOSED
     assert connection.handle_timer(9999) is None
 
 
 @roles
-def test_header_above_the_limit(role: Callable[[], Connection]) -> None:
+def test_header_above_the_limit(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     connection.receive_data(b"\0\0\x10\0" + bytes(400))
     assert connection.next_event(0) == Failed("header of 1048576 bytes, at most 300 are read")
-    assert connection.state is State.CLOSED
+    assert connection.state is ConnectionState.CLOSED
 
 
 @roles
-def test_closed_connection_takes_nothing(role: Callable[[], Connection]) -> None:
+def test_closed_connection_takes_nothing(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     connection.close()
     connection.receive_data(HEADER)
@@ -140,7 +141,7 @@ def test_closed_connection_takes_nothing(role: Callable[[], Connection]) -> None
 
 
 @roles
-def test_reading_waits_until_events_are_taken(role: Callable[[], Connection]) -> None:
+def test_reading_waits_until_events_are_taken(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     assert connection.wants_data
     connection.receive_data(HEADER)
@@ -165,10 +166,12 @@ def test_out_of_turn(act: Callable[[], object]) -> None:
 
 
 @roles
-def test_table_is_closed_and_every_state_is_reached(role: Callable[[], Connection]) -> None:
+def test_table_is_closed_and_every_state_is_reached(role: Callable[[], TcprosConnection]) -> None:
     table = role().TABLE
-    reached = {State.HANDSHAKE} | {state for row in table.values() for state in row.values()}
+    reached = {ConnectionState.HANDSHAKE} | {
+        state for row in table.values() for state in row.values()
+    }
     assert reached == set(table)
-    assert table[State.CLOSED] == {}
+    assert table[ConnectionState.CLOSED] == {}
     for state, row in table.items():
-        assert state is State.CLOSED or row[Act.END] is State.CLOSED
+        assert state is ConnectionState.CLOSED or row[Trigger.END] is ConnectionState.CLOSED

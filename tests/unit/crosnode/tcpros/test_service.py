@@ -4,26 +4,24 @@ import pytest
 
 from crosnode.tcpros import (
     ANY,
-    Closed,
-    Failed,
     HeaderReceived,
-    Limits,
     Refused,
     ReplyReceived,
     RequestReceived,
     ServiceClientConnection,
     ServiceServerConnection,
-    State,
+    TcprosLimits,
     TypeInfo,
 )
-from crosnode.tcpros.connection import TcprosConnection as Connection
+from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
+from crosnode.transport.connection import Closed, ConnectionState, Failed
 
 TWO_INTS = TypeInfo("roscpp_tutorials/TwoInts", "6a2e")
-LIMITS = Limits(timeout_ns=1000)
+LIMITS = TcprosLimits(timeout_ns=1000)
 
 
-def carry(sender: Connection, receiver: Connection) -> None:
+def carry(sender: TcprosConnection, receiver: TcprosConnection) -> None:
     for data in sender.data_to_send():
         receiver.receive_data(data)
 
@@ -63,10 +61,10 @@ def test_one_call() -> None:
     )
     call(server, client, b"request")
     server.send_response(b"response")
-    assert server.state is State.CLOSED
+    assert server.state is ConnectionState.CLOSED
     carry(server, client)
     assert client.next_event(0) == ReplyReceived(ok=True, body=b"response")
-    assert client.state is State.CLOSED
+    assert client.state is ConnectionState.CLOSED
 
 
 def test_persistent_calls_with_empty_bodies_and_an_error() -> None:
@@ -94,22 +92,22 @@ def test_error_ends_a_single_call() -> None:
     client.next_event(0)
     call(server, client, b"")
     server.send_error("")
-    assert server.state is State.CLOSED
+    assert server.state is ConnectionState.CLOSED
     assert server.data_to_send() == [b"\0\0\0\0\0", b""]
 
 
 def test_probe() -> None:
     server, client = pair(probe=True, md5sum=ANY)
-    assert server.state is State.CLOSED
+    assert server.state is ConnectionState.CLOSED
     event = client.next_event(0)
     assert isinstance(event, HeaderReceived)
     assert event.fields["type"] == "roscpp_tutorials/TwoInts"
-    assert client.state is State.CLOSED
+    assert client.state is ConnectionState.CLOSED
 
 
 def test_wrong_md5sum() -> None:
     server, client = pair(md5sum="0000")
-    assert server.state is State.CLOSED
+    assert server.state is ConnectionState.CLOSED
     assert client.next_event(0) == Refused("md5sum 0000 does not match 6a2e")
 
 

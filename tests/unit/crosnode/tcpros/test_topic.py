@@ -4,22 +4,20 @@ import pytest
 
 from crosnode.tcpros import (
     ANY,
-    Closed,
-    Failed,
     HeaderReceived,
-    Limits,
     MessageReceived,
     PublisherConnection,
     Refused,
-    State,
     SubscriberConnection,
+    TcprosLimits,
     TypeInfo,
 )
-from crosnode.tcpros.connection import TcprosConnection as Connection
+from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
+from crosnode.transport.connection import Closed, ConnectionState, Failed
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
-LIMITS = Limits()
+LIMITS = TcprosLimits()
 
 
 def pair(type_info: TypeInfo = STRING) -> tuple[PublisherConnection, SubscriberConnection]:
@@ -29,7 +27,7 @@ def pair(type_info: TypeInfo = STRING) -> tuple[PublisherConnection, SubscriberC
     return PublisherConnection(LIMITS, 0), subscriber
 
 
-def carry(sender: Connection, receiver: Connection) -> None:
+def carry(sender: TcprosConnection, receiver: TcprosConnection) -> None:
     for data in sender.data_to_send():
         receiver.receive_data(data)
 
@@ -67,7 +65,7 @@ def test_handshake_and_messages() -> None:
     publisher.close()
     subscriber.receive_eof()
     assert subscriber.next_event(0) == Closed()
-    assert subscriber.state is State.CLOSED
+    assert subscriber.state is ConnectionState.CLOSED
 
 
 def test_subscriber_of_any_type_learns_the_type() -> None:
@@ -87,10 +85,10 @@ def test_wrong_md5sum_is_refused_with_the_reason() -> None:
     carry(subscriber, publisher)
     publisher.next_event(0)
     assert not publisher.accept(STRING, "/talker")
-    assert publisher.state is State.CLOSED
+    assert publisher.state is ConnectionState.CLOSED
     carry(publisher, subscriber)
     assert subscriber.next_event(0) == Refused("md5sum 0000 does not match 992c")
-    assert subscriber.state is State.CLOSED
+    assert subscriber.state is ConnectionState.CLOSED
 
 
 @pytest.mark.parametrize("missing", ["callerid", "topic", "md5sum"])

@@ -7,7 +7,7 @@ from crosnode.transport.budget import (
     MESSAGE_WORK,
     UNPACED,
     XMLRPC_WORK,
-    Budget,
+    StepBudget,
     StepLimits,
 )
 
@@ -15,7 +15,7 @@ PRICES = (MESSAGE_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK)
 
 
 def test_a_budget_starts_with_all_limits() -> None:
-    budget = Budget(StepLimits())
+    budget = StepBudget(StepLimits())
     assert {name: getattr(budget, name) for name in StepLimits._fields} == StepLimits()._asdict()
     assert not budget.is_short
 
@@ -28,7 +28,7 @@ def test_unpaced_is_more_of_everything() -> None:
 def test_any_work_may_begin_a_step_and_at_most_one_piece_goes_beyond(
     work: int, prices: list[int]
 ) -> None:
-    budget = Budget(StepLimits(work=work))
+    budget = StepBudget(StepLimits(work=work))
     assert budget.affords(max(PRICES))
     spent = []
     for price in prices:
@@ -41,7 +41,7 @@ def test_any_work_may_begin_a_step_and_at_most_one_piece_goes_beyond(
 
 
 def test_bytes_stop_where_the_work_ends() -> None:
-    budget = Budget(StepLimits(work=100))
+    budget = StepBudget(StepLimits(work=100))
     assert budget.at_most(1_000) == 100
     assert not budget.is_short
     budget.work = -5
@@ -50,6 +50,6 @@ def test_bytes_stop_where_the_work_ends() -> None:
 
 
 def test_starting_a_connection_takes_its_price() -> None:
-    budget = Budget(StepLimits(calls=2))
+    budget = StepBudget(StepLimits(calls=2))
     assert [budget.start_call() for _ in range(3)] == [True, True, False]
     assert budget.work == StepLimits().work - 2 * CONNECTION_WORK

@@ -5,50 +5,77 @@ from typing import ClassVar
 import pytest
 
 from crosnode.errors import LocalProtocolError
-from crosnode.transport.connection import Act, Connection, Failed, State, Table
+from crosnode.transport.connection import (
+    ConnectionEvent,
+    ConnectionState,
+    Failed,
+    ProtocolConnection,
+    Table,
+    Trigger,
+)
+from crosnode.transport.dyn_buffer import Data
 
 
-class Example(Connection):
+class Example(ProtocolConnection):
     """Waits in time for a request, then answers without haste."""
 
     TABLE: ClassVar[Table] = {
-        State.REQUEST: {Act.REQUEST: State.REPLY, Act.END: State.CLOSED},
-        State.REPLY: {Act.REPLY: State.REQUEST, Act.END: State.CLOSED},
-        State.CLOSED: {},
+        ConnectionState.REQUEST: {
+            Trigger.REQUEST: ConnectionState.REPLY,
+            Trigger.END: ConnectionState.CLOSED,
+        },
+        ConnectionState.REPLY: {
+            Trigger.REPLY: ConnectionState.REQUEST,
+            Trigger.END: ConnectionState.CLOSED,
+        },
+        ConnectionState.CLOSED: {},
     }
-    PAUSED: ClassVar[frozenset[State]] = frozenset({State.REPLY, State.CLOSED})
-    TIMED: ClassVar[frozenset[State]] = frozenset({State.REQUEST})
+    PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
+        {ConnectionState.REPLY, ConnectionState.CLOSED}
+    )
+    TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REQUEST})
+    IS_PARSED: ClassVar[bool] = False
+    event_price = 1
+
+    def receive_data(self, data: Data) -> None:
+        raise NotImplementedError
+
+    def receive_eof(self) -> None:
+        raise NotImplementedError
+
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
+        raise NotImplementedError
 
 
 def example() -> Example:
-    return Example(State.REQUEST, timeout_ns=100, now_ns=1000)
+    return Example(ConnectionState.REQUEST, timeout_ns=100, now_ns=1000)
 
 
 def test_moves_by_the_table_only() -> None:
     connection = example()
-    connection._move(Act.REQUEST)
-    assert connection.state is State.REPLY
+    connection._move(Trigger.REQUEST)
+    assert connection.state is ConnectionState.REPLY
     with pytest.raises(LocalProtocolError, match="Example: REQUEST in state REPLY"):
-        connection._move(Act.REQUEST)
-    assert connection.state is State.REPLY
+        connection._move(Trigger.REQUEST)
+    assert connection.state is ConnectionState.REPLY
 
 
 def test_deadline_only_in_timed_states() -> None:
     connection = example()
     assert connection.deadline_ns == 1100
     assert connection.handle_timer(1099) is None
-    connection._move(Act.REQUEST)
+    connection._move(Trigger.REQUEST)
     assert connection.deadline_ns is None
     assert connection.handle_timer(10**9) is None
-    connection._move(Act.REPLY)
+    connection._move(Trigger.REPLY)
     assert connection.handle_timer(1100) == Failed("silent for 100 ns")
-    assert connection.state is State.CLOSED
+    assert connection.state is ConnectionState.CLOSED
 
 
 def test_paused_states_want_no_data() -> None:
     connection = example()
     assert connection.wants_data
-    connection._move(Act.REQUEST)
+    connection._move(Trigger.REQUEST)
     assert not connection.wants_data
 
 
@@ -63,4 +90,4 @@ def test_close_twice() -> None:
     connection = example()
     connection.close()
     connection.close()
-    assert connection.state is State.CLOSED
+    assert connection.state is ConnectionState.CLOSED

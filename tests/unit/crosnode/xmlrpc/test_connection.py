@@ -7,22 +7,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.errors import LocalProtocolError, MessageValueError
-from crosnode.transport.connection import Act, Closed, Failed, State
+from crosnode.transport.connection import (
+    Closed,
+    ConnectionEvent,
+    ConnectionState,
+    Failed,
+    Progress,
+    Trigger,
+)
 from crosnode.xmlrpc import (
     CallReceived,
-    Event,
     FaultReceived,
-    Limits,
     ResponseReceived,
     ValueLimits,
     XmlRpcClientConnection,
     XmlRpcConnection,
+    XmlRpcLimits,
     XmlRpcServerConnection,
 )
-from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER, Progress
+from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER
 from crosnode.xmlrpc.writer import AT_ONCE, dump_call
 
-LIMITS = Limits(values=ValueLimits(max_size=2000), max_head=1000, timeout_ns=1000)
+LIMITS = XmlRpcLimits(values=ValueLimits(max_size=2000), max_head=1000, timeout_ns=1000)
 
 
 def server() -> XmlRpcServerConnection:
@@ -55,7 +61,7 @@ def test_two_calls_on_one_connection() -> None:
         theirs.respond(value)
         ours.receive_data(sent(theirs))
         assert ours.next_event(0) == ResponseReceived(value)
-        assert (ours.state, theirs.state) == (State.IDLE, State.REQUEST)
+        assert (ours.state, theirs.state) == (ConnectionState.IDLE, ConnectionState.REQUEST)
     ours.close()
     theirs.receive_eof()
     assert theirs.next_event(0) == Closed()
@@ -97,7 +103,7 @@ def test_http_1_0_ends_after_one_call() -> None:
     theirs.receive_data(request(GET_PID, version="1.0"))
     theirs.next_event(0)
     theirs.respond(1)
-    assert theirs.state is State.CLOSED
+    assert theirs.state is ConnectionState.CLOSED
     assert b"Connection: close" in sent(theirs)
 
 
@@ -125,7 +131,7 @@ def test_answer_that_ends_with_the_connection() -> None:
     assert ours.next_event(0) is None
     ours.receive_eof()
     assert ours.next_event(0) == ResponseReceived([1])
-    assert ours.state is State.CLOSED
+    assert ours.state is ConnectionState.CLOSED
 
 
 def test_pipelined_calls_wait_for_the_answer_before_them() -> None:
@@ -168,7 +174,7 @@ def test_refused_with_the_reason(data: bytes, status: bytes, reason: str) -> Non
     event = theirs.next_event(0)
     assert isinstance(event, Failed)
     assert reason in event.reason
-    assert theirs.state is State.CLOSED
+    assert theirs.state is ConnectionState.CLOSED
     answer = sent(theirs)
     assert answer.startswith(b"HTTP/1.1 " + status)
     assert str(PARSE_ERROR).encode() in answer
@@ -195,7 +201,7 @@ def test_bad_answers(data: bytes, reason: str) -> None:
         event = ours.next_event(0)
     assert isinstance(event, Failed)
     assert reason in event.reason
-    assert ours.state is State.CLOSED
+    assert ours.state is ConnectionState.CLOSED
 
 
 def test_server_that_closes_between_calls() -> None:
@@ -249,13 +255,13 @@ STREAM = (
 )
 
 
-def events_of(pieces: list[bytes]) -> tuple[list[Event], bytes]:
+def events_of(pieces: list[bytes]) -> tuple[list[ConnectionEvent], bytes]:
     theirs, events = server(), []
     for piece in pieces:
         theirs.receive_data(piece)
         while event := theirs.next_event(0):
             events.append(event)
-            if theirs.state is State.REPLY:
+            if theirs.state is ConnectionState.REPLY:
                 theirs.respond(len(events))
     return events, sent(theirs)
 
@@ -279,19 +285,24 @@ def test_any_bytes(pieces: list[bytes]) -> None:
         for piece in pieces:
             connection.receive_data(piece)
             connection.next_event(0)
-            if isinstance(connection, XmlRpcServerConnection) and connection.state is State.REPLY:
+            if (
+                isinstance(connection, XmlRpcServerConnection)
+                and connection.state is ConnectionState.REPLY
+            ):
                 connection.respond("")
         assert connection.state in connection.TABLE
 
 
 @pytest.mark.parametrize("table", [SERVER, CLIENT])
-def test_every_state_can_end(table: dict[State, dict[Act, State]]) -> None:
-    assert table[State.CLOSED] == {}
-    assert all(state is State.CLOSED or Act.END in row for state, row in table.items())
+def test_every_state_can_end(table: dict[ConnectionState, dict[Trigger, ConnectionState]]) -> None:
+    assert table[ConnectionState.CLOSED] == {}
+    assert all(
+        state is ConnectionState.CLOSED or Trigger.END in row for state, row in table.items()
+    )
 
 
 def long_pair() -> tuple[XmlRpcClientConnection, XmlRpcServerConnection]:
-    limits = Limits(timeout_ns=1000)
+    limits = XmlRpcLimits(timeout_ns=1000)
     return XmlRpcClientConnection("h:1", limits, 0), XmlRpcServerConnection(limits, 0)
 
 

@@ -8,7 +8,7 @@ from crosnode.xmlrpc.multicall import (
     run_multicall,
     split_multicall,
 )
-from crosnode.xmlrpc.values import Call, Fault, Response
+from crosnode.xmlrpc.values import MethodCall, MethodFault, MethodResponse
 
 
 def entry(method: object, params: object) -> dict[str, object]:
@@ -16,8 +16,12 @@ def entry(method: object, params: object) -> dict[str, object]:
 
 
 def test_values_and_faults_in_order() -> None:
-    def answer(call: Call) -> Response | Fault:
-        return Fault(1, "no") if call.method == "bad" else Response([call.method, *call.params])
+    def answer(call: MethodCall) -> MethodResponse | MethodFault:
+        return (
+            MethodFault(1, "no")
+            if call.method == "bad"
+            else MethodResponse([call.method, *call.params])
+        )
 
     calls = [entry("a", [1]), entry("bad", []), "no struct", {"methodName": "b"}]
     assert list(run_multicall([calls], answer)) == [
@@ -34,18 +38,18 @@ def test_values_and_faults_in_order() -> None:
 def test_refused() -> None:
     for params in ([], [1], [[], []], [[entry("m", [])] * (MAX_CALLS + 1)]):
         (fault,) = split_multicall(params)
-        assert isinstance(fault, Fault)
+        assert isinstance(fault, MethodFault)
     for call in (entry("system.multicall", [[]]), entry(1, []), entry("m", "x"), 5):
         (fault,) = split_multicall([[call]])
-        assert isinstance(fault, Fault)
+        assert isinstance(fault, MethodFault)
 
 
 def test_a_short_call_cannot_ask_for_any_number_of_long_answers() -> None:
     asked = []
 
-    def answer(call: Call) -> Response:
+    def answer(call: MethodCall) -> MethodResponse:
         asked.append(call.method)
-        return Response([[{"k": number}] for number in range(MAX_VALUES // 10)])
+        return MethodResponse([[{"k": number}] for number in range(MAX_VALUES // 10)])
 
     found = list(run_multicall([[entry("m", [])] * MAX_CALLS], answer))
     assert len(found) == MAX_CALLS

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from crosnode.errors import LimitError, MessageValueError, XmlRpcError
 from crosnode.xmlrpc.values import (
     MAX_TOKEN,
-    Call,
-    Fault,
-    Response,
+    MethodCall,
+    MethodFault,
+    MethodResponse,
     ValueLimits,
     ValueParser,
 )
@@ -61,13 +61,13 @@ VALUES = st.recursive(
 
 @given(VALUES)
 def test_any_value_comes_back(value: object) -> None:
-    assert parse(dump_response(value)) == Response(value)
-    assert parse(dump_call("m", [value, value])) == Call("m", [value, value])
+    assert parse(dump_response(value)) == MethodResponse(value)
+    assert parse(dump_call("m", [value, value])) == MethodCall("m", [value, value])
 
 
 @given(VALUES, st.integers(1, 7))
 def test_any_split_gives_the_same_value(value: object, size: int) -> None:
-    assert parse(dump_response(value), size) == Response(value)
+    assert parse(dump_response(value), size) == MethodResponse(value)
 
 
 @given(VALUES)
@@ -108,19 +108,21 @@ STRUCT = (
     ],
 )
 def test_values(xml: str, value: object) -> None:
-    assert parse(reply(xml)) == Response(value)
-    assert parse(reply(xml), 1) == Response(value)
+    assert parse(reply(xml)) == MethodResponse(value)
+    assert parse(reply(xml), 1) == MethodResponse(value)
 
 
 def test_calls() -> None:
     assert parse(b"<?xml version='1.0'?><methodCall><methodName>m</methodName></methodCall>") == (
-        Call("m", [])
+        MethodCall("m", [])
     )
-    assert parse(dump_call("getPid", ["/n"])) == Call("getPid", ["/n"])
+    assert parse(dump_call("getPid", ["/n"])) == MethodCall("getPid", ["/n"])
 
 
 def test_fault() -> None:
-    assert parse(dump_fault(Fault(3, "bad < worse\x00\ud800"))) == Fault(3, "bad < worse??")
+    assert parse(dump_fault(MethodFault(3, "bad < worse\x00\ud800"))) == MethodFault(
+        3, "bad < worse??"
+    )
 
 
 def nested(depth: int) -> bytes:
@@ -202,7 +204,7 @@ def test_limits(limits: ValueLimits, document: bytes, reason: str) -> None:
 
 def test_long_text_is_no_long_token() -> None:
     text = "x" * 5 * MAX_TOKEN
-    assert parse(reply(f"<value>{text}</value>"), 1000) == Response(text)
+    assert parse(reply(f"<value>{text}</value>"), 1000) == MethodResponse(text)
 
 
 @given(st.binary(max_size=100))
@@ -221,7 +223,7 @@ def test_any_markup(xml: str) -> None:
         result = parse(reply(xml))
     except XmlRpcError:
         return
-    assert isinstance(result, Response)
+    assert isinstance(result, MethodResponse)
     check_value(result.value)
 
 

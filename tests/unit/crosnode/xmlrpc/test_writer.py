@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.errors import MessageValueError
-from crosnode.xmlrpc.values import Fault
+from crosnode.xmlrpc.values import MethodFault
 from crosnode.xmlrpc.writer import (
     MAX_DEPTH,
     ResponseWriter,
@@ -111,4 +111,4 @@ def test_documents_are_read_by_the_standard_library() -> None:
     assert xmlrpc.client.loads(dump_call("m", [])) == ((), "m")
 
     with pytest.raises(xmlrpc.client.Fault, match="no <good> \\?"):
-        xmlrpc.client.loads(dump_fault(Fault(3, "no <good> \0")))
+        xmlrpc.client.loads(dump_fault(MethodFault(3, "no <good> \0")))

@@ -1,0 +1,170 @@
+"""A link from its connection to its end, over the virtual network."""
+
+from typing import ClassVar
+
+from crosnode.transport.budget import StepBudget, StepLimits
+from crosnode.transport.connection import (
+    Closed,
+    ConnectionEvent,
+    ConnectionState,
+    ProtocolConnection,
+    Table,
+    Trigger,
+)
+from crosnode.transport.dyn_buffer import Data
+from crosnode.transport.event_loop import EventLoop
+from crosnode.transport.link import CLOSING_NS, CONNECT_NS, LinkState, PeerLink
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
+from plcsim.network import Address, Outcome, Socket, VirtualNetwork
+
+PEER_IP, OWN_IP = "192.168.0.2", "192.168.0.1"
+
+
+class Lines(ProtocolConnection):
+    """Bytes until the peer closes; says goodbye when it is closed from this side."""
+
+    TABLE: ClassVar[Table] = {
+        ConnectionState.STREAMING: {Trigger.END: ConnectionState.CLOSED},
+        ConnectionState.CLOSED: {},
+    }
+    IS_PARSED: ClassVar[bool] = False
+    event_price = 1
+
+    def __init__(self, farewell: bytes = b"") -> None:
+        super().__init__(ConnectionState.STREAMING, 0, 0)
+        self.received = b""
+        self._farewell = farewell
+        self._ended = False
+
+    def receive_data(self, data: Data) -> None:
+        self.received += data
+
+    def receive_eof(self) -> None:
+        self._ended = True
+
+    def next_event(self, now_ns: int) -> ConnectionEvent | None:
+        if not self._ended or self.state is ConnectionState.CLOSED:
+            return None
+        self.close()
+        return Closed()
+
+    def close(self) -> None:
+        if self.state is not ConnectionState.CLOSED:
+            self._outbox.append(self._farewell)
+        super().close()
+
+
+class Told:
+    """An owner that notes what it is told."""
+
+    def __init__(self) -> None:
+        self.events: list[ConnectionEvent] = []
+        self.reasons: list[str] = []
+
+    def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
+        self.events.append(event)
+
+    def expects_data(self, link: PeerLink) -> bool:
+        return True
+
+    def fill(self, link: PeerLink) -> None:
+        pass
+
+    def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
+        self.reasons.append(reason)
+
+
+class Wire:
+    """A link to a port of another host, where a socket may listen."""
+
+    def __init__(self, farewell: bytes = b"", *, listens: bool = True) -> None:
+        self.now_ns = 0
+        self.network = VirtualNetwork(lambda: self.now_ns)
+        self.host = self.network.host(PEER_IP)
+        self.listener = self._listen() if listens else None
+        context = Context(Memory(), self.network.host(OWN_IP))
+        self.loop = EventLoop(context, StepLimits())
+        self.protocol, self.told = Lines(farewell), Told()
+        self.link = self.loop.connect(Address(PEER_IP, 99), self.protocol, self.told, 0)
+
+    def _listen(self) -> Socket:
+        socket = self.host.open("", 99).socket
+        assert socket
+        socket.listen(1)
+        return socket
+
+    def step(self, count: int = 5) -> None:
+        for _ in range(count):
+            self.now_ns += 1_000_000
+            self.loop.step(self.now_ns, StepBudget(StepLimits()))
+
+    def peer(self) -> Socket:
+        assert self.listener
+        self.step()
+        socket = self.listener.accept().socket
+        assert socket
+        self.step()
+        return socket
+
+
+def test_bytes_go_to_the_protocol_and_its_events_to_the_owner() -> None:
+    wire = Wire()
+    peer = wire.peer()
+    assert wire.link.state is LinkState.OPEN
+    peer.send(b"abc")
+    wire.step()
+    assert wire.protocol.received == b"abc"
+    assert wire.link.bytes_in == 3
+    peer.close()
+    wire.step()
+    assert wire.told.events == [Closed()]
+    assert wire.told.reasons == [""]
+    assert wire.link.is_over
+    assert wire.loop.links == []
+
+
+def test_a_port_where_nobody_listens() -> None:
+    wire = Wire(listens=False)
+    wire.step(20)
+    assert wire.link.is_over
+    (reason,) = wire.told.reasons
+    assert reason.startswith(f"no connection to {PEER_IP}:99: AsTCP status")
+
+
+def test_a_peer_that_does_not_answer() -> None:
+    wire = Wire()
+    wire.network.faults.silence(PEER_IP)
+    wire.now_ns = CONNECT_NS
+    wire.step()
+    assert wire.told.reasons == [f"{PEER_IP}:99 does not answer"]
+
+
+def test_what_was_left_to_say_is_written_first() -> None:
+    wire = Wire(farewell=b"bye")
+    peer = wire.peer()
+    wire.link.close("enough")
+    wire.step()
+    assert wire.link.is_over
+    assert peer.recv(10).data == b"bye"
+    assert peer.recv(10).outcome is Outcome.CLOSED
+    assert wire.told.reasons == ["enough"]
+
+
+def test_a_peer_that_does_not_take_the_last_bytes_is_left_in_time() -> None:
+    wire = Wire(farewell=bytes(8 << 20))
+    wire.peer()
+    wire.link.close()
+    wire.step(200)
+    assert wire.link.state is LinkState.CLOSING
+    wire.now_ns += CLOSING_NS
+    wire.step()
+    assert wire.link.is_over
+
+
+def test_a_link_that_was_given_up_ends_once() -> None:
+    wire = Wire()
+    wire.link.abort("no time", 0)
+    wire.link.abort("again", 0)
+    wire.step()
+    assert wire.told.reasons == ["no time"]
