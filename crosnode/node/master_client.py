@@ -7,12 +7,14 @@ that was started again finds everything, parameter subscriptions included, whate
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
+from crosnode.node.registration import Registration, RegistrationState, RegistrationTrigger
 from crosnode.node.status import Status, StatusKind
+from crosnode.transport.transitions import Transitions, next_state
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
+from plcsim.core.backoff import Backoff
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,44 +25,43 @@ if TYPE_CHECKING:
 PING_NS: Final = 1_000_000_000
 FIRST_RETRY_NS: Final = 20_000_000
 LONGEST_RETRY_NS: Final = 1_000_000_000
-SETTLE_NS: Final = 5_000_000_000
-"""Nanoseconds that other nodes have to register with a master that was started again."""
 
 
-class Wish(Enum):
-    """Where a registration stands."""
+class MasterState(Enum):
+    """What the node knows of its master."""
 
-    PENDING = auto()
-    CALLING = auto()
-    REGISTERED = auto()
-    REFUSED = auto()
-    STALE = auto()
-    """No longer wanted, but the master may know it: taken back when it is found again."""
-    LEAVING = auto()
-    GONE = auto()
+    SEARCHED = auto()
+    """It was not there yet, and nobody was told so."""
+    FOUND = auto()
+    MISSED = auto()
 
 
-@dataclass(slots=True, eq=False)
-class Registration:
-    """One thing the master shall know.
+class MasterTrigger(Enum):
+    """What a call of the master comes to."""
 
-    Attributes:
-        name: topic, service or parameter, resolved.
-        register: method and parameters behind the caller's name.
-        unregister: the same for taking it back.
-        on_value: called with the value of the master's answer.
-        state: where it stands.
-        is_late: registered after the others, where many are.
-        is_known: whether a master may know it.
-    """
+    ANSWERED = "it answers"
+    UNREACHABLE = "it cannot be reached, or the connection to it ends"
 
-    name: str
-    register: tuple[str, list[Value]]
-    unregister: tuple[str, list[Value]]
-    on_value: Callable[[Value], None] | None = None
-    state: Wish = field(default=Wish.PENDING)
-    is_late: bool = False
-    is_known: bool = False
+
+MASTER: Final[Transitions[MasterState, MasterTrigger]] = {
+    MasterState.SEARCHED: {
+        MasterTrigger.ANSWERED: MasterState.FOUND,
+        MasterTrigger.UNREACHABLE: MasterState.MISSED,
+    },
+    MasterState.FOUND: {
+        MasterTrigger.ANSWERED: MasterState.FOUND,
+        MasterTrigger.UNREACHABLE: MasterState.MISSED,
+    },
+    MasterState.MISSED: {
+        MasterTrigger.ANSWERED: MasterState.FOUND,
+        MasterTrigger.UNREACHABLE: MasterState.MISSED,
+    },
+}
+
+_NEWS: Final = {
+    MasterState.FOUND: StatusKind.MASTER_FOUND,
+    MasterState.MISSED: StatusKind.MASTER_LOST,
+}
 
 
 class MasterClient:
@@ -72,6 +73,12 @@ class MasterClient:
         name: of the node, resolved.
         node_uri: of the node's slave API.
         statuses: where news goes.
+
+    Attributes:
+        uri: of the master.
+        state: what the node knows of it.
+        life: counts the masters that were lost or forgot the node: the next one may not know what
+            the one before it has told.
     """
 
     def __init__(
@@ -83,27 +90,24 @@ class MasterClient:
         statuses: DropOldestQueue[Status],
     ) -> None:
         self.uri = uri
-        self.is_found = False
+        self.state = MasterState.SEARCHED
+        self.life = 0
         self._caller = caller
         self._name = name
         self._node_uri = node_uri
         self._statuses = statuses
         self._registrations: list[Registration] = []
         self._now_ns = 0
-        self._retry_ns = 0
-        self._pause_ns = FIRST_RETRY_NS
+        self._backoff = Backoff(FIRST_RETRY_NS, LONGEST_RETRY_NS)
+        self._ping: ApiCall | None = None
         self._ping_ns = 0
-        self._pinging = False
         self._is_dirty = False
-        self._settled_ns: int | None = None
-        self._was_lost = False
-        self._is_missed = False
         self._is_closing = False
 
     @property
-    def is_settling(self) -> bool:
-        """Whether the master may not know again all that the one before it knew."""
-        return self._settled_ns is not None and self._now_ns < self._settled_ns
+    def is_found(self) -> bool:
+        """Whether the master answered, and the connection to it is there."""
+        return self.state is MasterState.FOUND
 
     @property
     def is_clean(self) -> bool:
@@ -113,7 +117,7 @@ class MasterClient:
     @property
     def is_registered(self) -> bool:
         """Whether the master has taken all registrations."""
-        return all(r.state in (Wish.REGISTERED, Wish.REFUSED) for r in self._registrations)
+        return all(registration.is_settled for registration in self._registrations)
 
     def add(self, registration: Registration) -> None:
         """Register from now on."""
@@ -122,28 +126,16 @@ class MasterClient:
 
     def remove(self, registration: Registration) -> None:
         """Take a registration back, now or when the master is found again."""
-        if registration.state in (Wish.STALE, Wish.LEAVING, Wish.GONE):
-            return
-        is_known = registration.state is Wish.REGISTERED and self.is_found
-        if is_known or registration.state is Wish.CALLING:
-            self._unregister(registration)
-        elif self._may_be_known(registration):
-            registration.state = Wish.STALE
-        else:
-            self._gone(registration)
-
-    def _may_be_known(self, registration: Registration) -> bool:
-        is_pending = registration.state is Wish.PENDING
-        return is_pending and registration.is_known and not self._is_closing
+        if registration.is_wanted:
+            self._move(registration, RegistrationTrigger.REMOVED)
 
     def remove_all(self) -> None:
         """Take all registrations back; a master that is away is not waited for."""
         self._is_closing = True
         for registration in list(self._registrations):
-            if registration.state is Wish.STALE:
-                self._gone(registration)
-            else:
-                self.remove(registration)
+            self.remove(registration)
+            if registration.state is RegistrationState.STALE:
+                self._move(registration, RegistrationTrigger.GIVEN_UP)
 
     def call(
         self, method: str, params: list[Value], on_end: Callable[[ApiCall], None] | None = None
@@ -157,104 +149,100 @@ class MasterClient:
         """Send what is due."""
         self._now_ns = now_ns
         if self.is_found and not self._caller.is_connected(self.uri):
-            self._lost("the connection was closed")
-        if now_ns < self._retry_ns:
+            self._unreachable("the connection was closed")
+        if not self._backoff.is_due(now_ns):
             return
         if self._is_dirty:
             self._is_dirty = False
-            for registration in sorted(self._registrations, key=lambda each: each.is_late):
-                if registration.state is Wish.PENDING:
-                    self._register(registration)
-                elif registration.state is Wish.STALE:
-                    self._unregister(registration)
-        elif now_ns >= self._ping_ns and not self._pinging and self._registrations:
-            self._pinging = True
-            self.call("lookupNode", [self._name], self._pinged)
+            self._tell_master()
+        elif now_ns >= self._ping_ns and self._ping is None and self._registrations:
+            self._ping = self.call("lookupNode", [self._name], self._pinged)
 
-    def _register(self, registration: Registration) -> None:
-        registration.state = Wish.CALLING
-        registration.is_known = True
-        method, params = registration.register
-        self.call(method, params, lambda call: self._registered(registration, call))
+    def _tell_master(self) -> None:
+        """Make the calls of all registrations that wait for theirs."""
+        waiting = (RegistrationState.NEW, RegistrationState.AGAIN, RegistrationState.STALE)
+        for registration in sorted(self._registrations, key=lambda each: each.is_late):
+            if registration.state in waiting:
+                self._move(registration, RegistrationTrigger.CALLED)
+
+    def _move(self, registration: Registration, trigger: RegistrationTrigger) -> None:
+        """Let something happen to a registration, and do what the state that follows asks for."""
+        state = registration.move(trigger)
+        if state is RegistrationState.CALLING:
+            self.call(*registration.register, lambda call: self._registered(registration, call))
+        elif state is RegistrationState.LEAVING:
+            self.call(*registration.unregister, lambda call: self._unregistered(registration, call))
+        elif state is RegistrationState.GONE:
+            self._registrations.remove(registration)
+            self._tell(StatusKind.UNREGISTERED, registration.name, registration.unregister[0])
+        elif state in (RegistrationState.AGAIN, RegistrationState.STALE):
+            self._is_dirty = True
 
     def _registered(self, registration: Registration, call: ApiCall) -> None:
-        if registration.state is not Wish.CALLING:
-            return
+        if registration.state is not RegistrationState.CALLING:
+            return  # taken back meanwhile
         if not call.was_answered:
-            registration.state = Wish.PENDING
-            self._lost(call.error)
+            self._move(registration, RegistrationTrigger.UNANSWERED)
+            self._unreachable(call.error)
             return
-        self._found()
+        self._answered()
         if call.state is CallState.FAILED:
-            registration.state = Wish.REFUSED
+            self._move(registration, RegistrationTrigger.REFUSED)
             self._tell(StatusKind.REGISTRATION_REFUSED, registration.name, call.error)
             return
-        registration.state = Wish.REGISTERED
+        self._move(registration, RegistrationTrigger.TAKEN)
         self._tell(StatusKind.REGISTERED, registration.name, call.method)
         if registration.on_value:
             registration.on_value(call.value)
 
-    def _unregister(self, registration: Registration) -> None:
-        registration.state = Wish.LEAVING
-        method, params = registration.unregister
-        self.call(method, params, lambda call: self._unregistered(registration, call))
-
     def _unregistered(self, registration: Registration, call: ApiCall) -> None:
-        if call.was_answered or self._is_closing:
-            self._gone(registration)
-            return
-        registration.state = Wish.STALE
-        self._lost(call.error)
-
-    def _gone(self, registration: Registration) -> None:
-        registration.state = Wish.GONE
-        self._registrations.remove(registration)
-        self._tell(StatusKind.UNREGISTERED, registration.name, registration.unregister[0])
+        if call.was_answered:
+            self._move(registration, RegistrationTrigger.LET_GO)
+        elif self._is_closing:
+            self._move(registration, RegistrationTrigger.GIVEN_UP)
+        else:
+            self._move(registration, RegistrationTrigger.UNANSWERED)
+            self._unreachable(call.error)
 
     def _pinged(self, call: ApiCall) -> None:
-        self._pinging = False
+        self._ping = None
         self._ping_ns = self._now_ns + PING_NS
         if not call.was_answered:
-            self._lost(call.error)
-        elif call.state is CallState.FAILED:
-            self._found()
-            self._settled_ns = self._now_ns + SETTLE_NS
+            self._unreachable(call.error)
+            return
+        self._answered()
+        if call.state is CallState.FAILED:  # it does not know the node
+            self.life += 1
             self._register_again()
-        else:
-            self._found()
-            if call.value != self._node_uri:
-                self._tell(StatusKind.NAME_TAKEN, self._name, str(call.value))
+        elif call.value != self._node_uri:
+            self._tell(StatusKind.NAME_TAKEN, self._name, str(call.value))
 
-    def _found(self) -> None:
-        self._pause_ns = FIRST_RETRY_NS
-        if not self.is_found:
-            self.is_found = True
-            self._is_missed = False
-            if self._was_lost:
-                self._settled_ns = self._now_ns + SETTLE_NS
+    def _answered(self) -> None:
+        self._backoff.succeeded()
+        if self._enter(MasterTrigger.ANSWERED, ""):
             self._ping_ns = self._now_ns + PING_NS
-            self._tell(StatusKind.MASTER_FOUND, self.uri)
 
-    def _lost(self, reason: str) -> None:
+    def _unreachable(self, reason: str) -> None:
         """Wait a little longer each time before the master is tried again."""
         self._register_again()
-        if self.is_found:
-            self._was_lost = True
-            self._tell(StatusKind.MASTER_LOST, self.uri, reason)
-        elif self._now_ns < self._retry_ns:
+        if not self.is_found and not self._backoff.is_due(self._now_ns):
             return  # another call of the same attempt failed
-        elif not self._is_missed:
-            self._tell(StatusKind.MASTER_LOST, self.uri, reason)
-        self._is_missed = True
-        self.is_found = False
-        self._retry_ns = self._now_ns + self._pause_ns
-        self._pause_ns = min(2 * self._pause_ns, LONGEST_RETRY_NS)
+        self.life += self.is_found
+        self._enter(MasterTrigger.UNREACHABLE, reason)
+        self._backoff.failed(self._now_ns)
+
+    def _enter(self, trigger: MasterTrigger, reason: str) -> bool:
+        """Go where the table says, and tell the program; return whether the state is another."""
+        before, self.state = self.state, next_state(MASTER, self.state, trigger, "master")
+        if self.state is not before:
+            self._tell(_NEWS[self.state], self.uri, reason)
+        return self.state is not before
 
     def _register_again(self) -> None:
         self._is_dirty = True
         for registration in self._registrations:
-            if registration.state in (Wish.REGISTERED, Wish.REFUSED):
-                registration.state = Wish.PENDING
+            if registration.is_settled:
+                self._move(registration, RegistrationTrigger.FORGOTTEN)
 
     def _tell(self, kind: StatusKind, name: str, text: str = "") -> None:
         self._statuses.push(Status(kind, name, text))

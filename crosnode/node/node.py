@@ -14,11 +14,12 @@ from crosnode.graph.hosts import HostTable
 from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.core import NodeCore
-from crosnode.node.master_client import MasterClient, Registration
+from crosnode.node.master_client import MasterClient
 from crosnode.node.options import NodeOptions
 from crosnode.node.parameter import ParameterSubscription, check_parameters
 from crosnode.node.publisher import Publisher, TopicAcceptor
 from crosnode.node.queues import DropOldestQueue
+from crosnode.node.registration import Registration
 from crosnode.node.ros_time import RosTime
 from crosnode.node.rosout import LogLevel, Rosout
 from crosnode.node.service_caller import ServiceCaller

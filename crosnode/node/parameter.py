@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.errors import MessageValueError
 from crosnode.graph.names import SEPARATOR, canonical
-from crosnode.node.master_client import Wish
 from crosnode.node.queues import DropOldestQueue
+from crosnode.node.registration import RegistrationState
 from crosnode.xmlrpc import check_value
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from crosnode.node.master_client import Registration
+    from crosnode.node.registration import Registration
     from crosnode.xmlrpc import Value
 
 MAX_EARLY: Final = 100
@@ -83,7 +83,7 @@ class ParameterSubscription:
 
     def param_update(self, name: str, value: Value) -> None:
         """Take a change from the master's call."""
-        if self.registration.state is Wish.CALLING:
+        if self.registration.state is RegistrationState.CALLING:
             self._early.push(ParameterUpdate(name, value))
         self.update(name, value)
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from crosnode.messages import Message, MessageType, ServiceType
     from crosnode.node.core import NodeCore, NodeView
-    from crosnode.node.master_client import Registration
+    from crosnode.node.registration import Registration
     from crosnode.transport.connection import ConnectionEvent
     from crosnode.transport.event_loop import Accepted
     from crosnode.transport.link import PeerLink

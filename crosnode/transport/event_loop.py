@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
 from crosnode.transport.link import LinkState, PeerLink
 from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
+from plcsim.core.backoff import Backoff
 
 if TYPE_CHECKING:
     from crosnode.transport.budget import StepBudget, StepLimits
@@ -57,7 +58,7 @@ class PortListener:
         self._acceptor = acceptor
         self._socket = loop.pool.get()
         self._next = loop.pool.get()
-        self._retry_ns = 0
+        self._backoff = Backoff(REOPEN_NS, REOPEN_NS)
 
     @property
     def is_open(self) -> bool:
@@ -73,9 +74,9 @@ class PortListener:
         """Open the port where it is not, at most once a second; return whether it is."""
         if self._socket.is_open:
             return True
-        if now_ns < self._retry_ns:
+        if not self._backoff.is_due(now_ns):
             return False
-        self._retry_ns = now_ns + REOPEN_NS
+        self._backoff.failed(now_ns)
         self._socket.init(self._ip, self.port)
         if self._socket.open(listening=True) is not TcpipSocketState.DONE:
             return False

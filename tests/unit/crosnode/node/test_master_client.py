@@ -1,7 +1,8 @@
 """The node and its master on bad days: absent, restarted, restarted with the same pid, refusing."""
 
 from crosnode.node import StatusKind
-from crosnode.node.master_client import Wish
+from crosnode.node.registration import RegistrationState
+from crosnode.xmlrpc.api_caller import ApiCall
 from plcsim.network import Outcome
 
 from .world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, drain, news, words
@@ -49,31 +50,44 @@ def test_after_a_restart_all_is_registered_again_and_no_message_is_lost() -> Non
     assert {StatusKind.MASTER_FOUND, StatusKind.MASTER_LOST} <= kinds
 
 
-def test_publishers_that_register_again_late_are_kept_and_those_that_do_not_are_left() -> None:
+def test_an_open_connection_is_kept_though_a_new_master_never_names_the_publisher() -> None:
     world = World()
-    listener = world.node("listener")
+    listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
     subscriber = listener.register_subscriber("/x", STRING, queue_size=1000)
-    late, gone = world.node("late", OTHER_IP), world.node("gone", "192.168.0.21")
-    publishers = [node.register_publisher("/x", STRING) for node in (late, gone)]
-    world.until(lambda: subscriber.publishers == 2)
-    world.run(50)
-    for node in (late, gone):
-        world.steps.remove(node.do_events_loop)
+    publisher = talker.register_publisher("/x", STRING)
+    world.until(lambda: subscriber.publishers)
+    world.leave_to_its_connections(talker)
     world.kill_master()
+    world.run(500)
     world.restart_master()
-    world.until(lambda: listener.is_registered and subscriber._unlisted)
-    world.run(1_000)
-    world.steps.append(late.do_events_loop)
-    world.until(lambda: late.is_registered)
-    publishers[0].send(publishers[0].new(data="still here"))
-    world.run(20)
-    assert words(subscriber.pop) == ["still here"]
-    assert subscriber.publishers == 2
-    world.run(6_000)
-    assert list(subscriber.peers) == [late.uri]
-    assert subscriber.peers[late.uri].received == 1
+    world.until(lambda: listener.is_registered)
+    for number in range(40):
+        publisher.send(publisher.new(data=str(number)))
+        world.run(1_000, step_ms=10)
+    assert words(subscriber.pop) == [str(number) for number in range(40)]
     kinds = [status.kind for status in drain(listener.pop_status) if status.name == "/x"]
-    assert kinds.count(StatusKind.CONNECTED) == 2  # nobody was connected to again
+    assert StatusKind.DISCONNECTED not in kinds
+    talker.destroy()
+    world.run(50)
+    assert subscriber.peers == {}  # nobody names it: it is not tried again
+
+
+def test_what_the_same_master_takes_away_is_left_though_the_connection_lives() -> None:
+    world = World()
+    listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
+    subscriber = listener.register_subscriber("/x", STRING)
+    talker.register_publisher("/x", STRING)
+    world.until(lambda: subscriber.publishers)
+    world.kill_master()
+    master = world.start_master()
+    world.until(lambda: listener.is_registered and talker.is_registered)
+    world.run(50)
+    assert list(subscriber.peers) == [talker.uri]
+    call = ApiCall(master.uri, "unregisterPublisher", ["/talker", "/x", talker.uri])
+    listener.core.api.start(call)
+    world.until(lambda: not subscriber.peers, 50)
+    world.run(50)
+    assert not subscriber.publishers
 
 
 def test_a_master_that_forgot_all_while_the_connection_stayed_is_told_again() -> None:
@@ -208,7 +222,7 @@ def test_what_the_master_refused_is_gone_at_once() -> None:
     node = world.node("n")
     subscriber = node.register_subscriber("/x", STRING)
     world.until(lambda: node.is_registered)
-    subscriber.registration.state = Wish.REFUSED
+    subscriber.registration.state = RegistrationState.REFUSED
     node.unregister(subscriber)
-    assert subscriber.registration.state is Wish.GONE
+    assert subscriber.registration.state is RegistrationState.GONE
     assert node.is_registered

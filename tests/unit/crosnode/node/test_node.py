@@ -283,10 +283,12 @@ def test_a_subscriber_taken_back_while_the_master_is_new_parts_from_its_publishe
     publisher = talker.register_publisher("/x", STRING)
     subscriber = listener.register_subscriber("/x", STRING)
     world.until(lambda: publisher.subscribers)
+    world.leave_to_its_connections(talker)
     world.kill_master()
     world.run(100)
     world.restart_master()
     world.until(lambda: listener.is_registered)
-    assert listener.core.master.is_settling
+    (peer,) = subscriber.peers.values()
+    assert peer.life < listener.core.master.life
     listener.unregister(subscriber)
     world.until(lambda: not publisher.subscribers, 100)

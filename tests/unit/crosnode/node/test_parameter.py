@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from crosnode.errors import MessageValueError
 from crosnode.node import ParameterUpdate, StatusKind
-from crosnode.node.master_client import Registration, Wish
 from crosnode.node.parameter import ParameterSubscription, check_parameters
+from crosnode.node.registration import Registration, RegistrationState
 
 from .world import OTHER_IP, PLC_IP, World, drain, news
 
@@ -51,7 +51,7 @@ def test_a_leaf_changes_only_its_place_in_the_namespace() -> None:
 
 def test_changes_that_overtake_the_answer_to_the_registration_are_made_again() -> None:
     param = subscription()
-    param.registration.state = Wish.CALLING
+    param.registration.state = RegistrationState.CALLING
     param.param_update("/p/a", 2)
     param.param_update("/p/b", 3)
     param.registered({"a": 1, "c": 4})

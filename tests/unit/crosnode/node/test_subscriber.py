@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crosnode.node import CrosNode, StatusKind, Subscriber
+from crosnode.node.publisher_link import PublisherState
 from crosnode.node.subscriber import MAX_PUBLISHERS
 from crosnode.tcpros.header import encode_header
 from plcsim.network import Outcome, Socket
@@ -33,6 +34,7 @@ class RawPublisher:
         self.lead()
 
     def lead(self) -> None:
+        self.link.state = PublisherState.LOCATED
         self.link._address = self.subscriber.core.hosts.address(f"http://{PEER_IP}:{PORT}/", "http")
 
     def accept(self) -> "RawPublisher":

@@ -7,7 +7,7 @@ from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions, Status, StatusKind
 from crosnode.tcpros.header import encode_header
-from crosnode.transport.budget import StepLimits
+from crosnode.transport.budget import StepBudget, StepLimits
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import Address, Link, Outcome, Socket, VirtualNetwork
@@ -75,6 +75,12 @@ class World:
         node = CrosNode(self.context(ip), settings, options=limits)
         self.steps.append(node.do_events_loop)
         return node
+
+    def leave_to_its_connections(self, node: CrosNode) -> None:
+        """Let a node do as rospy does: it does not register again with a master that is new."""
+        self.steps.remove(node.do_events_loop)
+        loop, context = node.core.loop, node._context
+        self.steps.append(lambda: loop.step(context.release_ns, StepBudget(loop.limits)))
 
     def run(self, ms: int = 50, step_ms: int = 1) -> None:
         for _ in range(0, ms, step_ms):

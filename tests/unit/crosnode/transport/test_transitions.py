@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 
 from crosnode.errors import LocalProtocolError
+from crosnode.node.publisher_link import PUBLISHER_LINK
+from crosnode.node.registration import REGISTRATION
 from crosnode.tcpros import service, topic
 from crosnode.transport.link import LINK, LinkState
 from crosnode.transport.transitions import Transitions, next_state
@@ -36,6 +38,8 @@ def test_goes_where_the_table_says() -> None:
 
 TABLES: dict[str, Any] = {
     "link": LINK,
+    "publisher link": PUBLISHER_LINK,
+    "registration": REGISTRATION,
     "publisher": topic.PUBLISHER,
     "subscriber": topic.SUBSCRIBER,
     "service client": service.CLIENT,
