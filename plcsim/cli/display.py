@@ -160,8 +160,10 @@ def _summary_table(classes: list[dict[str, Any]]) -> Table:
 
 def _blame(classes: list[dict[str, Any]]) -> str:
     """Return how many violations there were by cause, "" where there were none."""
-    causes = ("program", "host", "preempted")
-    counts = {cause: sum(c["violations"][cause] for c in classes) for cause in causes}
+    counts: dict[str, int] = {}
+    for c in classes:
+        for cause, count in c["violations"].items():
+            counts[cause] = counts.get(cause, 0) + count
     if not any(counts.values()):
         return ""
     return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Protocol
 from plcsim.core.clock import MonotonicClock
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import ProgramError
+from plcsim.core.forces import Forces
 from plcsim.core.image import ProcessImage
 from plcsim.core.logbook import Logbook, Severity
+from plcsim.core.owners import Owners
 from plcsim.core.scan import Scan
 from plcsim.core.system import Event, State, next_state
 from plcsim.core.tag import TagTable
@@ -68,6 +70,8 @@ class Controller:
         classes: in the order of their numbers.
         tasks: in configured order, that of the exception program last.
         areas: all variables of the controller: those of each program as one tag.
+        owners: which class owns which of them.
+        forces: the forced ones.
         state: BOOT, RUN, SERVICE or STOPPED.
         fault: what led to SERVICE, None otherwise.
         stop_requested: `stop` was called since the last `boot`.
@@ -91,7 +95,9 @@ class Controller:
         self.state = State.BOOT
         self.fault: ProgramError | Violation | None = None
         self.violations: list[Violation] = []
-        self.image = ProcessImage()
+        self.owners = Owners(classes)
+        self.forces = Forces(self.memory, self.owners)
+        self.image = ProcessImage(self.forces)
         self.scan = Scan(classes, self.clock, context, self.image, self, idle)
         self.image.attach(self.scan)
         self.classes = self.scan.classes
@@ -249,6 +255,10 @@ def describe_violation(violation: Violation) -> str:
         Cause.PREEMPTED: (
             f"programs of other classes used {format_duration(violation.others_ns)}, "
             f"{violation.program} most"
+        ),
+        Cause.CONTROLLER: (
+            f"LATCH and PUBLISH used {format_duration(violation.controller_ns)}, for what is read "
+            "and written from outside"
         ),
         Cause.HOST: "the host did not give the CPU in time",
     }[violation.cause]

@@ -1,18 +1,21 @@
 """The process image: values come in only in LATCH and go out only in PUBLISH.
 
 Who brings values in or takes them out enters a call here: plant models and recorders of tests, the
-extensions, and `plcsim.shared_image`, through which other processes read and write.
+extensions, and `plcsim.shared_image`, through which other processes read and write. Forced tags
+come last in LATCH and first in PUBLISH: nobody gets round a force.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.core.owners import bits_of
 from plcsim.core.scan import Phase
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from plcsim.core.forces import Forces
     from plcsim.core.scan import Scan
     from plcsim.core.task import TaskClass
 
@@ -20,14 +23,18 @@ if TYPE_CHECKING:
 class ProcessImage:
     """What is called at the right moments of the scan, in the order in which it was entered.
 
+    Args:
+        forces: the forced tags.
+
     Attributes:
         inputs: called in LATCH with the task class; here a plant model sets inputs.
         watchers: called in PUBLISH with the task class; here a recorder reads tags.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, forces: Forces) -> None:
         self.inputs: list[Callable[[TaskClass], None]] = []
         self.watchers: list[Callable[[TaskClass], None]] = []
+        self._forces = forces
         self._scan: Scan | None = None
 
     def attach(self, scan: Scan) -> None:
@@ -38,6 +45,11 @@ class ProcessImage:
         if self._scan is not None:
             self._scan.require(phase)
 
+    def held(self) -> int:
+        """Return the classes that are preempted in the middle of a cycle, as bits of owners."""
+        in_cycle = self._scan.in_cycle if self._scan is not None else []
+        return bits_of(in_cycle[:-1])
+
     def latch(self, task_class: TaskClass) -> None:
         """Let the inputs of a class be set.
 
@@ -47,6 +59,8 @@ class ProcessImage:
         self._require(Phase.LATCH)
         for bring_in in self.inputs:
             bring_in(task_class)
+        if self._forces:
+            self._forces.apply(self.held())
 
     def publish(self, task_class: TaskClass) -> None:
         """Let the watchers see the tags.
@@ -55,5 +69,7 @@ class ProcessImage:
             PhaseError: the scan is not in PUBLISH.
         """
         self._require(Phase.PUBLISH)
+        if self._forces:
+            self._forces.apply(self.held())
         for watch in self.watchers:
             watch(task_class)

@@ -108,6 +108,7 @@ class Scan:
         self._supervisor = supervisor
         self._idle = idle
         self._own_ns = 0
+        self._elsewhere_ns = 0
         self._aborted: tuple[Task, str] | None = None
         self._end_ns = _NEVER
         self._last_cycle = _NEVER
@@ -185,17 +186,24 @@ class Scan:
     def _run_class(self, task_class: TaskClass) -> None:
         """Run one cycle of a class; what it interrupts goes on as it was."""
         outer = self.phase, self._context.release_ns, self._own_ns, self._aborted
+        elsewhere_ns = self._elsewhere_ns
         self._context.release_ns = task_class.release_ns
-        self._own_ns = 0
+        self._own_ns = self._elsewhere_ns = 0
         self._aborted = None
-        task_class.lateness.record(self._clock.now_ns() - task_class.release_ns)
+        start_ns = self._clock.now_ns()
+        task_class.lateness.record(start_ns - task_class.release_ns)
         task_class.cycles += 1
         self.in_cycle.append(task_class)
+        cpu_ns = self._clock.cpu_ns()
         try:
             self._run_phases(task_class)
+            used_ns = self._clock.cpu_ns() - cpu_ns
+            self._account(task_class, start_ns, used_ns - self._elsewhere_ns)
+            elsewhere_ns += used_ns
         finally:
             self.in_cycle.pop()
             self.phase, self._context.release_ns, self._own_ns, self._aborted = outer
+            self._elsewhere_ns = elsewhere_ns
 
     def _run_phases(self, task_class: TaskClass) -> None:
         self.phase = Phase.LATCH
@@ -204,7 +212,6 @@ class Scan:
         self._run_tasks(task_class)
         self.phase = Phase.PUBLISH
         self._image.publish(task_class)
-        self._account(task_class, self._clock.now_ns())
 
     def _run_tasks(self, task_class: TaskClass) -> None:
         order = self.classes.index(task_class)
@@ -251,6 +258,7 @@ class Scan:
             self.active = None
             self._supervisor.failed(task, error)
         used_ns = clock.cpu_ns() - cpu_ns
+        self._elsewhere_ns += used_ns
         end_ns = clock.now_ns()
         if clock.waits() != waits:
             used_ns = max(used_ns, end_ns - start_ns)
@@ -260,11 +268,21 @@ class Scan:
             task_class.note_use(task, start_ns, end_ns, used_ns)
         return ended
 
-    def _account(self, task_class: TaskClass, end_ns: int) -> None:
-        """Record the cycle, lay the next release on the grid, judge an overrun."""
+    def _account(self, task_class: TaskClass, start_ns: int, controller_ns: int) -> None:
+        """Record the cycle, lay the next release on the grid, judge an overrun.
+
+        Args:
+            task_class: whose cycle has ended.
+            start_ns: of the cycle.
+            controller_ns: CPU time that LATCH and PUBLISH used.
+        """
+        end_ns = self._clock.now_ns()
         response_ns = end_ns - task_class.release_ns
         task_class.execution.record(self._own_ns)
+        task_class.controller.record(controller_ns)
         task_class.response.record(response_ns)
+        for each in self.classes:
+            each.note_use(None, start_ns, end_ns, controller_ns)
         violation = None
         if response_ns > task_class.cycle_ns + task_class.tolerance_ns or self._aborted:
             violation = self._judge(task_class, response_ns)
@@ -279,12 +297,14 @@ class Scan:
     def _judge(self, task_class: TaskClass, response_ns: int) -> Violation:
         """Return the violation with its cause: who used more than the limit allows."""
         limit_ns = task_class.cycle_ns + task_class.tolerance_ns
-        own, others = task_class.used_by_own_and_others()
+        own, others, controller_ns = task_class.used_by_own_and_others()
         own_ns, others_ns = sum(own.values()), sum(others.values())
         if own_ns > limit_ns or self._aborted:
             cause = Cause.PROGRAM
         elif own_ns + others_ns > limit_ns:
             cause = Cause.PREEMPTED
+        elif own_ns + others_ns + controller_ns > limit_ns:
+            cause = Cause.CONTROLLER
         else:
             cause = Cause.HOST
         suspects = others if cause is Cause.PREEMPTED else own
@@ -299,6 +319,7 @@ class Scan:
             response_ns=response_ns,
             own_ns=own_ns,
             others_ns=others_ns,
+            controller_ns=controller_ns,
             limit_ns=limit_ns,
             location=location,
         )

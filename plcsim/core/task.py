@@ -78,6 +78,7 @@ class Cause(Enum):
     PROGRAM = "program"
     HOST = "host"
     PREEMPTED = "preempted"
+    CONTROLLER = "controller"
 
 
 class Policy(Enum):
@@ -95,11 +96,12 @@ class Violation(NamedTuple):
         task_class: number of the task class.
         program: the program that used most of the time, "" where none ran.
         cycle: number of the cycle in its class, from 1.
-        cause: the class' own programs, programs of other classes, or the host.
+        cause: the class' own programs, programs of other classes, the controller, or the host.
         release_ns: grid point the cycle belonged to, since the start of the scan.
         response_ns: from the release to the end of the cycle.
         own_ns: CPU time of the class' own programs; wall time of those that waited.
         others_ns: CPU time of programs of other classes between release and end.
+        controller_ns: CPU time of LATCH and PUBLISH of all classes between release and end.
         limit_ns: cycle time plus tolerance.
         location: "file:line" where a program that did not return was ended, "" otherwise.
     """
@@ -112,6 +114,7 @@ class Violation(NamedTuple):
     response_ns: int
     own_ns: int
     others_ns: int
+    controller_ns: int
     limit_ns: int
     location: str = ""
 
@@ -126,7 +129,7 @@ class TaskClass:
         first_release_ns: from the start of the scan to the first release; half the cycle time on
             the controller.
         policy: what a violation by a program leads to.
-        host_policy: what a violation by the host leads to.
+        host_policy: what a violation by the host or the controller leads to.
         tasks: in configured order.
         release_ns: the next grid point, on the controller's clock.
         cycles: cycles begun.
@@ -135,6 +138,7 @@ class TaskClass:
         violations: number of violations by cause.
         lateness: from the release to the start of the cycle.
         execution: CPU time of all programs of one cycle.
+        controller: CPU time of LATCH and PUBLISH of one cycle.
         response: from the release to the end of the cycle.
     """
 
@@ -171,23 +175,24 @@ class TaskClass:
         self.violations = dict.fromkeys(Cause, 0)
         self.lateness = Histogram()
         self.execution = Histogram()
+        self.controller = Histogram()
         self.response = Histogram()
-        self._used_ns: dict[Task, int] = {}
+        self._used_ns: dict[Task | None, int] = {}
 
     def policy_for(self, cause: Cause) -> Policy:
-        """Return what a violation by ``cause`` leads to."""
-        return self.host_policy if cause is Cause.HOST else self.policy
+        """Return what a violation by ``cause`` leads to; only programs answer for theirs."""
+        return self.host_policy if cause in (Cause.HOST, Cause.CONTROLLER) else self.policy
 
     def lay_grid(self, origin_ns: int) -> None:
         """Go to the first release of a scan that starts at ``origin_ns``."""
         self.release_ns = origin_ns + self.first_release_ns
         self._used_ns.clear()
 
-    def note_use(self, task: Task, start_ns: int, end_ns: int, used_ns: int) -> None:
+    def note_use(self, task: Task | None, start_ns: int, end_ns: int, used_ns: int) -> None:
         """Note what a program used after the release of this class; before it, it took nothing.
 
         Args:
-            task: of any class.
+            task: of any class, None for LATCH and PUBLISH.
             start_ns: when it ran, on the controller's clock.
             end_ns: until when.
             used_ns: CPU time used between the two.
@@ -196,10 +201,14 @@ class TaskClass:
         if overlap_ns > 0:
             self._used_ns[task] = self._used_ns.get(task, 0) + min(used_ns, overlap_ns)
 
-    def used_by_own_and_others(self) -> tuple[dict[Task, int], dict[Task, int]]:
-        """Return what the class' own programs and those of others have used since the release."""
-        own = {task: ns for task, ns in self._used_ns.items() if task in self.tasks}
-        return own, {task: ns for task, ns in self._used_ns.items() if task not in own}
+    def used_by_own_and_others(self) -> tuple[dict[Task, int], dict[Task, int], int]:
+        """Return what the class' own programs, those of others and LATCH and PUBLISH have used."""
+        own: dict[Task, int] = {}
+        others: dict[Task, int] = {}
+        for task, ns in self._used_ns.items():
+            if task is not None:
+                (own if task in self.tasks else others)[task] = ns
+        return own, others, self._used_ns.get(None, 0)
 
     def advance(self, end_ns: int) -> None:
         """Go to the first grid point after the current one that is not before ``end_ns``.

@@ -40,6 +40,7 @@ def class_report(task_class: TaskClass) -> dict[str, Any]:
         "violations": {cause.value: n for cause, n in task_class.violations.items()},
         "lateness_ns": histogram_report(task_class.lateness),
         "execution_ns": histogram_report(task_class.execution),
+        "controller_ns": histogram_report(task_class.controller),
         "response_ns": histogram_report(task_class.response),
         "programs": [
             {"name": task.name, "execution_ns": histogram_report(task.execution)}

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.system import State
+from plcsim.core.task import Cause
 
 if TYPE_CHECKING:
     from plcsim.core.task import Task, TaskClass
@@ -23,6 +24,12 @@ SIZE = 4096
 _MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME = range(5)
 _CLASSES = 16
 _FIELDS_PER_CLASS = 16
+_CELL_OF_CAUSE = {
+    Cause.PROGRAM: 3,
+    Cause.HOST: 4,
+    Cause.PREEMPTED: 5,
+    Cause.CONTROLLER: 10,
+}
 _SERVICES = 160
 _CELLS_PER_SERVICE = 2
 
@@ -48,11 +55,12 @@ class ClassStatus(NamedTuple):
     longest_execution_ns: int
     lateness_ns: int
     longest_lateness_ns: int
+    by_controller: int
 
     @property
     def violations(self) -> int:
         """Violations of all causes."""
-        return self.by_program + self.by_host + self.preempted
+        return self.by_program + self.by_host + self.preempted + self.by_controller
 
 
 class StatusPage:
@@ -103,9 +111,9 @@ class StatusPage:
             cells[at + 1] = task_class.missed
         if task_class.in_tolerance:
             cells[at + 2] = task_class.in_tolerance
-        for place, count in enumerate(task_class.violations.values(), at + 3):
+        for cause, count in task_class.violations.items():
             if count:
-                cells[place] = count
+                cells[at + _CELL_OF_CAUSE[cause]] = count
 
     def changed(self, state: State) -> None:
         """Note a new system state."""
@@ -159,4 +167,4 @@ class StatusPage:
     def of_class(self, number: int) -> ClassStatus:
         """Return the figures of task class ``number``."""
         at = _CLASSES + (number - 1) * _FIELDS_PER_CLASS
-        return ClassStatus(*self._cells[at : at + 10].tolist())
+        return ClassStatus(*self._cells[at : at + 11].tolist())

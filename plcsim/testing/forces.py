@@ -12,6 +12,7 @@ from st_types.types.elementary import ElementaryType, Kind
 if TYPE_CHECKING:
     from random import Random
 
+    from plcsim.core import forces as core
     from plcsim.core.tag import Tag
     from plcsim.testing.tags import Tags
 
@@ -19,14 +20,11 @@ __tracebackhide__ = True
 
 
 class Forces:
-    """Forced tags: written in LATCH before the programs run, and again in PUBLISH.
+    """The forced tags of the controller under test, by path."""
 
-    So a program reads the forced value, and what it writes itself never gets out.
-    """
-
-    def __init__(self, tags: Tags) -> None:
+    def __init__(self, tags: Tags, forces: core.Forces) -> None:
         self._tags = tags
-        self._forced: dict[str, tuple[str, bytes]] = {}
+        self._forces = forces
 
     def force(self, path: str, value: object) -> None:
         """Force a tag from now on.
@@ -34,7 +32,7 @@ class Forces:
         Raises:
             TagError: there is no such tag, or it cannot take the value.
         """
-        self._forced[path.upper()] = path, self._tags.encode(path, value)
+        self._forces.force(self._tags.find(path), self._tags.encode(path, value), "the test")
         self._tags[path] = value
 
     def release(self, path: str) -> None:
@@ -44,19 +42,9 @@ class Forces:
             TagError: there is no such tag.
             PlcTestError: it is not forced.
         """
-        self._tags.find(path)
-        if self._forced.pop(path.upper(), None) is None:
-            forced = ", ".join(path for path, _ in self._forced.values()) or "no tag"
+        if not self._forces.release(self._tags.find(path)):
+            forced = ", ".join(force.tag.path for force in self._forces) or "no tag"
             raise PlcTestError(f"{path} is not forced; {forced} is")
-
-    def release_all(self) -> None:
-        """Let all tags go."""
-        self._forced.clear()
-
-    def apply(self) -> None:
-        """Write the forced values."""
-        for path, data in self._forced.values():
-            self._tags.store(path, data)
 
 
 class Noise:

@@ -90,9 +90,7 @@ class Plc(World, Expectations):
         self.controller = make_controller(
             setup, network=network, clock=self.clock, idle=collect_while_idle
         )
-        World.__init__(self, Tags(self.controller), net, seed)
-        # first in PUBLISH and last in LATCH: nobody outside gets round a force
-        self.controller.image.watchers.append(lambda _: self._forces.apply())
+        World.__init__(self, Tags(self.controller), self.controller.forces, net, seed)
         ip = "" if host_network else CONTROLLER_IP
         self.extensions = Extensions(self.settings, self.controller, name, ip)
         Expectations.__init__(self)

@@ -36,10 +36,12 @@ def judge(controller: Controller, *, failed: bool) -> Verdict:
     own = (Cause.PROGRAM, Cause.PREEMPTED)
     if any(c.violations[cause] for c in classes for cause in own):
         return Verdict.FAILED
-    if any(c.violations[Cause.HOST] for c in classes) or _missed_by_host(controller):
+    foreign = (Cause.HOST, Cause.CONTROLLER)
+    if any(c.violations[cause] for c in classes for cause in foreign):
         return Verdict.HOST
-    blamed = isinstance(controller.fault, Violation) and controller.fault.cause is Cause.HOST
-    if blamed:
+    if _missed_by_host(controller):
+        return Verdict.HOST
+    if isinstance(controller.fault, Violation) and controller.fault.cause in foreign:
         return Verdict.HOST
     return Verdict.FAILED if failed else Verdict.PASSED
 

@@ -21,6 +21,7 @@ from plcsim.testing.times import duration_ns
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
+    from plcsim.core import forces as core
     from plcsim.core.task import TaskClass
     from plcsim.testing.plant import PlantStep
     from plcsim.testing.tags import Tags
@@ -43,12 +44,14 @@ class World(ABC):
         ip: address of the controller on the virtual network.
     """
 
-    def __init__(self, tags: Tags, network: VirtualNetwork | None, seed: int) -> None:
+    def __init__(
+        self, tags: Tags, forces: core.Forces, network: VirtualNetwork | None, seed: int
+    ) -> None:
         self.tags = tags
         self.ip = CONTROLLER_IP
         self.faults = Faults(self, seed)
         self._net = network
-        self._forces = Forces(tags)
+        self._forces = Forces(tags, forces)
         self._plants: list[Plant] = []
         self._peers: list[Peer] = []
         self._by_time, self._by_cycle = Schedule(), Schedule()
@@ -172,4 +175,3 @@ class World(ABC):
                 f"{actor} raised in cycle {task_class.cycles} at {time_ns / 1e6:g} ms: "
                 f"{describe(error)}" + (f" ({place})" if place else "")
             ) from None
-        self._forces.apply()

@@ -409,20 +409,21 @@ def test_a_violation_is_in_the_logbook(run_for, task_class, program_of, clock, p
         (Cause.PROGRAM, "", "cause program: program p used 20 ms;"),
         (Cause.PROGRAM, "main.py:3", "program p did not return, ended at main.py:3;"),
         (Cause.PREEMPTED, "", "programs of other classes used 30 ms, p most;"),
+        (Cause.CONTROLLER, "", "LATCH and PUBLISH used 40 ms, for what is read and written from"),
         (Cause.HOST, "", "the host did not give the CPU in time;"),
     ],
 )
 def test_a_violation_as_a_sentence(cause, place, part):
     from plcsim.core.controller import describe_violation
 
-    violation = Violation(1, "p", 1, cause, 0, 50 * MS, 20 * MS, 30 * MS, 10 * MS, place)
+    violation = Violation(1, "p", 1, cause, 0, 50 * MS, 20 * MS, 30 * MS, 40 * MS, 10 * MS, place)
     assert part in describe_violation(violation)
 
 
 def test_a_program_that_is_ended_on_the_virtual_clock_took_none_of_its_time():
     from plcsim.core.controller import describe_violation
 
-    violation = Violation(1, "p", 5, Cause.PROGRAM, 0, 0, 0, 0, 10 * MS, "main.py:3")
+    violation = Violation(1, "p", 5, Cause.PROGRAM, 0, 0, 0, 0, 0, 10 * MS, "main.py:3")
     assert describe_violation(violation) == (
         "cycle time violation in cycle 5, cause program: program p did not return, ended at "
         "main.py:3; the time limit was the watchdog's, as no virtual time passes while a program "

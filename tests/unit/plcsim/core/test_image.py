@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.core.image import ProcessImage
+from plcsim.core.errors import PhaseError
 from st_types import BOOL, UINT, var
 
 
@@ -42,11 +42,28 @@ def test_what_was_entered_first_is_called_first(controller):
     assert calls == [("in", "first"), ("in", "second"), ("out", "first"), ("out", "second")]
 
 
-def test_an_image_without_a_scan_has_no_phases():
-    calls = []
-    image = ProcessImage()
-    image.inputs.append(calls.append)
-    image.watchers.append(calls.append)
-    image.latch("class 1")
-    image.publish("class 2")
-    assert calls == ["class 1", "class 2"]
+def test_the_phases_are_kept_to(controller):
+    image = controller.image
+    (task_class,) = controller.classes
+    with pytest.raises(PhaseError, match="not allowed in SLEEP, only in LATCH"):
+        image.latch(task_class)
+    with pytest.raises(PhaseError, match="not allowed in SLEEP, only in PUBLISH"):
+        image.publish(task_class)
+
+
+def test_a_forced_tag_wins_over_inputs_and_over_the_program(controller):
+    seen = []
+    variables = controller.tasks[0].cyclic.__self__
+    tag = controller.tags.find("main.cycles")
+
+    def plant(_):
+        variables.cycles = 1
+
+    controller.image.inputs.append(plant)
+    controller.image.watchers.append(lambda _: seen.append(variables.cycles))
+    controller.forces.force(tag, (500).to_bytes(2, "little"), "test")
+    controller.run(cycles=2)
+    assert seen == [500, 500]
+    assert controller.forces.release(tag)
+    controller.run(cycles=1)
+    assert seen[-1] == 2

@@ -308,7 +308,62 @@ def test_cpu_taken_away_is_the_fault_of_the_host(run_for, task_class, program_of
         Cause.PROGRAM: 0,
         Cause.HOST: 1,
         Cause.PREEMPTED: 0,
+        Cause.CONTROLLER: 0,
     }
+
+
+@pytest.mark.parametrize("phase", ["inputs", "watchers"])
+def test_time_spent_in_latch_and_publish_is_the_controllers_own(
+    make_controller, task_class, program_of, clock, phase
+):
+    program = program_of(lambda _: clock.spend_ns(4 * MS))
+    controller = make_controller(task_class(1, 10, p=program))
+    getattr(controller.image, phase).append(lambda _: clock.spend_ns(8 * MS))
+    controller.boot()
+    controller.run(cycles=1)
+    violation = the_violation(controller)
+    assert violation.cause is Cause.CONTROLLER
+    assert (violation.own_ns, violation.controller_ns) == (4 * MS, 8 * MS)
+    assert controller.state is State.RUN  # no fault of a program
+    assert controller.classes[0].controller.maximum_ns == 8 * MS
+    assert controller.classes[0].execution.maximum_ns == 4 * MS
+
+
+def test_a_class_that_waited_for_anothers_publish_was_held_up_by_the_controller(
+    make_controller, task_class, program_of, clock
+):
+    fast = task_class(1, 20, log_only(20, 0), fast=program_of(lambda _: clock.spend_ns(MS)))
+    slow = task_class(2, 10, log_only(0, 1), slow=program_of(lambda _: clock.spend_ns(2 * MS)))
+    controller = make_controller(fast, slow)
+    controller.image.watchers.append(
+        lambda task_class: clock.spend_ns(11 * MS if task_class.number == 1 else 0)
+    )
+    controller.boot()
+    controller.run_for(15 * MS)
+    (violation,) = controller.violations
+    assert (violation.task_class, violation.cause) == (2, Cause.CONTROLLER)
+    assert (violation.own_ns, violation.others_ns) == (2 * MS, 0)
+    assert violation.controller_ns == 11 * MS
+
+
+def test_what_preempts_a_class_does_not_count_as_its_latch_and_publish(
+    make_controller, task_class, program_of, clock
+):
+    fast = task_class(1, 10, log_only(0, 5), fast=program_of(lambda _: clock.spend_ns(3 * MS)))
+    slow = task_class(
+        2,
+        50,
+        log_only(50, 0),
+        first=program_of(lambda _: clock.spend_ns(6 * MS)),
+        second=program_of(lambda _: clock.spend_ns(MS)),
+    )
+    controller = make_controller(fast, slow)
+    controller.image.watchers.append(lambda _: clock.spend_ns(MS))
+    controller.boot()
+    controller.run_for(10 * MS)
+    first, second = controller.classes
+    assert (first.cycles, second.cycles) == (1, 1)
+    assert (first.controller.maximum_ns, second.controller.maximum_ns) == (MS, MS)
 
 
 def test_a_late_wake_up_is_the_fault_of_the_host(make_controller, task_class, program_of):
@@ -382,7 +437,7 @@ def test_use_before_a_restart_is_not_counted_after_it(run_for, task_class, trace
     assert controller.state is State.SERVICE
     controller.boot()
     controller.start()
-    assert controller.classes[1].used_by_own_and_others() == ({}, {})
+    assert controller.classes[1].used_by_own_and_others() == ({}, {}, 0)
 
 
 @pytest.mark.parametrize(

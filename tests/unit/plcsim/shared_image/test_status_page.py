@@ -32,7 +32,7 @@ def test_a_new_page(pages):
     _, reader = pages
     assert (reader.state, reader.active, reader.heartbeat) == (State.BOOT, None, 0)
     assert reader.elapsed_ns == 0
-    assert reader.of_class(8) == ClassStatus(*[0] * 10)
+    assert reader.of_class(8) == ClassStatus(*[0] * 11)
 
 
 def test_what_runs_is_seen_and_every_act_is_a_heartbeat(pages):
@@ -61,7 +61,8 @@ def test_the_figures_of_each_class_are_apart(pages):
         task_class.cycles = 100 * number
         task_class.missed = 100 * number + 1
         task_class.in_tolerance = 100 * number + 2
-        for extra, cause in enumerate((Cause.PROGRAM, Cause.HOST, Cause.PREEMPTED), 3):
+        causes = (Cause.PROGRAM, Cause.HOST, Cause.PREEMPTED)
+        for extra, cause in [*enumerate(causes, 3), (10, Cause.CONTROLLER)]:
             task_class.violations[cause] = 100 * number + extra
         task_class.execution.record(100 * number + 7)
         task_class.execution.record(100 * number + 6)
@@ -71,8 +72,8 @@ def test_the_figures_of_each_class_are_apart(pages):
     writer.ticked(2**63)
     for number in range(1, 9):
         status = reader.of_class(number)
-        assert status == ClassStatus(*range(100 * number, 100 * number + 10))
-        assert status.violations == status.by_program + status.by_host + status.preempted
+        assert status == ClassStatus(*range(100 * number, 100 * number + 11))
+        assert status.violations == 4 * 100 * number + 3 + 4 + 5 + 10
     assert reader.elapsed_ns == 2**63
 
 
