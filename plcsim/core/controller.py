@@ -172,7 +172,9 @@ class Controller:
 
         Only a signal handler in the scan's own thread may call this.
         """
-        if self.scan.active is not None:
+        if self.scan.active is None:
+            self.memory.system.rearm()
+        else:
             self.scan.active.interrupt(reason)
 
     def shutdown(self) -> State:
@@ -235,6 +237,7 @@ class Controller:
             self.scan.run_exception_program(self._exception_task)
 
     def _program_failed(self, task: Task, unit: Unit, error: BaseException) -> None:
+        self.memory.system.rearm()
         fault = ProgramError(task.name, unit.value, task.fault_of(error))
         fault.__cause__ = error
         self.log(Severity.ERROR, task.name, str(fault))

@@ -253,6 +253,7 @@ class Scan:
             self.active = None
         except CycleTimeViolation as error:
             self.active = None
+            self._context.memory.system.rearm()
             ended = error
         except BaseException as error:  # whatever a program raises ends in SERVICE
             self.active = None

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.core.errors import ConfigurationError, PlcError
+from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
 from plcsim.host.garbage import collect_while_idle
 from plcsim.network import OsNetwork, VirtualNetwork
@@ -65,6 +66,7 @@ class RunOrder:
         result_fd: a file for the result, a JSON object.
         dump_fd: a file for the Python stack of a program that cannot be interrupted.
         image_fd: an empty file for the shared image.
+        system_fd: the system area of the PLC memory, by which compiled programs are ended.
         wake_fds: an eventfd for each service of the project, none on the virtual clock.
     """
 
@@ -77,6 +79,7 @@ class RunOrder:
     result_fd: int
     dump_fd: int
     image_fd: int
+    system_fd: int
     wake_fds: list[int]
 
     def to_json(self) -> str:
@@ -126,6 +129,7 @@ def _run(order: RunOrder) -> dict[str, Any]:
         clock=clock,
         heartbeat=page,
         idle=collect_while_idle,
+        system_fd=order.system_fd,
     )
     _share(controller, project, order)
     _handle_signals(controller)
@@ -175,18 +179,23 @@ def _handle_signals(controller: Controller) -> None:
 
     SIGINT comes from the supervisor only. SIGTERM may come besides, from whoever ends all processes
     of a service at once, and that is no second request.
+
+    While compiled code runs no handler does. The supervisor has then ended it through the system
+    area, and what is pending is handled on the return from it; several SIGINT have become one.
     """
     interrupts = 0
+    system = controller.memory.system
 
     def stop(number: int, _frame: FrameType | None) -> None:
         nonlocal interrupts
         interrupts += number == signal.SIGINT
         controller.stop()
-        if interrupts > 1:
-            controller.abort_program("stopped by SIGINT")
+        if interrupts > 1 or system.verdict:
+            controller.abort_program(REASONS[STOPPED])
 
     def stalled(_number: int, _frame: FrameType | None) -> None:
-        controller.abort_program("the program did not return")
+        if system.verdict:  # otherwise it has been ended meanwhile
+            controller.abort_program(system.verdict)
 
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)

@@ -2,9 +2,10 @@
 
 The watchdog is a process of its own because a stuck program holds the scan's thread, and with
 real-time rights its processor too. It looks at the status page: the same heartbeat for too long
-while a program is active means that the program does not return. Then it sends a signal, which ends
-the program by an exception; where even that has no effect, because the program is stuck inside a
-call, it takes the Python stack and kills the scan process.
+while a program is active means that the program does not return. Then it sends a signal, which
+ends the program by an exception. Compiled code, where no signal handler of Python runs, polls a
+budget in shared memory, which the watchdog writes. Where all that has no effect, because the
+program is stuck inside a call, it takes the Python stack and kills the scan process.
 """
 
 from __future__ import annotations
@@ -19,9 +20,11 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any, Self
 
+from plcsim.core import system_area
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import Fault, PlcError, ProgramError
 from plcsim.core.system import State
+from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
 from plcsim.host import realtime
 from plcsim.process.report import SCHEMA, fault_report
@@ -79,11 +82,14 @@ class Supervisor:
         self._classes = self._class_of_each_task(project)
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
+        self._system_fd = SystemArea.shared()
+        self._system = SystemArea(self._system_fd)
         self.services = ServiceProcesses(
             {} if virtual else project.extensions, self.page, quiet=quiet
         )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
-        fds = (self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd)
+        files = self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd
+        fds = (*files, self._system_fd)
         self._process = _start(
             RunOrder(
                 os.getpid(),
@@ -126,6 +132,7 @@ class Supervisor:
         self.page.close()
         os.close(self._result_fd)
         os.close(self._dump_fd)
+        os.close(self._system_fd)
         os.sched_setaffinity(0, self._cpus)
 
     def stop(self) -> None:
@@ -143,6 +150,8 @@ class Supervisor:
         elif self._stops > 2:
             self._kill("killed because it did not stop")
         else:
+            if self._stops > 1:
+                self._system.end_program(system_area.STOPPED)
             self._process.send_signal(signal.SIGINT)
 
     @property
@@ -199,6 +208,7 @@ class Supervisor:
                 limit = format_duration(self._limit_ns())
                 self._kill(f"did not return within {limit} and could not be interrupted")
         elif now_ns - self._seen[1] > self._limit_ns():
+            self._system.end_program(system_area.STALLED)
             self._process.send_signal(STALLED)
             self._signalled_ns = now_ns
 

@@ -66,6 +66,7 @@ def make_controller(
     clock: Clock | None = None,
     heartbeat: Heartbeat | None = None,
     idle: Callable[[int], None] = lambda _idle_ns: None,
+    system_fd: int | None = None,
 ) -> Controller:
     """Return the controller of a setup, its variables allocated, not booted.
 
@@ -75,11 +76,12 @@ def make_controller(
         clock: see `plcsim.core.controller.Controller`, as for the rest.
         heartbeat: likewise.
         idle: likewise.
+        system_fd: file of the system area, see `plcsim.core.memory.Memory`.
 
     Raises:
         ConfigurationError: the variables do not fit into the memory.
     """
-    context = Context(Memory(setup.memory_size), network, setup.settings)
+    context = Context(Memory(setup.memory_size, system_fd), network, setup.settings)
     site = Site(context)
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program

@@ -11,7 +11,7 @@ from plcsim.process import scan_process
 from plcsim.process.scan_process import RunOrder
 from plcsim.project.plc_toml import read_project
 
-ORDER = RunOrder(1, "cell", False, None, 5, 3, 4, 5, 6, [7])
+ORDER = RunOrder(1, "cell", False, None, 5, 3, 4, 5, 6, 7, [8])
 
 
 def test_an_order_comes_through_as_it_is():
