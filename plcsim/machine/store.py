@@ -50,6 +50,7 @@ class Store:
         system: where the budget lies.
 
     Attributes:
+        engine: wasm_engine_t.
         context: wasmtime_context_t.
         enter: calls a function.
         trap: where a call puts a trap.
@@ -59,6 +60,7 @@ class Store:
 
     def __init__(self, engine: Engine, system: SystemArea) -> None:
         api = library()
+        self.engine = engine.handle
         self.handle: int | None = api.wasmtime_store_new(engine.handle, None, None)
         self.context: int = api.wasmtime_store_context(self.handle)
         self.enter = _entry()
@@ -104,7 +106,7 @@ class Store:
             raise suspended
         raise self._judged(fault)
 
-    def interrupted(self, interruption: BaseException) -> None:
+    def interrupted(self, interruption: BaseException, _kept: object) -> None:
         """Note where compiled code was when a signal handler raised on the return from it."""
         if self.trap:
             fault = self._take_trap()

@@ -143,6 +143,11 @@ def test_calls_nest(host):
     assert [factorial(n) for n in (0, 1, 5, 10)] == [1, 1, 120, 3628800]
 
 
+def test_machines_of_different_settings_have_functions_of_the_same_type():
+    for fuel in (False, True):
+        Rig(fuel=fuel).machine.host_function(lambda given: given, "d", "d")
+
+
 def test_unknown_codes_are_refused(host):
     with pytest.raises(KeyError):
         host.rig.machine.host_function(print, "x")

@@ -1,0 +1,1 @@
+"""Code generation: the intermediate representation becomes WebAssembly with a table of lines."""

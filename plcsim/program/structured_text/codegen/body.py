@@ -1,0 +1,202 @@
+"""The code of one function while it is being written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.machine.encoder import uleb
+from plcsim.machine.opcodes import EMPTY, END, IF, UNREACHABLE
+from plcsim.program.structured_text import ir
+from plcsim.program.structured_text.codegen.copies import Copies, join
+from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
+from plcsim.program.structured_text.codegen.places import Key, key_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from plcsim.program.structured_text.codegen.accesses import Accesses, Effects
+    from plcsim.program.structured_text.codegen.copies import Known
+    from plcsim.program.structured_text.codegen.options import CodegenOptions
+
+HOLE: Final = b"\x80\x80\x80\x80\x00"
+"""Place of an address in the code, as long as any below 2**31: see `object_code`."""
+
+NO_OFFSET: Final = b"\0\0"
+"""Memory argument of an access whose address is complete."""
+
+
+_IF: Final = IF + EMPTY
+_TRAP: Final = _IF + UNREACHABLE + END
+
+
+class ModuleContext(NamedTuple):
+    """What the functions of a module share while they are being compiled.
+
+    Attributes:
+        indices: of all functions that may be called, by name.
+        segments: numbers of the segments, by identity.
+        effects: what calls may change.
+    """
+
+    indices: Mapping[str, int]
+    segments: Mapping[int, int]
+    effects: Effects
+
+
+class Body:
+    """The code of one function while it is being written.
+
+    Attributes:
+        function: what is compiled.
+        indices: see `ModuleContext`.
+        segments: see `ModuleContext`.
+        effects: see `ModuleContext`.
+        options: what is compiled in.
+        statements: writes statements inside an expression.
+        code: the instructions so far.
+        holes: three numbers for each hole in ``code`` that takes an address: its position, the
+            segment, the bytes to add to the segment's address.
+        lines: (position in ``code``, line), ascending, where the line changes.
+        traps: (position in ``code``, reason) of instructions that are there to end the program.
+        copies: variables that locals hold here.
+        accesses: of the loops around this point, by their identity.
+        depth: blocks of WebAssembly around this point.
+        breaks: where Break leads to, by label.
+        continues: where Continue leads to, by label.
+        this: local 0 is the address of the data block.
+    """
+
+    __slots__ = (
+        "_line",
+        "_locals",
+        "_parameters",
+        "_scratch",
+        "accesses",
+        "breaks",
+        "code",
+        "continues",
+        "copies",
+        "depth",
+        "effects",
+        "function",
+        "holes",
+        "indices",
+        "lines",
+        "options",
+        "segments",
+        "statements",
+        "this",
+        "traps",
+    )
+
+    def __init__(
+        self,
+        function: ir.Function,
+        module: ModuleContext,
+        options: CodegenOptions,
+        statements: Callable[[Body, Sequence[ir.Statement]], None],
+    ) -> None:
+        self.function = function
+        self.indices = module.indices
+        self.segments = module.segments
+        self.effects = module.effects
+        self.options = options
+        self.statements = statements
+        self.code = bytearray()
+        self.holes: list[int] = []
+        self.lines: list[tuple[int, int]] = []
+        self.traps: list[tuple[int, str]] = []
+        self.accesses: dict[int, Accesses] = {}
+        self.depth = 0
+        self.breaks: dict[int, Label] = {}
+        self.continues: dict[int, Label] = {}
+        self.this = function.kind == "block"
+        self.copies = Copies(self._local_for_copy, this=self.this)
+        self._line = 0
+        self._parameters = len(function.parameters)
+        self._locals = bytearray(VALUE_TYPES[kind] for kind in function.locals)
+        self._scratch: dict[tuple[int, int], int] = {}
+
+    @property
+    def locals(self) -> bytes:
+        """Value types of the locals after the parameters."""
+        return bytes(self._locals)
+
+    @property
+    def reached(self) -> bool:
+        """Whether some path of the program leads here."""
+        return self.copies.known is not None
+
+    def local(self, kind: int) -> int:
+        """Return a new local of a value type."""
+        self._locals.append(kind)
+        return self._parameters + len(self._locals) - 1
+
+    def scratch(self, kind: int, slot: int = 0) -> int:
+        """Return a local of a value type whose value is used before other code is written."""
+        found = self._scratch.get((kind, slot))
+        if found is None:
+            found = self._scratch[kind, slot] = self.local(kind)
+        return found
+
+    def _local_for_copy(self, width: ir.Width) -> int:
+        return self.local(VALUE_TYPES[ir.VALUE_TYPE[width]])
+
+    def key_of(self, place: ir.Place, width: ir.Width) -> Key | None:
+        """Return the key of an access of which a copy may be kept."""
+        return key_of(place, width, this=self.this) if self.options.copies else None
+
+    def mark(self, line: int) -> None:
+        """Say what line the next instruction belongs to."""
+        if line != self._line:
+            self._line = line
+            self.lines.append((len(self.code), line))
+
+    def trap_if(self, reason: str) -> None:
+        """End the program where the value on the stack is not 0.
+
+        The fault is at the IF where wasmtime makes one instruction of it and what is inside, and
+        inside where it does not.
+        """
+        start = len(self.code)
+        self.code += _TRAP
+        self.traps += (start, reason), (start + len(_IF), reason)
+
+    def hole(self, segment: ir.Segment, offset: int) -> None:
+        """Append an address; it is the same five bytes after i32.const and as an offset."""
+        self.holes += len(self.code), self.segments[id(segment)], offset
+        self.code += HOLE
+
+    def open(self, opcode: bytes, kind: bytes = EMPTY) -> int:
+        """Begin a block, a loop or an if; return its depth, for `branch`."""
+        self.code += opcode + kind
+        self.depth += 1
+        return self.depth
+
+    def close(self) -> None:
+        """End the innermost block."""
+        self.code += END
+        self.depth -= 1
+
+    def branch(self, opcode: bytes, depth: int) -> None:
+        """Append br or br_if to a block that `open` began."""
+        self.code += opcode + uleb(self.depth - depth)
+
+
+class Label:
+    """Where branches meet.
+
+    Attributes:
+        depth: of the block, as `Body.open` returns it.
+        known: what is known on all paths that lead there, None where there is none.
+    """
+
+    __slots__ = ("depth", "known")
+
+    def __init__(self, depth: int) -> None:
+        self.depth = depth
+        self.known: Known | None = None
+
+    def arrive(self, known: Known | None) -> None:
+        """Say what is known on one more path that leads here."""
+        self.known = join(self.known, known)

@@ -1,0 +1,140 @@
+"""From the intermediate representation of a module to its WebAssembly."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from plcsim.machine.encoder import ModuleWriter, Signature
+from plcsim.machine.opcodes import UNREACHABLE
+from plcsim.program.structured_text.codegen.accesses import Effects
+from plcsim.program.structured_text.codegen.body import Body, ModuleContext
+from plcsim.program.structured_text.codegen.lines import FunctionLines, LineTable, pack
+from plcsim.program.structured_text.codegen.loops import poll
+from plcsim.program.structured_text.codegen.object_code import Holes, ObjectCode
+from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
+from plcsim.program.structured_text.codegen.options import CodegenOptions
+from plcsim.program.structured_text.codegen.runtime import MATHEMATICS, helper
+from plcsim.program.structured_text.codegen.statements import statements
+from plcsim.program.structured_text.ir import RUNTIME
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.program.structured_text import ir
+
+PROGRAM_OPTIONS = CodegenOptions()
+
+HELPER_OPTIONS = CodegenOptions(budget=False, copies=False)
+"""Helpers end by themselves, and keep nothing but locals."""
+
+
+def generate(module: ir.Module, options: CodegenOptions = PROGRAM_OPTIONS) -> ObjectCode:
+    """Compile a module.
+
+    The memory is imported as ``env.memory``, functions as ``block.NAME``, ``function.NAME`` and
+    ``rt.NAME``; exported are the functions that the module exports.
+    """
+    compiler = _Compiler(module, options)
+    for function in module.functions:
+        compiler.compile(function)
+    return compiler.finish()
+
+
+class _Indices(dict[str, int]):
+    """Indices of functions by name; a helper gets one when it is first called."""
+
+    def __init__(self, writer: ModuleWriter) -> None:
+        super().__init__()
+        self._writer = writer
+        self.helpers: list[ir.Function] = []
+
+    def __missing__(self, name: str) -> int:
+        function = helper(name)
+        self.helpers.append(function)
+        return self.announce(function)
+
+    def announce(self, function: ir.Function) -> int:
+        index = self[function.name] = self._writer.function(_signature(function), function.name)
+        return index
+
+
+class _Compiler:
+    """A module while it is being compiled."""
+
+    def __init__(self, module: ir.Module, options: CodegenOptions) -> None:
+        self._module = module
+        self._options = options
+        self._writer = ModuleWriter(module.name)
+        self._indices = _Indices(self._writer)
+        segments = {id(segment): number for number, segment in enumerate(module.segments)}
+        self._context = ModuleContext(self._indices, segments, Effects(module))
+        self._bodies: list[Body] = []
+        self._import()
+        for function in module.functions:
+            self._indices.announce(function)
+
+    def _import(self) -> None:
+        self._writer.import_memory("env", "memory")
+        for name in MATHEMATICS:
+            field = name.removeprefix("rt.")
+            index = self._writer.import_function("rt", field, _signature(RUNTIME[name]))
+            self._indices[name] = index
+        for name, what in self._module.imports.items():
+            signature = _signature(what.signature)
+            self._indices[name] = self._writer.import_function(what.space, what.name, signature)
+
+    def compile(self, function: ir.Function) -> None:
+        """Compile a function; where it calls, it polls the budget, so that calls end as well."""
+        body = Body(function, self._context, self._options, statements)
+        body.mark(function.line)
+        if function.kind != "unit" and self._context.effects.calls_of(function.name):
+            poll(body)
+        self._write(body)
+        if function.exported:
+            self._writer.export_function(function.name, self._indices[function.name])
+
+    def _write(self, body: Body) -> None:
+        statements(body, body.function.body)
+        if body.function.result is not None:
+            body.code += UNREACHABLE  # every path has returned, or goes on for ever
+        self._writer.body(self._indices[body.function.name], body.code, body.locals)
+        self._bodies.append(body)
+
+    def finish(self) -> ObjectCode:
+        """Compile the helpers that were called, and put everything together."""
+        for function in self._indices.helpers:
+            self._write(Body(function, self._context, HELPER_OPTIONS, statements))
+        encoded = self._writer.encode()
+        names = [segment.name for segment in self._module.segments]
+        holes = self._holes(encoded.starts)
+        lines = self._lines(encoded.starts)
+        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines)
+
+    def _holes(self, starts: Sequence[int]) -> Holes:
+        holes = np.array([n for body in self._bodies for n in body.holes], np.int64)
+        holes = holes.reshape(-1, 3)
+        counts = [len(body.holes) // 3 for body in self._bodies]
+        holes[:, 0] += np.repeat(np.array(starts, np.int64), counts)
+        return holes
+
+    def _lines(self, starts: Sequence[int]) -> LineTable:
+        functions: list[FunctionLines] = []
+        traps: dict[int, str] = {}
+        for body, start in zip(self._bodies, starts, strict=True):
+            function = body.function
+            steps = pack(body.lines, function.line)
+            file = self._module.files[function.file] if self._module.files else ""
+            end = start + len(body.code) + 1
+            functions.append(
+                FunctionLines(function.name, function.kind, file, function.line, start, end, steps)
+            )
+            traps.update({start + position: reason for position, reason in body.traps})
+        return LineTable(functions, traps)
+
+
+def _signature(function: ir.Function | ir.Signature) -> Signature:
+    params = bytes(VALUE_TYPES[kind] for kind in function.parameters)
+    results = b"" if function.result is None else bytes([VALUE_TYPES[function.result]])
+    return Signature(params, results)

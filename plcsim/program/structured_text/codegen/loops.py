@@ -1,0 +1,182 @@
+"""Loops: what they keep in locals, where they test for their end, and that they can be ended.
+
+A loop that begins with its exit test, as FOR and WHILE do, is turned: the test stands before the
+loop once, and at its end, so a pass takes one branch. Every pass polls the budget.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.core.memory import SYSTEM_AREA
+from plcsim.core.system_area import BUDGET
+from plcsim.machine.encoder import sleb, uleb
+from plcsim.machine.opcodes import (
+    BLOCK,
+    BR,
+    BR_IF,
+    I32_CONST,
+    I32_EQZ,
+    I32_LOAD,
+    I32_LT_S,
+    LOCAL_SET,
+    LOOP,
+)
+from plcsim.program.structured_text import ir
+from plcsim.program.structured_text.codegen.accesses import PARTS, loop_accesses
+from plcsim.program.structured_text.codegen.body import NO_OFFSET, Label
+from plcsim.program.structured_text.codegen.expressions import access, address, emit
+from plcsim.program.structured_text.codegen.operators import LOAD
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.program.structured_text.codegen.accesses import Accesses
+    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.places import Key
+
+CELL: Final = 8
+"""Bytes of a cell of the system area."""
+
+MOST_PRELOADED: Final = 16
+"""Variables that a loop keeps in locals beside those that are there before it."""
+
+MOST_TESTED: Final = 24
+"""Nodes of an exit test that is written twice."""
+
+
+_BUDGET: Final = SYSTEM_AREA + BUDGET * CELL + CELL // 2
+"""Address of the upper half of the budget: negative where the budget is."""
+
+
+_IS_SPENT: Final = I32_CONST + sleb(_BUDGET) + I32_LOAD + NO_OFFSET + I32_CONST + sleb(0) + I32_LT_S
+
+
+def poll(body: Body) -> None:
+    """Append the end of the program where the watchdog asks for it (see `core.system_area`)."""
+    if body.options.budget:
+        body.code += _IS_SPENT
+        body.trap_if("budget")
+
+
+def loop(body: Body, node: ir.Loop) -> None:
+    """Append a loop."""
+    if body.options.copies and id(node) not in body.accesses:
+        body.accesses = loop_accesses(node, body.effects, this=body.this)
+    held = body.copies.hold(_preload(body, node))
+    exit_ = body.breaks[node.label] = Label(body.open(BLOCK))
+    test = _exit_test(node)
+    if test is None:
+        _plain(body, node)
+    else:
+        _turned(body, node, test)
+    body.close()
+    body.copies.known = exit_.known
+    body.copies.release(held)
+
+
+def _preload(body: Body, node: ir.Loop) -> Sequence[Key]:
+    """Load what the loop is to keep in locals; return all that it keeps."""
+    known = body.copies.known
+    accesses = body.accesses.get(id(node))
+    if known is None or accesses is None:
+        return ()
+    for key in [key for key in known if accesses.changes(key)]:
+        del known[key]
+    for key in _wanted(accesses, known):
+        _load_copy(body, key, accesses.loaded[key][0])
+    return tuple(known)
+
+
+def _wanted(accesses: Accesses, known: dict[Key, int]) -> list[Key]:
+    """Return what the loop loads most, of what may be kept and is not in a local yet."""
+    loaded = [key for key in accesses.loaded if key not in known and not accesses.changes(key)]
+    loaded.sort(key=lambda key: -accesses.loaded[key][1])
+    return loaded[:MOST_PRELOADED]
+
+
+def _load_copy(body: Body, key: Key, place: ir.Place) -> None:
+    local = body.copies.note(key)
+    if local is not None:
+        access(body, LOAD[key.width], address(body, place))
+        body.code += LOCAL_SET + uleb(local)
+
+
+def _exit_test(node: ir.Loop) -> ir.Arm | None:
+    """Return the test that a loop begins with, if it may be written twice."""
+    first = node.body[0] if node.body else None
+    if type(first) is not ir.If or not _leaves(first, node.label):
+        return None
+    return first.arms[0] if _is_small(first.arms[0].condition) else None
+
+
+def _leaves(node: ir.Statement, label: int) -> bool:
+    """Tell whether a statement does nothing but leave a loop on a condition."""
+    if type(node) is not ir.If or len(node.arms) != 1 or node.other or len(node.arms[0].body) != 1:
+        return False
+    leave = node.arms[0].body[0]
+    return type(leave) is ir.Break and leave.label == label
+
+
+def _is_small(condition: ir.Expression) -> bool:
+    left_over, count = [condition], 0
+    while left_over:
+        node = left_over.pop()
+        count += 1
+        if count > MOST_TESTED or type(node) in (ir.Call, ir.StatementExpression):
+            return False
+        left_over += PARTS[type(node)](node)
+    return True
+
+
+def _plain(body: Body, node: ir.Loop) -> None:
+    head = _open_head(body, node)
+    body.continues[node.label] = head
+    last = node.body[-1] if node.body else None
+    at_end = last if type(last) is ir.If and _leaves(last, node.label) else None
+    body.statements(body, node.body[:-1] if at_end else node.body)
+    if at_end:
+        _repeat_unless(body, node, at_end.arms[0], head)
+    elif body.copies.known is not None:
+        body.branch(BR, head.depth)
+        body.copies.known = None
+    body.close()
+
+
+def _turned(body: Body, node: ir.Loop, test: ir.Arm) -> None:
+    body.mark(test.line)
+    emit(body, test.condition)
+    exit_ = body.breaks[node.label]
+    exit_.arrive(body.copies.fork())
+    body.branch(BR_IF, exit_.depth)
+    head = _open_head(body, node)
+    bottom = body.continues[node.label] = Label(body.open(BLOCK))
+    body.statements(body, node.body[1:])
+    bottom.arrive(body.copies.known)
+    body.close()
+    body.copies.known = bottom.known
+    _repeat_unless(body, node, test, head)
+    body.close()
+
+
+def _open_head(body: Body, node: ir.Loop) -> Label:
+    """Begin the part that is repeated, where only what the whole loop keeps is known."""
+    known = body.copies.known
+    if known is not None:
+        body.copies.known = {key: known[key] for key in known if body.copies.is_held(key)}
+    body.mark(node.line)
+    head = Label(body.open(LOOP))
+    poll(body)
+    return head
+
+
+def _repeat_unless(body: Body, node: ir.Loop, test: ir.Arm, head: Label) -> None:
+    """Append a test that leaves the loop at its end; it falls through to what follows."""
+    if body.copies.known is None:
+        return
+    body.mark(test.line)
+    emit(body, test.condition)
+    body.code += I32_EQZ
+    body.branch(BR_IF, head.depth)
+    body.breaks[node.label].arrive(body.copies.known)
+    body.copies.known = None
