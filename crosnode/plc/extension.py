@@ -15,7 +15,7 @@ from crosnode.plc.master_watch import MasterWatch
 from crosnode.plc.project import MASTER_IP, Surroundings
 from crosnode.plc.settings import RosSettings, read_settings
 from plcsim.core.errors import ConfigurationError
-from plcsim.project.extension import Attachment
+from plcsim.project.extension import Attachment, Extension
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,13 +34,13 @@ CHECK_IP: Final = "192.168.0.10"
 """Of the controller of `RosExtension.check`, on a network with nobody else."""
 
 
-class RosExtension:
-    """`plcsim.project.extension.Extension` of ROS 1."""
+class RosExtension(Extension):
+    """Nodes, the embedded master, the bridge."""
 
-    def read(self, table: Table, folder: Path) -> RosSettings:
+    def read(self, table: Table) -> RosSettings:
         """Return the settings; the types of the bridge are looked up."""
         text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
-        settings = read_settings(table, folder, dict(os.environ), text)
+        settings = read_settings(table, table.folder, dict(os.environ), text)
         types = MessageTypes(settings.packages)
         for key, entries in (("publish", settings.publish), ("subscribe", settings.subscribe)):
             for entry in entries:
@@ -49,7 +49,7 @@ class RosExtension:
         return settings
 
     def in_process(self, settings: RosSettings, ip: str) -> RosSettings:
-        """Return the settings with an embedded master in the scan; see `InProcessExtension`.
+        """Return the settings with an embedded master in the scan; see `Extension`.
 
         On a virtual network all addresses are those of that network, and no ROS_* counts: an
         embedded master is at the controller's address, any other at ``MASTER_IP``.

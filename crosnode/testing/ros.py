@@ -96,7 +96,7 @@ class Ros:
                 "ros: the programs were booted without a table [ros] in plc.toml; add one (it may "
                 "be empty), or use @pytest.mark.plc(boot=False) and call plc.boot()"
             )
-        settings = EXTENSION.read(Table(Path("plc.toml"), "ros", {}), Path())
+        settings = EXTENSION.read(Table(Path("plc.toml"), "ros", {}))
         here = EXTENSION.in_process(settings, self._plc.ip)
         EXTENSION.attach(here, self._plc.controller)
 

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
-from plcsim.core.clock import VirtualClock
 from plcsim.core.duration import format_duration
 from plcsim.host.realtime import missing_cpu
-from plcsim.network import VirtualNetwork
-from plcsim.program.setup import make_controller
+from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
-from plcsim.project.plc_toml import load_setup, read_project
+from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
     import argparse
@@ -22,8 +20,6 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.project.plc_toml import Project
-
-CHECK_IP = "192.168.0.10"
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -42,9 +38,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def check(options: argparse.Namespace) -> int:
     """Check the project and print what it consists of."""
     project = read_project(options.project)
-    clock = VirtualClock()
-    network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
-    controller = make_controller(load_setup(project), network=network, clock=clock)
+    controller = still_controller(load(project))
     notes = [*check_settings(project.extensions, controller), *notes_on_cpu(project)]
     console = CommandConsole()
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))

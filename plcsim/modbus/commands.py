@@ -8,18 +8,15 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from plcsim.cli.check import CHECK_IP
 from plcsim.cli.console import CommandConsole
 from plcsim.cli.output_file import check_output, write_output
-from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.export import FORMATS
 from plcsim.modbus.export.entry import Entry, Export
 from plcsim.modbus.map.automatic import LOCK_FILE, write_lock
 from plcsim.modbus.map.load import TagMap, load_map
-from plcsim.network import VirtualNetwork
-from plcsim.program.setup import make_controller
-from plcsim.project.plc_toml import find_project, load_setup, read_project
+from plcsim.project.assembly import load, still_controller
+from plcsim.project.plc_toml import find_project, read_project
 
 if TYPE_CHECKING:
     import argparse
@@ -64,9 +61,7 @@ def _load(folder: Path) -> tuple[str, ModbusSettings, TagMap]:
     found = project.extensions.get(EXTENSION)
     if found is None:
         raise ConfigurationError(f"{project.folder / 'plc.toml'}: there is no table [modbus]")
-    clock = VirtualClock()
-    network = VirtualNetwork(clock.now_ns).host(CHECK_IP)
-    controller = make_controller(load_setup(project), network=network, clock=clock)
+    controller = still_controller(load(project))
     tag_map = load_map(found.settings, found.folder, controller.tags, controller.tasks)
     return project.name, found.settings, tag_map
 

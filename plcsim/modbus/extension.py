@@ -8,7 +8,7 @@ from plcsim.modbus.map.automatic import write_lock
 from plcsim.modbus.map.load import load_map
 from plcsim.modbus.ports import may_use_privileged_ports, remedy, unprivileged_ports
 from plcsim.modbus.settings import read_settings
-from plcsim.project.extension import Attachment
+from plcsim.project.extension import Attachment, Extension
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,27 +19,41 @@ if TYPE_CHECKING:
 
 
 class ModbusProject(NamedTuple):
-    """The settings and the folder of the project they belong to."""
+    """The settings and the folder of the project they belong to.
+
+    Attributes:
+        settings: table [modbus].
+        folder: of the project.
+        is_in_process: nothing serves the map; nothing is written into the project.
+    """
 
     settings: ModbusSettings
     folder: Path
+    is_in_process: bool = False
 
 
-class ModbusExtension:
-    """`plcsim.project.extension.Extension` of Modbus TCP."""
+class ModbusExtension(Extension):
+    """Tags over Modbus TCP."""
 
-    def read(self, table: Table, folder: Path) -> ModbusProject:
+    def read(self, table: Table) -> ModbusProject:
         """Return the settings."""
-        return ModbusProject(read_settings(table, folder), folder)
+        return ModbusProject(read_settings(table, table.folder), table.folder)
+
+    def in_process(self, settings: ModbusProject, ip: str) -> ModbusProject:
+        """Return the settings for where no service runs: the map is checked, no file is written."""
+        return settings._replace(is_in_process=True)
 
     def service(self, _settings: ModbusProject) -> str:
         """Return the module that serves the map."""
         return "plcsim.modbus.service.process"
 
     def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
-        """Return the map for the service; addresses given for the first time are locked."""
+        """Return the map for the service; addresses given for the first time are locked.
+
+        Where nothing serves it, the addresses may still change.
+        """
         tag_map = load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
-        if not tag_map.is_locked:
+        if not tag_map.is_locked and not settings.is_in_process:
             write_lock(settings.folder, tag_map.lock)
         points = tag_map.points
         return Attachment(

@@ -11,23 +11,20 @@ import faulthandler
 import io
 import json
 import os
+import pickle
 import signal
 import sys
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.core.errors import ConfigurationError, PlcError
 from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
-from plcsim.host.garbage import collect_while_idle
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.process.report import report
-from plcsim.program.setup import make_controller
-from plcsim.project.extension import extensions, in_process, services_of
-from plcsim.project.plc_toml import FILE_NAME, Project, load_setup, read_project
-from plcsim.shared_image import ImageWriter
+from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load
+from plcsim.project.plc_toml import FILE_NAME, Project
 from plcsim.shared_image.status_page import StatusPage
 from st_types.errors import TypeSystemError
 
@@ -38,9 +35,6 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
-
-VIRTUAL_IP = "192.168.0.10"
-"""Address of the controller on the virtual network."""
 
 STALLED = signal.SIGUSR1
 """The supervisor sends this when a program does not return: it is ended by an exception."""
@@ -58,7 +52,7 @@ class RunOrder:
 
     Attributes:
         parent: process id of the supervisor.
-        project: folder of the project.
+        project_fd: a file with the project as its parent read it, pickled.
         virtual: on the virtual clock and network.
         for_ns: how long, None for ever.
         cycles: how many cycles of the first class, None for ever.
@@ -71,7 +65,7 @@ class RunOrder:
     """
 
     parent: int
-    project: str
+    project_fd: int
     virtual: bool
     for_ns: int | None
     cycles: int | None
@@ -85,6 +79,21 @@ class RunOrder:
     def to_json(self) -> str:
         """Return the order as the argument of this process."""
         return json.dumps(asdict(self))
+
+
+def file_of(project: Project) -> int:
+    """Return a file for `project_of`; the caller closes it."""
+    fd = os.memfd_create("plcsim-project")
+    os.write(fd, pickle.dumps(project))
+    return fd
+
+
+def project_of(fd: int) -> Project:
+    """Return the project in a file of `file_of`, which is closed."""
+    with os.fdopen(fd, "rb") as file:
+        file.seek(0)
+        project: Project = pickle.load(file)  # noqa: S301  # from the parent, through its own memory
+    return project
 
 
 class _PageHeartbeat(StatusPage):
@@ -116,22 +125,22 @@ def main() -> int:
 
 
 def _run(order: RunOrder) -> dict[str, Any]:
-    project = read_project(Path(order.project))
+    project = project_of(order.project_fd)
     clock: Clock = VirtualClock() if order.virtual else MonotonicClock()
     network: Network = (
         VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
     )
     page = _PageHeartbeat(order.status_fd)
     page.clock = clock
-    controller = make_controller(
-        load_setup(project),
-        network=network,
+    application = load(project)
+    controller = assemble(
+        application.in_process(VIRTUAL_IP) if order.virtual else application,
         clock=clock,
+        network=network,
         heartbeat=page,
-        idle=collect_while_idle,
+        image=Image(order.image_fd, order.wake_fds),
         system_fd=order.system_fd,
     )
-    _share(controller, project, order)
     _handle_signals(controller)
     rights = _take_rights(project, order)
     controller.boot()
@@ -143,22 +152,6 @@ def _run(order: RunOrder) -> dict[str, Any]:
     elapsed_ns = clock.now_ns() - origin_ns
     controller.shutdown()
     return report(controller, project.name, elapsed_ns, list(rights.granted))
-
-
-def _share(controller: Controller, project: Project, order: RunOrder) -> None:
-    """Let the extensions hook in, and lay out the image that services and watchers read."""
-    given = in_process(project.extensions, VIRTUAL_IP) if order.virtual else project.extensions
-    attached = {
-        name: extensions()[name].attach(settings, controller) for name, settings in given.items()
-    }
-    ImageWriter(
-        order.image_fd,
-        controller,
-        project=project.name,
-        services={name: attached[name].for_service for name in services_of(given)},
-        exports=[tag for attachment in attached.values() for tag in attachment.exports],
-        wake_fds=order.wake_fds,
-    )
 
 
 def _take_rights(project: Project, order: RunOrder) -> realtime.Rights:

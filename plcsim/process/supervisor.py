@@ -29,7 +29,7 @@ from plcsim.core.task import Unit
 from plcsim.host import realtime
 from plcsim.process.report import SCHEMA, fault_report
 from plcsim.process.run_file import Run, announce, withdraw
-from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder
+from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
 from plcsim.shared_image.status_page import StatusPage
 
@@ -90,18 +90,20 @@ class Supervisor:
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         files = self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd
         fds = (*files, self._system_fd)
+        project_fd = file_of(project)
         self._process = _start(
             RunOrder(
                 os.getpid(),
-                str(project.folder),
+                project_fd,
                 virtual,
                 for_ns,
                 cycles,
                 *fds,
                 self.services.wake_fds,
             ),
-            (*fds, *self.services.wake_fds),
+            (project_fd, *fds, *self.services.wake_fds),
         )
+        os.close(project_fd)
         with contextlib.suppress(OSError, PlcError):  # only `plcsim watch` needs it
             announce(project.folder, self._run)
         self._virtual = virtual

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import sys
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
@@ -22,18 +23,28 @@ LANGUAGES: Final[tuple[Language, ...]] = (PYTHON,)
 _counter = itertools.count(1)
 
 
+def unload(package: str) -> None:
+    """Forget the modules of a project."""
+    for name in [*sys.modules]:
+        if name == package or name.startswith(f"{package}."):
+            del sys.modules[name]
+
+
 class ProgramLoader:
     """Loads the programs of one project; two projects in one process do not mix.
 
     Args:
         folder: where plc.toml lies.
         languages: that programs may be written in.
+
+    Attributes:
+        package: name under which Python finds the project's folder.
     """
 
     def __init__(self, folder: Path, languages: Sequence[Language] = LANGUAGES) -> None:
         self._folder = folder.resolve()
         self._languages = languages
-        self._package = f"plcsim_project_{next(_counter)}"
+        self.package = f"plcsim_project_{next(_counter)}"
         self._codes: dict[str, ProgramCode] = {}
 
     def load(self, source: str) -> ProgramCode:
@@ -65,7 +76,7 @@ class ProgramLoader:
         if not found:
             raise self._nothing_in(folder)
         language, files = found[0]
-        return language.load(ProgramSource(source, folder, files, self._folder, self._package))
+        return language.load(ProgramSource(source, folder, files, self._folder, self.package))
 
     def _known(self) -> str:
         folders = sorted(f for f in self._folder.glob("*/") if self._is_program(f))

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.metadata import entry_points
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+from plcsim.core.errors import Findings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from pathlib import Path
 
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
@@ -37,20 +38,36 @@ class Attachment(NamedTuple):
 
 
 class Extension(Protocol):
-    """One table of plc.toml and what it stands for."""
+    """One table of plc.toml and what it stands for; subclass it for what is not said here."""
 
-    def read(self, table: Table, folder: Path) -> Any:
+    def read(self, table: Table) -> Any:
         """Return the settings in the table; called for every command that reads the project.
 
+        They must survive `pickle`: the process that read plc.toml hands them to the others.
+
         Raises:
-            ConfigurationError: something is wrong; file and field are named (`Table.error`).
+            ConfigurationError: something is wrong; file and field are named (`Table.read`).
         """
+
+    def in_process(self, settings: Any, ip: str) -> Any:
+        """Return the settings for the virtual clock and for tests; called before all but ``read``.
+
+        No process runs beside the controller there, and what happens must not depend on where it
+        runs.
+
+        Args:
+            settings: of the table.
+            ip: of the controller on a virtual network, which has nothing of this machine; "" where
+                a test uses the network of the host.
+        """
+        return settings
 
     def service(self, settings: Any) -> str:
         """Return the module that serves in a process beside the scan, "" for none.
 
         `plcsim.process.service_main` calls its function ``serve``.
         """
+        return ""
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
         """Hook into a controller before its boot, in the scan process.
@@ -61,30 +78,10 @@ class Extension(Protocol):
         Raises:
             ConfigurationError: the settings do not fit the controller's tags.
         """
-
-
-@runtime_checkable
-class InProcessExtension(Protocol):
-    """An extension that asks for other settings where no process runs beside the controller."""
-
-    def in_process(self, settings: Any, ip: str) -> Any:
-        """Return the settings for the virtual clock and for tests; called before all but ``read``.
-
-        What happens there must not depend on where it runs.
-
-        Args:
-            settings: of the table.
-            ip: of the controller on a virtual network, which has nothing of this machine; "" where
-                a test uses the network of the host.
-        """
-
-
-@runtime_checkable
-class CheckingExtension(Protocol):
-    """An extension that has something to say in ``plcsim check``."""
+        return Attachment()
 
     def check(self, settings: Any, controller: Controller) -> Sequence[str]:
-        """Check what `Extension.read` cannot, with a controller that will not run.
+        """Check what `read` cannot, with a controller that will not run; for ``plcsim check``.
 
         Nothing may be written or opened to the world.
 
@@ -95,6 +92,7 @@ class CheckingExtension(Protocol):
             ConfigurationError: the settings do not fit the controller's tags, or a file that they
                 name is wrong.
         """
+        return ()
 
 
 class _Installed(Mapping[str, "Extension"]):
@@ -128,13 +126,14 @@ def check_settings(settings: Mapping[str, Any], controller: Controller) -> list[
         controller: of the project, before its boot.
 
     Raises:
-        ConfigurationError: something is wrong.
+        ConfigurationError: something is wrong; all of it is told.
     """
+    findings = Findings()
     notes: list[str] = []
     for name, value in settings.items():
-        extension = extensions()[name]
-        if isinstance(extension, CheckingExtension):
-            notes += extension.check(value, controller)
+        with findings.gathered():
+            notes += extensions()[name].check(value, controller)
+    findings.check()
     return notes
 
 
@@ -143,14 +142,9 @@ def in_process(settings: Mapping[str, Any], ip: str) -> dict[str, Any]:
 
     Args:
         settings: of the extensions, by table.
-        ip: see `InProcessExtension.in_process`.
+        ip: see `Extension.in_process`.
     """
-    here = dict(settings)
-    for name, value in settings.items():
-        extension = extensions()[name]
-        if isinstance(extension, InProcessExtension):
-            here[name] = extension.in_process(value, ip)
-    return here
+    return {name: extensions()[name].in_process(value, ip) for name, value in settings.items()}
 
 
 def services_of(settings: Mapping[str, Any]) -> dict[str, str]:

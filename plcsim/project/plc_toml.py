@@ -13,9 +13,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
-from plcsim.library.options import read_options
-from plcsim.program.loader import ProgramLoader
-from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.project.extension import extensions
 from plcsim.project.tables import PlcSettings, TaskClassTable, task_class_entry
 from plcsim.settings import Table
@@ -116,7 +113,7 @@ def read_project(path: Path) -> Project:
         with findings.gathered():
             if name in top:
                 table = top.table(name)
-                settings[name] = extension.read(table, file.parent)
+                settings[name] = extension.read(table)
                 table.finish()
     name = plc.name or file.parent.resolve().name
     project = Project(file.parent, name, plc, classes, libraries, settings)
@@ -181,44 +178,3 @@ def _check_programs(file: Path, project: Project) -> None:
         raise ConfigurationError(
             f"{file}: task_class.{uses[0].number}: the policy exception needs plc.exception_program"
         )
-
-
-def load_setup(project: Project) -> Setup:
-    """Load the programs of a project and return what a controller is made from.
-
-    Raises:
-        ConfigurationError: programs are missing or cannot be loaded, or a library cannot be told
-            what plc.toml tells it; all findings are told, with file and line.
-    """
-    findings = Findings()
-    settings: list[object] = []
-    with findings.gathered():
-        settings = read_options(project.libraries)
-    loader = ProgramLoader(project.folder)
-    codes = {}
-    for entry in project.programs:
-        with findings.gathered():
-            codes[entry.source] = loader.load(entry.source)
-    findings.check()
-
-    def setup_of(entry: ProgramEntry) -> ProgramSetup:
-        return ProgramSetup(entry.name, codes[entry.source])
-
-    exception = project.plc.exception_program
-    return Setup(
-        classes=[
-            TaskClassSetup(
-                number=c.number,
-                cycle_ns=c.cycle_ns,
-                programs=[setup_of(p) for p in c.programs],
-                tolerance_ns=c.tolerance_ns,
-                first_release_ns=c.first_release_ns,
-                policy=c.policy,
-                host_policy=c.host_policy,
-            )
-            for c in project.classes
-        ],
-        memory_size=project.plc.memory_size,
-        exception_program=setup_of(exception) if exception else None,
-        settings=settings,
-    )

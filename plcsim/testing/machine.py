@@ -24,13 +24,14 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 from plcsim.testing.strategies import tag_values
-from plcsim.testing.target import Target, program_target, project_target
+from plcsim.testing.target import program_target, project_target
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
     from plcsim.program.python.program import Program
+    from plcsim.project.assembly import Application
 
 __tracebackhide__ = True
 
@@ -70,13 +71,12 @@ class PlcMachine(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self._target = self._load()
-        target = self._target
-        self.plc = Plc(target.name, target.setup, settings=target.settings)
+        self.plc = Plc(self._target)
         for name in dir(type(self)):
             if getattr(getattr(type(self), name), "_plc_every_cycle", False):
                 self.plc.always(_named(name, getattr(self, name)))
 
-    def _load(self) -> Target:
+    def _load(self) -> Application:
         if self.program is not None:
             return program_target([self.program], self.cycle)
         if self.project is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import replace
 from functools import partial
 from random import Random
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -11,15 +12,14 @@ from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ProgramError
 from plcsim.core.logbook import Severity
 from plcsim.core.system import State
-from plcsim.host.garbage import collect_while_idle
 from plcsim.network import OsNetwork, VirtualNetwork
-from plcsim.program.setup import make_controller
+from plcsim.project.assembly import assemble
 from plcsim.testing.condition import Condition
 from plcsim.testing.costs import Costs, garbage_held
 from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError, PlcTestError
 from plcsim.testing.expectations import Expectations
-from plcsim.testing.extensions import Extensions
 from plcsim.testing.history import History
+from plcsim.testing.image import SharedImage
 from plcsim.testing.interleavings import Interleaving, interleavings
 from plcsim.testing.tags import Tags
 from plcsim.testing.times import duration_ns
@@ -29,11 +29,11 @@ from plcsim.testing.watchdog import watchdog
 from plcsim.testing.world import CONTROLLER_IP, World
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator
 
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
-    from plcsim.program.setup import Setup
+    from plcsim.project.assembly import Application
     from plcsim.testing.condition import Given
 
 __tracebackhide__ = True
@@ -49,13 +49,11 @@ class Plc(World, Expectations):
     `until` and the assertions.
 
     Args:
-        name: of the project.
-        setup: what runs on the controller.
+        application: what runs on the controller.
         seed: of the virtual network and of noise.
         realtime: run on the wall clock instead of the virtual one.
         host_network: use the sockets of the host instead of a virtual network.
         task_class: number of the class whose cycles `cycles` counts; by default the lowest.
-        settings: tables of extensions in plc.toml, by name.
 
     Attributes:
         controller: the controller itself.
@@ -63,36 +61,35 @@ class Plc(World, Expectations):
         costs: CPU time of the programs, cycle by cycle.
         faults: faults of the network and of tags.
         traces: all traces made by `record`.
-        extensions: those of the project, attached.
+        settings: of the extensions in plc.toml, by table, as they hold in tests.
+        image: what services of the project would share with the controller.
         after_cycle: functions called after every cycle, to step what runs beside the controller.
         interleaving: how the task classes meet, where `every_interleaving` made this controller.
     """
 
     def __init__(
         self,
-        name: str,
-        setup: Setup,
+        application: Application,
         *,
         seed: int = 0,
         realtime: bool = False,
         host_network: bool = False,
         task_class: int | None = None,
-        settings: Mapping[str, Any] | None = None,
     ) -> None:
-        self.name = name
+        self.name = application.name
         self.seed = seed
-        self.setup = setup
+        self.application = application
         self.realtime = realtime
         self.clock: VirtualClock | WallClock = WallClock() if realtime else VirtualClock()
         net = None if host_network else VirtualNetwork(self.clock.now_ns, seed=seed)
         network: Network = OsNetwork() if net is None else net.host(CONTROLLER_IP)
-        self.settings = dict(settings or {})
-        self.controller = make_controller(
-            setup, network=network, clock=self.clock, idle=collect_while_idle
+        here = application.in_process("" if host_network else CONTROLLER_IP)
+        self.settings = here.extensions
+        self.image = SharedImage(here.extensions)
+        self.controller = assemble(
+            here, clock=self.clock, network=network, image=self.image.of_controller
         )
         World.__init__(self, Tags(self.controller), self.controller.forces, net, seed)
-        ip = "" if host_network else CONTROLLER_IP
-        self.extensions = Extensions(self.settings, self.controller, name, ip)
         Expectations.__init__(self)
         self.costs = Costs(self.controller)
         self.history = History(self.controller)
@@ -166,7 +163,7 @@ class Plc(World, Expectations):
         if self.latest is not self:
             self.latest.close()
             self.latest = self
-        self.extensions.close()
+        self.image.close()
         if self.controller.state is State.RUN:
             self.stop()
         else:
@@ -303,12 +300,13 @@ class Plc(World, Expectations):
             most: more interleavings than this are sampled, by the seed.
             invariant: called with the controller after every cycle; must be true.
         """
-        shortest_ns = min(c.cycle_ns for c in self.setup.classes)
+        setup = self.application.setup
+        shortest_ns = min(c.cycle_ns for c in setup.classes)
         step_ns = min(1_000_000, shortest_ns // 2) if step is None else duration_ns(step, "step")
-        every = interleavings(self.setup, tuple(classes), step_ns, overrun_cycles, most, self.seed)
+        every = interleavings(setup, tuple(classes), step_ns, overrun_cycles, most, self.seed)
         for one in every:
-            setup = one.apply(self.setup)
-            plc = Plc(self.name, setup, seed=self.seed, settings=self.settings)
+            application = replace(self.application, setup=one.apply(setup))
+            plc = Plc(application, seed=self.seed)
             self.latest = plc
             plc.interleaving = one
             if one.overrun is not None:

@@ -29,12 +29,13 @@ from plcsim.testing.html_report import ReportWriter
 from plcsim.testing.plc import Plc
 from plcsim.testing.realtime import Verdict, figures, judge
 from plcsim.testing.result import properties_of, result_of
-from plcsim.testing.target import Target, find_project, program_target, project_target
+from plcsim.testing.target import find_project, program_target, project_target
 from st_types.errors import TypeSystemError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from plcsim.project.assembly import Application
     from plcsim.testing.trace import Trace
 
 __tracebackhide__ = True
@@ -98,13 +99,11 @@ def open_for(request: pytest.FixtureRequest, seed_step: int) -> Iterator[Plc]:
         target = _target_of(item, marker)
         realtime = item.get_closest_marker("realtime") is not None
         plc = Plc(
-            target.name,
-            target.setup,
+            target,
             seed=seed_of(config) + seed_step,
             realtime=realtime,
             host_network=marker.get("network", "virtual") == "host",
             task_class=marker.get("task_class"),
-            settings=target.settings,
         )
         item.stash[PLC] = plc
         request.addfinalizer(partial(_close, plc, target))
@@ -116,7 +115,7 @@ def open_for(request: pytest.FixtureRequest, seed_step: int) -> Iterator[Plc]:
     yield plc
 
 
-def _close(plc: Plc, target: Target) -> None:
+def _close(plc: Plc, target: Application) -> None:
     """Run the EXITs and forget the project, whatever came before."""
     with plain_errors():
         try:
@@ -147,7 +146,7 @@ def _marker_of(item: pytest.Item) -> dict[str, Any]:
     return merged
 
 
-def _target_of(item: pytest.Item, marker: dict[str, Any]) -> Target:
+def _target_of(item: pytest.Item, marker: dict[str, Any]) -> Application:
     if "program" in marker:
         given = marker["program"]
         programs = given if isinstance(given, list | tuple) else [given]

@@ -2,52 +2,24 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from plcsim.core.duration import parse_duration_ns
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
-from plcsim.project.plc_toml import FILE_NAME, load_setup, read_project
+from plcsim.project.assembly import Application, load
+from plcsim.project.plc_toml import FILE_NAME, read_project
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from plcsim.program.python.program import Program
 
 __tracebackhide__ = True
-
-_LOADED = "plcsim_project_"
-"""Modules of projects have this prefix (`plcsim.program.python.loader`)."""
-
-
-@dataclass(frozen=True)
-class Target:
-    """What runs on the controller under test.
-
-    Attributes:
-        name: of the project, or of the first program.
-        setup: what the controller is made from.
-        folder: of the project, None for program classes.
-        modules: names of the modules that were loaded for it.
-        settings: tables of extensions in plc.toml.
-    """
-
-    name: str
-    setup: Setup
-    folder: Path | None = None
-    modules: tuple[str, ...] = ()
-    settings: Mapping[str, Any] = field(default_factory=dict)
-
-    def unload(self) -> None:
-        """Forget the modules of the project, so that the next test loads them afresh."""
-        for name in self.modules:
-            sys.modules.pop(name, None)
 
 
 def find_project(start: Path) -> Path:
@@ -66,24 +38,18 @@ def find_project(start: Path) -> Path:
     )
 
 
-def project_target(folder: Path) -> Target:
+def project_target(folder: Path) -> Application:
     """Load a project.
 
     Raises:
         ConfigurationError: it does not load; file and field are named.
     """
-    before = set(sys.modules)
-    try:
-        project = read_project(folder)
-        setup = load_setup(project)
-    finally:
-        loaded = tuple(m for m in sys.modules if m not in before and m.startswith(_LOADED))
-    return Target(project.name, setup, project.folder, loaded, project.extensions)
+    return load(read_project(folder))
 
 
 def program_target(
     programs: Sequence[type[Program]], cycle: str = "10ms", task_class: int = 1
-) -> Target:
+) -> Application:
     """Return a controller with one task class that runs program classes.
 
     Raises:
@@ -95,7 +61,7 @@ def program_target(
         raise PlcTestError(f"cycle: {err}") from None
     setups = [ProgramSetup(program.__name__, PythonCode(program)) for program in programs]
     classes = [TaskClassSetup(task_class, cycle_ns, setups, tolerance_ns=cycle_ns)]
-    return Target(programs[0].__name__, Setup(classes))
+    return Application(programs[0].__name__, Setup(classes))
 
 
 @contextmanager
@@ -125,7 +91,7 @@ def open_plc(
     else:
         given = program if isinstance(program, list | tuple) else [program]
         target = program_target([p for p in given if isinstance(p, type)], cycle)
-    plc = Plc(target.name, target.setup, seed=seed, settings=target.settings)
+    plc = Plc(target, seed=seed)
     try:
         plc.boot()
         yield plc

@@ -62,8 +62,8 @@ class Modbus:
     """
 
     def __init__(self, plc: Plc) -> None:
-        image = plc.extensions.image(TABLE)
-        settings, folder = plc.settings[TABLE]
+        image = plc.image.reader(TABLE)
+        settings, folder, _ = plc.settings[TABLE]
         controller = plc.controller
         points = load_map(settings, folder, controller.tags, controller.tasks).points
         # a slow project needs longer, as in plcsim.modbus.service.server

@@ -11,10 +11,10 @@ from plcsim.core.system import State
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.network import Address, Outcome, Socket, VirtualNetwork
-from plcsim.program.setup import make_controller
-from plcsim.project.plc_toml import load_setup, read_project
+from plcsim.project.assembly import assemble, load
+from plcsim.project.plc_toml import read_project
 
-SETUP = load_setup(read_project(Path(__file__).parents[1]))
+APPLICATION = load(read_project(Path(__file__).parents[1]))
 THESIS, ECHO = Address("127.0.0.1", 22011), Address("127.0.0.1", 22012)
 
 
@@ -24,7 +24,7 @@ class Cell:
     def __init__(self) -> None:
         self.clock = VirtualClock()
         self.host = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
-        self.plc = make_controller(SETUP, network=self.host, clock=self.clock)
+        self.plc = assemble(APPLICATION, network=self.host, clock=self.clock)
 
     def boot(self) -> "Cell":
         assert self.plc.boot() is State.RUN

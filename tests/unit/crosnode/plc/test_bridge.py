@@ -61,7 +61,7 @@ class Rig:
         self.master = MasterServer(self.context, MasterOptions(host="127.0.0.1"))
         values = {"master": "http://127.0.0.1:11311/", "host": "127.0.0.1"} | tables
         table = Table(Path("plc.toml"), "ros", values)
-        EXTENSION.attach(EXTENSION.read(table, Path()), self.plc)
+        EXTENSION.attach(EXTENSION.read(table), self.plc)
         settings = node_settings("peer", environment={"ROS_MASTER_URI": self.master.uri},
                                  host="127.0.0.1")  # fmt: skip
         self.peer = CrosNode(self.context, settings)

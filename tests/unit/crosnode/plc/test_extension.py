@@ -55,7 +55,7 @@ def controller(**values: object) -> Controller:
     classes = [TaskClassSetup(1, MS, [ProgramSetup("talker", PythonCode(Talker))])]
     plc = make_controller(Setup(classes), network=host, clock=clock)
     table = Table(Path("plc.toml"), "ros", {"master": "embedded", "host": "127.0.0.1"} | values)
-    settings = EXTENSION.in_process(EXTENSION.read(table, Path()), "")
+    settings = EXTENSION.in_process(EXTENSION.read(table), "")
     attachment = EXTENSION.attach(settings, plc)
     assert not attachment.exports
     return plc
@@ -147,7 +147,7 @@ def test_check_opens_nothing_and_needs_no_master(
 def test_only_an_embedded_master_outside_of_tests_is_a_service() -> None:
     def service(master: str, *, in_process: bool) -> str:
         table = Table(Path("plc.toml"), "ros", {"master": master})
-        settings = EXTENSION.read(table, Path())
+        settings = EXTENSION.read(table)
         return EXTENSION.service(EXTENSION.in_process(settings, "") if in_process else settings)
 
     assert service("embedded", in_process=False) == "crosnode.plc.master_service"
@@ -165,7 +165,7 @@ def test_the_logbook_says_once_that_a_program_misses_its_master() -> None:
 
 def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() -> None:
     values = {"master": "http://robot:5/", "host": "robot", "bind": "10.0.0.1", "namespace": "/x"}
-    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
+    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values))
     moved = EXTENSION.in_process(settings, "192.168.0.10")
     assert moved.master_uri == "http://192.168.0.1:11311/"
     assert (moved.host, moved.bind_ip, moved.namespace) == ("192.168.0.10", "", "/x")
@@ -174,6 +174,6 @@ def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() 
 
 def test_on_a_virtual_network_the_embedded_master_keeps_its_port() -> None:
     values = {"master": "embedded", "master_port": 12345}
-    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values), Path())
+    settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values))
     moved = EXTENSION.in_process(settings, "192.168.0.10")
     assert moved.master_uri == "http://192.168.0.10:12345/"

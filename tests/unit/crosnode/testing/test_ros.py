@@ -286,12 +286,12 @@ def test_without_a_table_it_must_come_before_the_boot():
             self.node.do_events_loop()
 
     target = program_target([Quiet], "1ms")
-    plc = Plc(target.name, target.setup)
+    plc = Plc(target)
     ros = Ros(plc)
     plc.boot()
     plc.until(lambda: "/out" in ros.system_state().publishers)
     plc.close()
-    late = Plc(target.name, target.setup)
+    late = Plc(target)
     late.boot()
     with pytest.raises(PlcTestError, match="booted without a table"):
         Ros(late)
@@ -307,7 +307,7 @@ def test_every_interleaving_can_have_one(folder, open_cell):
     more = '[task_class.2]\ncycle = "2ms"\nprograms = [{name = "twin", source = "cell"}]\n'
     open_cell(more)
     target = project_target(folder)
-    plc = Plc(target.name, target.setup, settings=target.settings)
+    plc = Plc(target)
     seen = 0
     for one in plc.every_interleaving(most=2):
         ros = Ros(one)

@@ -8,18 +8,18 @@ from plcsim.core.controller import Controller
 from plcsim.core.errors import ConfigurationError
 from plcsim.project import extension
 from plcsim.project import plc_toml as project
-from plcsim.project.extension import Attachment, check_settings, services_of
+from plcsim.project.extension import Attachment, Extension, check_settings, services_of
 from plcsim.project.plc_toml import read_project
 from plcsim.settings.table import Table
 
 TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
 
 
-class Web:
+class Web(Extension):
     def service(self, settings: int) -> str:
         return "service_for_tests"
 
-    def read(self, table: Table, folder: Path) -> int:
+    def read(self, table: Table) -> int:
         return table.number("port", 80, 1, 65535)
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
@@ -91,3 +91,17 @@ def test_extensions_that_can_check_are_asked(monkeypatch: pytest.MonkeyPatch) ->
     assert check_settings({"web": 8080}, controller) == []
     with pytest.raises(ConfigurationError, match=r"web\.port: 99"):
         check_settings({"web": 99}, controller)
+
+
+def test_what_is_wrong_in_several_tables_is_told_in_one_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    controller: Any = None
+    found = {"web": Careful(), "more": Careful()}
+    monkeypatch.setattr(extension, "extensions", lambda: found)
+    monkeypatch.setattr(Careful, "check", refuse)
+    with pytest.raises(ConfigurationError) as raised:
+        check_settings({"web": 1, "more": 2}, controller)
+    assert raised.value.findings == ("1 is wrong", "2 is wrong")
+
+
+def refuse(_self: Careful, settings: int, _controller: Controller) -> list[str]:
+    raise ConfigurationError(f"{settings} is wrong")

@@ -5,11 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.task import Policy
-from plcsim.program.setup import make_controller
-from plcsim.project.plc_toml import load_setup, read_project
+from plcsim.project.plc_toml import read_project
 from plcsim.project.tables import ProgramEntry
 
 MS = 1_000_000
@@ -271,41 +269,3 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path, make):
 
 
 # loading
-
-
-def test_a_loaded_project_runs(read):
-    setup = load_setup(read("[plc]\nmemory = '64KiB'\n" + MAIN))
-    controller = make_controller(setup, network=None, clock=VirtualClock())
-    controller.boot()
-    controller.run(cycles=3)
-    assert controller.tags.read(controller.tags.find("main.count")) == 3
-    assert controller.memory.size == 65536
-
-
-def test_a_program_under_two_names_has_two_sets_of_variables(read):
-    text = CLASS + 'programs = ["main", {name = "second", source = "main"}]'
-    controller = make_controller(load_setup(read(text)), network=None, clock=VirtualClock())
-    controller.boot()
-    controller.tags.write(controller.tags.find("second.count"), 100)
-    controller.run(cycles=3)
-    values = [controller.tags.read(controller.tags.find(f"{n}.count")) for n in ("main", "second")]
-    assert values == [3, 103]
-
-
-def test_a_program_that_is_not_there_is_named_with_those_that_are(read, tmp_path):
-    with pytest.raises(ConfigurationError) as raised:
-        load_setup(read(CLASS + 'programs = ["mian"]'))
-    folder = tmp_path / "cell" / "mian"
-    assert str(raised.value) == f"{folder}: no such program folder; there are main"
-
-
-@pytest.mark.parametrize("source", ["x" * 300, "a\\u0000b"])
-def test_a_source_that_can_be_no_folder_is_named(read, source):
-    text = CLASS + f'programs = [{{name = "a", source = "{source}"}}]'
-    with pytest.raises(ConfigurationError, match="no such program folder"):
-        load_setup(read(text))
-
-
-def test_an_option_that_a_library_does_not_know_is_named(read, tmp_path):
-    with pytest.raises(ConfigurationError, match=r"plc\.toml: library\.astcp"):
-        load_setup(read(MAIN + "[library.astcp]\nmax_indents = 3"))

@@ -11,6 +11,7 @@ _spec.loader.exec_module(cell)
 
 from plcsim.program.python.language import PythonCode  # noqa: E402  # after the cell
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup  # noqa: E402  # after the cell
+from plcsim.project.assembly import Application  # noqa: E402  # after the cell
 from plcsim.testing.plc import Plc  # noqa: E402  # after the cell
 
 MS = 1_000_000
@@ -37,7 +38,7 @@ def make_setup(*cycles_ms, programs=None, **options):
 @pytest.fixture
 def cell_plc():
     """A booted controller with Cell in a 10 ms task class."""
-    plc = Plc("cell", make_setup(10))
+    plc = Plc(Application("cell", make_setup(10)))
     plc.boot()
     yield plc
     plc.close()
@@ -50,8 +51,7 @@ def new_plc():
 
     def new(*cycles_ms, seed=0, task_class=None, realtime=False, **options):
         plc = Plc(
-            "cell",
-            make_setup(*cycles_ms, **options),
+            Application("cell", make_setup(*cycles_ms, **options)),
             seed=seed,
             task_class=task_class,
             realtime=realtime,

@@ -11,7 +11,7 @@ MS = 1_000_000
 
 
 def every(plc, classes=(), step=5 * MS, overrun_cycles=0, most=1000, seed=0):
-    return list(interleavings(plc.setup, classes, step, overrun_cycles, most, seed))
+    return list(interleavings(plc.application.setup, classes, step, overrun_cycles, most, seed))
 
 
 def test_offsets_of_all_classes_are_combined(new_plc):

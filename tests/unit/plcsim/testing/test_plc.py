@@ -173,7 +173,7 @@ def test_10_s_at_1_ms_take_less_than_a_second(new_plc):
 
 
 def test_what_is_planned_before_the_boot_counts_from_the_start(cell_plc):
-    plc = Plc("cell", cell_plc.setup)
+    plc = Plc(cell_plc.application)
     plc.stimulate([("30ms", {"Cell.start": True})])
     assert plc.time_ns == 0
     plc.boot()
@@ -192,7 +192,7 @@ def test_used_chance_tells_whether_the_seed_mattered(cell_plc):
 
 
 def test_on_the_host_network_there_is_no_virtual_one(cell_plc):
-    plc = Plc("cell", cell_plc.setup, host_network=True)
+    plc = Plc(cell_plc.application, host_network=True)
     with pytest.raises(PlcTestError, match="host's network"):
         plc.connect(1234)
 

@@ -1,4 +1,4 @@
-"""Extensions of the project under test: what hooks in, with which settings, in which order."""
+"""Extensions of the project under test: what hooks in, with which settings, what they share."""
 
 import gc
 from pathlib import Path
@@ -6,21 +6,18 @@ from pathlib import Path
 import pytest
 
 from plcsim.core.controller import Controller
-from plcsim.project import extension
-from plcsim.project.extension import Attachment
+from plcsim.project import assembly, extension
+from plcsim.project.assembly import Application
+from plcsim.project.extension import Attachment, Extension
 from plcsim.shared_image import writer
-from plcsim.testing import extensions as module
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
 
-class Steps:
+class Steps(Extension):
     """An extension that steps with the scan."""
 
-    def service(self, settings):
-        return ""
-
-    def read(self, table, folder):
+    def read(self, table):
         raise AssertionError("the table is read already")
 
     def attach(self, settings, controller):
@@ -46,13 +43,13 @@ class Serves(Steps):
         return "a_module_that_nobody_may_import"
 
     def attach(self, settings, controller):
-        raise AssertionError("nothing is handed over to a process that does not run")
+        return Attachment({"given": settings}, [controller.tags.find("Cell.count")])
 
 
 @pytest.fixture
 def installed(monkeypatch):
     found = {"steps": Steps(), "moves": Moves(), "serves": Serves()}
-    for each in (module, extension):
+    for each in (assembly, extension):
         monkeypatch.setattr(each, "extensions", lambda: found)
     return found
 
@@ -61,8 +58,9 @@ def installed(monkeypatch):
 def open_with(installed, cell_plc):
     made = []
 
-    def open_with(**options):
-        made.append(Plc("cell", cell_plc.setup, **options))
+    def open_with(settings, **options):
+        application = Application("cell", cell_plc.application.setup, settings)
+        made.append(Plc(application, **options))
         made[-1].boot()
         return made[-1]
 
@@ -72,38 +70,41 @@ def open_with(installed, cell_plc):
 
 
 def test_those_that_step_are_attached_with_what_holds_in_process(open_with, installed):
-    open_with(settings={"steps": "a", "moves": "b"}).cycles(3)
+    open_with({"steps": "a", "moves": "b"}).cycles(3)
     assert installed["steps"].settings == "a"
     assert installed["steps"].seen == [1, 2, 3]
     assert installed["moves"].settings == "b at 192.168.0.10"
 
 
 def test_on_the_network_of_the_host_there_is_no_address(open_with, installed):
-    open_with(settings={"moves": "b"}, host_network=True)
+    open_with({"moves": "b"}, host_network=True)
     assert installed["moves"].settings == "b at the host"
 
 
 def test_what_is_forced_is_what_extensions_see(open_with, installed):
-    plc = open_with(settings={"steps": "a"})
+    plc = open_with({"steps": "a"})
     plc.force("Cell.count", 70)
     plc.cycles(2)
     assert installed["steps"].seen == [70, 70]
 
 
 @pytest.mark.parametrize("limit", [writer.WHOLE_PROGRAMS, 0])
-def test_one_with_a_service_gets_the_image_of_all_variables(open_with, monkeypatch, limit):
+def test_one_with_a_service_is_attached_as_in_a_run(open_with, monkeypatch, limit):
     monkeypatch.setattr(writer, "WHOLE_PROGRAMS", limit)
-    plc = open_with(settings={"serves": "c"})
-    image = plc.extensions.image("serves")
+    plc = open_with({"serves": "c"})
+    image = plc.image.reader("serves")
     plc.cycles(2)
     assert image.latest == 2
-    assert image.directory.bank_size == plc.controller.areas[0].data_type.size
+    assert image.directory.services == {"serves": {"given": "c"}}
+    tag = plc.controller.tags.find("Cell.count")
+    whole = plc.controller.areas[0].data_type.size
+    assert image.directory.bank_size == (whole if limit else tag.data_type.size)
 
 
 def test_without_a_service_there_is_no_image(open_with):
-    plc = open_with(settings={"steps": "a"})
+    plc = open_with({"steps": "a"})
     with pytest.raises(PlcTestError, match=r"no table \[serves\]"):
-        plc.extensions.image("serves")
+        plc.image.reader("serves")
 
 
 def open_files():
@@ -111,9 +112,9 @@ def open_files():
 
 
 def test_closing_gives_the_memory_back(open_with):
-    plc = open_with(settings={"serves": "c"})
+    plc = open_with({"serves": "c"})
     gc.collect()  # what others left open is not counted
     files = open_files()
-    plc.extensions.close()
-    plc.extensions.close()
+    plc.image.close()
+    plc.image.close()
     assert open_files() == files - 1

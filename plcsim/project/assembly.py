@@ -1,0 +1,171 @@
+"""The assembly of a controller: programs, extensions and the image that other processes share.
+
+``plcsim run`` on either clock, the pytest plugin, ``plcsim check`` and whoever else needs a
+controller of a project gets it here, so that a project is the same thing everywhere.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.core.clock import VirtualClock
+from plcsim.core.errors import Findings
+from plcsim.host.garbage import collect_while_idle
+from plcsim.library.options import read_options
+from plcsim.network import VirtualNetwork
+from plcsim.program.loader import ProgramLoader, unload
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from plcsim.project.extension import extensions, in_process, services_of
+from plcsim.shared_image import ImageWriter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from plcsim.core.clock import Clock
+    from plcsim.core.controller import Controller, Heartbeat
+    from plcsim.network import Network
+    from plcsim.project.plc_toml import Project
+    from plcsim.project.tables import ProgramEntry
+
+VIRTUAL_IP: Final = "192.168.0.10"
+"""Address of the controller on a virtual network."""
+
+
+@dataclass(frozen=True)
+class Application:
+    """What runs on a controller, loaded.
+
+    Attributes:
+        name: of the project.
+        setup: its programs and task classes.
+        extensions: settings of the extensions whose table plc.toml has, by table.
+        package: of the modules that were loaded for it, "" for none.
+    """
+
+    name: str
+    setup: Setup
+    extensions: Mapping[str, Any] = field(default_factory=dict)
+    package: str = ""
+
+    def in_process(self, ip: str) -> Application:
+        """Return the application as it is where no process runs beside the controller.
+
+        Args:
+            ip: see `plcsim.project.extension.Extension.in_process`.
+        """
+        return replace(self, extensions=in_process(self.extensions, ip))
+
+    def unload(self) -> None:
+        """Forget the modules of the project, so that the next to load it has them afresh."""
+        if self.package:
+            unload(self.package)
+
+
+@dataclass(frozen=True)
+class Image:
+    """The shared image of a controller, as its parent gave it.
+
+    Attributes:
+        fd: an empty file of shared memory (`plcsim.shared_image.layout.make_file`).
+        wake_fds: an eventfd for each service, raised when the scan acknowledged its commands.
+    """
+
+    fd: int
+    wake_fds: Sequence[int] = ()
+
+
+def load(project: Project) -> Application:
+    """Load the programs of a project.
+
+    Raises:
+        ConfigurationError: programs are missing or cannot be loaded, or a library cannot be told
+            what plc.toml tells it; all findings are told, with file and line.
+    """
+    findings = Findings()
+    settings: list[object] = []
+    with findings.gathered():
+        settings = read_options(project.libraries)
+    loader = ProgramLoader(project.folder)
+    codes = {}
+    for entry in project.programs:
+        with findings.gathered():
+            codes[entry.source] = loader.load(entry.source)
+    if findings:
+        unload(loader.package)
+    findings.check()
+
+    def setup_of(entry: ProgramEntry) -> ProgramSetup:
+        return ProgramSetup(entry.name, codes[entry.source])
+
+    exception = project.plc.exception_program
+    setup = Setup(
+        classes=[
+            TaskClassSetup(
+                number=c.number,
+                cycle_ns=c.cycle_ns,
+                programs=[setup_of(p) for p in c.programs],
+                tolerance_ns=c.tolerance_ns,
+                first_release_ns=c.first_release_ns,
+                policy=c.policy,
+                host_policy=c.host_policy,
+            )
+            for c in project.classes
+        ],
+        memory_size=project.plc.memory_size,
+        exception_program=setup_of(exception) if exception else None,
+        settings=settings,
+    )
+    return Application(project.name, setup, project.extensions, loader.package)
+
+
+def assemble(
+    application: Application,
+    *,
+    clock: Clock,
+    network: Network,
+    heartbeat: Heartbeat | None = None,
+    image: Image | None = None,
+    system_fd: int | None = None,
+) -> Controller:
+    """Return a controller with the extensions hooked in, ready for its boot.
+
+    Args:
+        application: what runs on it; its extensions as they are to be here (`in_process`).
+        clock: virtual or real.
+        network: what its blocks talk over.
+        heartbeat: who watches it from outside.
+        image: laid out for services and those who watch; None where nobody reads it.
+        system_fd: see `plcsim.program.setup.make_controller`.
+
+    Raises:
+        ConfigurationError: the variables do not fit into the memory, or the settings of an
+            extension do not fit the tags.
+    """
+    controller = make_controller(
+        application.setup,
+        network=network,
+        clock=clock,
+        heartbeat=heartbeat,
+        idle=collect_while_idle,
+        system_fd=system_fd,
+    )
+    given = application.extensions
+    attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
+    if image is not None:
+        ImageWriter(
+            image.fd,
+            controller,
+            project=application.name,
+            services={name: attached[name].for_service for name in services_of(given)},
+            exports=[tag for attachment in attached.values() for tag in attachment.exports],
+            wake_fds=image.wake_fds,
+        )
+    return controller
+
+
+def still_controller(application: Application) -> Controller:
+    """Return a controller that nobody runs, to look at its memory and tags; nothing hooks in."""
+    clock = VirtualClock()
+    network = VirtualNetwork(clock.now_ns).host(VIRTUAL_IP)
+    return make_controller(application.setup, network=network, clock=clock)
