@@ -162,7 +162,8 @@ def test_a_program_that_does_not_return_may_be_logged_only(program, supervise):
     folder = program(settings='on_violation = "log"', cyclic="while True: pass")
     result = supervise(folder, cycles=2)
     assert (result["state"], result["fault"]) == ("STOPPED", None)
-    assert result["task_classes"][0]["violations"] == {"program": 2, "host": 0, "preempted": 0}
+    violations = result["task_classes"][0]["violations"]
+    assert {cause: count for cause, count in violations.items() if count} == {"program": 2}
 
 
 @pytest.mark.parametrize("unit", ["init", "exit"])
