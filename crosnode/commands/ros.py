@@ -1,25 +1,26 @@
 """``plcsim ros``: what a ROS 1 type is, its md5, and messages between JSON and bytes.
 
 This module only declares the commands: numpy and rosbags, which they need, are loaded when one of
-them runs and not with every other command of ``plcsim``.
+them runs (`crosnode.commands.later`).
 """
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
+
+from crosnode.commands.later import act_of
 
 if TYPE_CHECKING:
     import argparse
 
-COMMANDS: Final = "crosnode.commands.types"
+COMMANDS: Final = "crosnode.commands.message_types"
 EPILOG: Final = "Exit codes: 0 done, 1 a type or a message is wrong, 2 wrong usage."
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add ``ros`` and its commands; each sets ``func``, which gives the exit status."""
-    text = "ROS 1 message and service types"
+    text = "ROS 1 message, service and action types"
     ros = subparsers.add_parser("ros", help=text, description=f"{text}.", epilog=EPILOG)
     commands = ros.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add(commands, "show", "print constants and fields", type=_ONE)
@@ -32,7 +33,7 @@ _ONE = {
     "metavar": "TYPE",
     "help": "pkg/Name; for half of a service pkg/NameRequest or pkg/NameResponse",
 }
-_MANY = _ONE | {"nargs": "+", "help": "message or service types, pkg/Name"}
+_MANY = _ONE | {"nargs": "+", "help": "message, service or action types, pkg/Name"}
 _JSON = {"metavar": "JSON", "help": "an object of fields, others get defaults; '-' reads stdin"}
 _HEX = {
     "metavar": "HEX",
@@ -57,9 +58,4 @@ def _add(
     )
     for argument, options in arguments.items():
         parser.add_argument(argument, **options)
-    parser.set_defaults(func=lambda namespace: _run(name, namespace))
-
-
-def _run(name: str, arguments: argparse.Namespace) -> int:
-    status: int = import_module(COMMANDS).run(name, arguments)
-    return status
+    parser.set_defaults(func=act_of(COMMANDS, name))

@@ -2,11 +2,12 @@
 
 from crosnode.messages.codec import Message
 from crosnode.messages.json_values import from_json, to_json
-from crosnode.messages.registry import MessageType, MessageTypes, ServiceType
+from crosnode.messages.registry import ActionType, MessageType, MessageTypes, ServiceType
 from crosnode.messages.text import to_latin1
 from crosnode.messages.values import Duration, Time
 
 __all__ = [
+    "ActionType",
     "Duration",
     "Message",
     "MessageType",

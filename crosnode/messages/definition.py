@@ -123,6 +123,16 @@ def parse_message(name: str, text: str) -> Definition:
     return Definition(name, text, tuple(constants), tuple(fields))
 
 
+def field_comments(definition: Definition) -> dict[str, str]:
+    """Return the comments that stand behind fields in the text, by field."""
+    found: dict[str, str] = {}
+    for line in definition.text.split("\n"):
+        clean, _, comment = line.partition("#")
+        if comment.strip() and clean.strip() and "=" not in clean:
+            found[_words(clean)[-1]] = comment.strip()
+    return found
+
+
 def split_parts(name: str, text: str, parts: int) -> tuple[str, ...]:
     """Cut a .srv or .action text at its ``---`` lines into exactly ``parts`` texts.
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from crosnode.messages.definition import SEPARATOR
-from crosnode.messages.registry import MessageType, MessageTypes, ServiceType
+from crosnode.messages.registry import ActionType, MessageType, MessageTypes, ServiceType
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,12 +16,14 @@ if TYPE_CHECKING:
 _INDENT = "  "
 
 
-def outline(types: MessageTypes, found: MessageType | ServiceType) -> str:
-    """Return one line per constant and field, those of nested messages indented below theirs."""
-    if isinstance(found, MessageType):
-        return "\n".join(_lines(types, found.definition, ""))
-    request = _lines(types, found.request.definition, "")
-    return "\n".join([*request, SEPARATOR, *_lines(types, found.response.definition, "")])
+def outline(types: MessageTypes, found: MessageType | ServiceType | ActionType) -> str:
+    """Return one line per constant and field, those of nested messages indented below theirs.
+
+    The parts of a service or an action are separated as in their files.
+    """
+    parts = (found.goal, found.result, found.feedback) if isinstance(found, ActionType) else None
+    lines = [_lines(types, part.definition, "") for part in parts or found.messages]
+    return "\n".join(chain(lines[0], *((SEPARATOR, *each) for each in lines[1:])))
 
 
 def _lines(types: MessageTypes, definition: Definition, indent: str) -> Iterator[str]:

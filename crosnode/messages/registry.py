@@ -2,7 +2,7 @@
 
 A type is found in the package folders given, then among the common packages that come with
 crosnode. Names are ``pkg/Name``. The two halves of a service are message types ``pkg/NameRequest``
-and ``pkg/NameResponse``; an action gives the seven message types of actionlib.
+and ``pkg/NameResponse``; an action has the seven message types of actionlib.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from crosnode.messages.definition import (
 from crosnode.messages.packages import SHARE, DefinitionKind, PackagePath
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
 
 _SEPARATOR: Final = "=" * 80
@@ -94,6 +94,11 @@ class MessageType:
         """Return the message that ``data`` holds; see ``Codec.decode``."""
         return self._types.codec_for(self.name).decode(self.name, data)
 
+    @property
+    def messages(self) -> tuple[MessageType, ...]:
+        """The message type itself."""
+        return (self,)
+
     def warm(self) -> None:
         """Compile the codec; call it before the first cycle (milliseconds)."""
         self._types.codec_for(self.name).warm(self.name)
@@ -122,10 +127,50 @@ class ServiceType:
     def __repr__(self) -> str:
         return f"ServiceType({self.name!r})"
 
+    @property
+    def messages(self) -> tuple[MessageType, ...]:
+        """Both halves."""
+        return self.request, self.response
+
     def warm(self) -> None:
         """Compile both codecs; call it before the first cycle."""
         self.request.warm()
         self.response.warm()
+
+
+class ActionType:
+    """An action type, as actionlib makes it of ``Name.action``.
+
+    Attributes:
+        name: ``pkg/Name``.
+        md5sum: of the message ``pkg/NameAction``, which holds all others.
+        goal: message type ``pkg/NameGoal``. ``result`` and ``feedback`` likewise.
+        action_goal: message type ``pkg/NameActionGoal`` of the topic ``goal``. ``action_result``
+            and ``action_feedback`` likewise.
+        action: message type ``pkg/NameAction``.
+    """
+
+    def __init__(self, types: MessageTypes, name: str) -> None:
+        self.name = name
+        self.goal, self.result, self.feedback = (types.message(name + part) for part in _PARTS)
+        self.action, self.action_goal, self.action_result, self.action_feedback = (
+            types.message(name + suffix) for suffix in _ACTION_MESSAGES
+        )
+        self.md5sum = self.action.md5sum
+
+    def __repr__(self) -> str:
+        return f"ActionType({self.name!r})"
+
+    @property
+    def messages(self) -> tuple[MessageType, ...]:
+        """All seven, those that others contain before them."""
+        inner = (self.goal, self.result, self.feedback)
+        return (*inner, self.action_goal, self.action_result, self.action_feedback, self.action)
+
+    def warm(self) -> None:
+        """Compile all codecs; call it before the first cycle."""
+        for message_type in self.messages:
+            message_type.warm()
 
 
 class MessageTypes:
@@ -142,6 +187,7 @@ class MessageTypes:
         self._checked: set[str] = set()
         self._messages: dict[str, MessageType] = {}
         self._services: dict[str, ServiceType] = {}
+        self._actions: dict[str, ActionType] = {}
         self._classes: dict[str, type[Message]] = {}
         self._codec = Codec()
 
@@ -168,17 +214,32 @@ class MessageTypes:
             self._services[name] = ServiceType(self, name, text)
         return self._services[name]
 
-    def find(self, name: str) -> MessageType | ServiceType:
-        """Return the message type, or else the service type, ``name``; raises as ``message`` does.
+    def action(self, name: str) -> ActionType:
+        """Return the action type ``name``; raises as ``message`` does."""
+        name = "/".join(split_type_name(name))
+        if name not in self._actions:
+            if self._packages.read(name, DefinitionKind.ACTION) is None:
+                raise UnknownTypeError(f"No action type {name}.")
+            self._actions[name] = ActionType(self, name)
+        return self._actions[name]
 
-        ``pkg/srv/Name`` is a service where a message of the same name is.
+    def find(self, name: str) -> MessageType | ServiceType | ActionType:
+        """Return the message, service or action type ``name``, looked for in this order.
+
+        ``pkg/srv/Name`` is a service where a message of the same name is, ``pkg/action/Name`` an
+        action. Raises as ``message`` does.
         """
         short = "/".join(split_type_name(name))
-        wanted = "/srv/" in name or self._lacks(short)
-        if wanted and self._packages.read(short, DefinitionKind.SERVICE) is not None:
-            return self.service(short)
+        kinds: dict[DefinitionKind, Callable[[str], ServiceType | ActionType]]
+        kinds = {DefinitionKind.SERVICE: self.service, DefinitionKind.ACTION: self.action}
+        named = [kind for kind in kinds if f"/{kind.value}/" in name]
+        if not named and not self._lacks(short):
+            return self.message(short)
+        for kind in named or kinds:
+            if self._packages.read(short, kind) is not None:
+                return kinds[kind](short)
         if self._lacks(short):
-            raise UnknownTypeError(f"No message or service type {short}.")
+            raise UnknownTypeError(f"No message, service or action type {short}.")
         return self.message(short)
 
     def define(self, name: str, text: str) -> MessageType:

@@ -7,15 +7,13 @@ import contextlib
 import io
 import os
 import sys
-from importlib.metadata import entry_points, version
+from importlib.metadata import version
 from typing import TextIO
 
 from plcsim.cli import check, doctor, new, report, run, st, types, watch
+from plcsim.cli.installed import COMMANDS, register_installed
 from plcsim.core.errors import PlcError
 from st_types.errors import TypeSystemError
-
-COMMANDS = "plcsim.commands"
-"""Entry point group: packages above plcsim bring commands of their own."""
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -29,11 +27,7 @@ def build_parser() -> argparse.ArgumentParser:
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (run, check, doctor, new, report, watch, types, st):
         command.register(subparsers)
-    for entry in sorted(entry_points(group=COMMANDS), key=lambda e: e.name):
-        try:
-            entry.load()(subparsers)
-        except ImportError as err:  # a package that is half installed costs its own command only
-            print(f"plcsim: the command {entry.name} is not there: {err}", file=sys.stderr)
+    register_installed(COMMANDS, subparsers)
     return parser
 
 

@@ -12,18 +12,14 @@ from plcsim.cli.declaration_files import (
     library_scopes,
     read_files,
 )
-from plcsim.cli.message_files import MessageFiles, common_folders
 from plcsim.core.errors import PlcError
 from st_types.errors import Severity
 from st_types.resolve.scope import Scope
 from st_types.syntax.collector import collector_paused
-from st_types.syntax.printer import print_file, print_item
-from st_types.types.derived import StructType, resolve_alias
+from st_types.syntax.printer import print_file
 from st_types.writers.c_header import c_header
 from st_types.writers.layout_table import layout_rows
 from st_types.writers.python_source import python_source
-from st_types.writers.ros import Limits, struct_name, structs_from_ros
-from st_types.writers.ros_export import messages_from_struct
 
 if TYPE_CHECKING:
     import argparse
@@ -97,7 +93,7 @@ def _sound(paths: Sequence[Path]) -> Scope:
 
 def layout(options: argparse.Namespace) -> int:
     """Print a table of offsets."""
-    data_type = _find(options.paths, options.type)
+    data_type = find_type(options.paths, options.type)
     print(f"{options.type}: {_count(data_type.size, 'byte')}, alignment {data_type.alignment}")
     rows = [row for row in layout_rows(data_type) if options.deep or row.path.isidentifier()]
     width = max(len(text) for text in ("member", *(row.path for row in rows)))
@@ -108,7 +104,7 @@ def layout(options: argparse.Namespace) -> int:
     return 0
 
 
-def _find(paths: Sequence[Path], name: str) -> DataType[object]:
+def find_type(paths: Sequence[Path], name: str) -> DataType[object]:
     """Return a type; errors elsewhere do not matter.
 
     Raises:
@@ -147,47 +143,11 @@ def print_files(options: argparse.Namespace) -> int:
     return 1 if errors else 0
 
 
-def from_ros(options: argparse.Namespace) -> int:
-    """Print or write the STRUCTs of a message or a service."""
-    files = MessageFiles([*options.path, *common_folders()])
-    found = structs_from_ros(options.type, files.read, Limits(options.array, options.string))
-    texts = {".typ": print_item(found.types), ".var": print_item(found.constants)}
-    if not found.constants.declarations:
-        del texts[".var"]
-    for suffix, text in texts.items():
-        if options.output is None:
-            print(text, end="")
-        else:
-            _write(options.output / (struct_name(options.type) + suffix), text)
-    return 0
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
-    except OSError as err:
-        raise PlcError(f"{path}: {err.strerror or err}.") from err
-    print(path)
-
-
-def to_ros(options: argparse.Namespace) -> int:
-    """Print the messages of a STRUCT, those that it contains first."""
-    data_type = resolve_alias(_find(options.paths, options.type))
-    if not isinstance(data_type, StructType):
-        raise PlcError(f"{options.type} is no STRUCT.")
-    for name, text in messages_from_struct(data_type, options.package).items():
-        print(f"# {name}\n{text}")
-    return 0
-
-
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": check,
     "layout": layout,
     "header": header,
     "python": python,
     "print": print_files,
-    "from-ros": from_ros,
-    "to-ros": to_ros,
 }
 """What each command runs; the results are exit codes."""

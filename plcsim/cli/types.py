@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plcsim.cli.installed import TYPE_COMMANDS, register_installed
+
+if TYPE_CHECKING:
+    import argparse
 
 EPILOG = "Exit codes: 0 done, 1 errors were found, 2 wrong usage."
 
@@ -28,10 +33,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     header.add_argument("--name", default="", help="name for the guard; default: the first path's")
     _add(commands, "python", "write a Python module of typed views")
     _add(commands, "print", "write the declarations again, in Automation Studio's shape")
-    _add(commands, "to-ros", "write the ROS messages of a STRUCT", "type").add_argument(
-        "--package", default="plc", help="package of STRUCTs not named pkg_Type; default: plc"
-    )
-    _add_from_ros(commands)
+    register_installed(TYPE_COMMANDS, commands)
 
 
 def _add(
@@ -56,34 +58,8 @@ def _add(
     return parser
 
 
-def _add_from_ros(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "write the STRUCTs of a ROS message or service"
-    parser = commands.add_parser("from-ros", help=text, description=_sentence(text), epilog=EPILOG)
-    parser.add_argument("type", metavar="PKG/TYPE", help="such as sensor_msgs/JointState")
-    parser.add_argument(
-        "--path",
-        type=Path,
-        action="append",
-        default=[],
-        help="folder with packages, before those of ROS_PACKAGE_PATH and the common ones",
-    )
-    parser.add_argument("--array", type=_count, default=16, help="elements of T[]; default: 16")
-    parser.add_argument("--string", type=_count, default=80, help="characters; default: 80")
-    parser.add_argument(
-        "-o", "--output", type=Path, metavar="FOLDER", help="write PKG_TYPE.typ and .var there"
-    )
-    parser.set_defaults(func=_run, act="from-ros")
-
-
 def _sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:]}."
-
-
-def _count(text: str) -> int:
-    """Return a number from 1 to 65535."""
-    if not text.isdecimal() or not 1 <= int(text[:9]) <= 0xFFFF:
-        raise argparse.ArgumentTypeError(f"{text[:20]!r} is no number from 1 to 65535")
-    return int(text)
 
 
 def _run(options: argparse.Namespace) -> int:

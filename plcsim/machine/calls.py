@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import struct
-from ctypes import byref, c_size_t, c_uint32, c_void_p
+from ctypes import byref, c_uint32, c_void_p
 from typing import TYPE_CHECKING, Any
 
 from plcsim.machine.api import (
@@ -55,47 +55,55 @@ def prepare(
         results: code of its result, "" for none.
     """
     slots = (ctypes.c_char * (SLOT * max(len(params), len(results), 1)))()
-    handle = function  # kept alive by the closure, as is all that the arguments point to
     trap = store.trap
-    arguments = (
-        c_void_p(store.context),
-        c_void_p(ctypes.addressof(handle)),
-        c_void_p(ctypes.addressof(slots)),
-        c_size_t(max(len(params), len(results))),
-        c_void_p(ctypes.addressof(trap)),
-    )
-    context, target, values, count, out = arguments
-    enter = store.enter
-    raise_fault, interrupted = store.raise_fault, store.interrupted
+    context = _argument(store.context)
+    target = byref(function)
+    values = byref(slots)
+    count = _argument(max(len(params), len(results)))
+    out = byref(trap)
+    enter, raise_fault, interrupted = store.enter, store.raise_fault, store.interrupted
 
     def run() -> None:
         try:
             error = enter(context, target, values, count, out)
         except BaseException as interruption:  # by a signal handler, as soon as Python runs again
-            interrupted(interruption, handle)
+            interrupted(interruption)
             raise
         if error or trap:
             raise_fault(error)
 
-    return _with_values(run, slots, params, results) if params or results else run
-
-
-def _with_values(
-    run: Callable[[], None], slots: ctypes.Array[ctypes.c_char], params: str, results: str
-) -> Callable[..., Any]:
-    """Return ``run`` with values put into its slots before, and one taken out after."""
+    if not params and not results:
+        return run
     places = [CTYPES[code].from_buffer(slots, SLOT * i) for i, code in enumerate(params)]
     result = CTYPES[results].from_buffer(slots) if results else None
+    return _with_values(run, places, result)
+
+
+def _argument(number: int) -> Any:
+    """Return what ctypes passes on as this number, an address or a size, with the least work."""
+    return byref(ctypes.c_char.from_address(number))  # never looked at: only the address is taken
+
+
+def _with_values(run: Callable[[], None], places: list[Any], result: Any) -> Callable[..., Any]:
+    """Return ``run`` with values put into its slots before, and one taken out after."""
 
     def call(*values: Any) -> Any:
         if len(values) != len(places):
             raise TypeError(f"{len(places)} arguments are needed, not {len(values)}")
-        for place, value in zip(places, values, strict=True):
+        for place, value in zip(places, values):  # noqa: B905  # equally many, and strict costs
             place.value = value
         run()
         return result.value if result is not None else None
 
-    return call
+    def call_with_one(value: Any) -> Any:
+        place.value = value
+        run()
+        return result.value if result is not None else None
+
+    if len(places) != 1:
+        return call
+    (place,) = places
+    return call_with_one
 
 
 def host_callback(

@@ -106,7 +106,7 @@ class Store:
             raise suspended
         raise self._judged(fault)
 
-    def interrupted(self, interruption: BaseException, _kept: object) -> None:
+    def interrupted(self, interruption: BaseException) -> None:
         """Note where compiled code was when a signal handler raised on the return from it."""
         if self.trap:
             fault = self._take_trap()

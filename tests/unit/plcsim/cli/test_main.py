@@ -5,7 +5,6 @@ import builtins
 import io
 import subprocess
 import sys
-from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
@@ -78,15 +77,6 @@ def test_what_a_command_raises(monkeypatch, capsys, error, code, text):
     monkeypatch.setattr(cli, "build_parser", lambda: parser)
     assert main([]) == code
     assert capsys.readouterr() == ("", text)
-
-
-def test_a_command_that_cannot_be_imported_costs_only_itself(monkeypatch, capsys):
-    broken = EntryPoint("fly", "plcsim_no_such_module:register", cli.COMMANDS)
-    monkeypatch.setattr(cli, "entry_points", lambda group: [broken])
-    assert main(["check", "/nowhere"]) == 1
-    first, second = capsys.readouterr().err.splitlines()
-    assert first.startswith("plcsim: the command fly is not there: No module named")
-    assert second.startswith("plcsim: /nowhere/plc.toml: there is no such file")
 
 
 def test_ctrl_c_while_the_modules_are_loaded_shows_nothing(monkeypatch, capsys):

@@ -8,7 +8,6 @@ import pytest
 from plcsim.cli import types
 from plcsim.cli.declaration_files import LIBRARY
 from plcsim.core.errors import PlcError
-from st_types.errors import DeclarationError
 from st_types.syntax.declarations import parse_text
 
 Run = Callable[..., tuple[int, str, str]]
@@ -149,42 +148,6 @@ def test_print_gives_the_same_declarations(run: Run, project: Path) -> None:
     code, _, err = run("print", project / "Bad.typ")
     assert code == 1
     assert "expected ':' after the name A" in err
-
-
-def test_from_ros_finds_the_common_messages(run: Run) -> None:
-    code, out, _ = run("from-ros", "sensor_msgs/JointState", "--array", "6", "--string", "20")
-    assert code == 0
-    names = [d.name for item in parse_text(out).items for d in item.declarations]
-    assert names[:3] == ["ros_time", "std_msgs_Header", "sensor_msgs_JointState"]
-    assert "sensor_msgs_JointState_position_MAX : UDINT := 5;" in out
-
-
-def test_from_ros_writes_files_that_check_and_go_back(run: Run, tmp_path: Path) -> None:
-    share = tmp_path / "share" / "cell" / "msg"
-    share.mkdir(parents=True)
-    (share / "State.msg").write_text("Header header\nfloat64[] q\n")
-    (share / "Plain.msg").write_text("int8 x\n")
-    out = tmp_path / "out"
-    printed = run("from-ros", "cell/State", "--path", tmp_path / "share", "-o", out)[1]
-    assert printed.split() == [str(out / "cell_State.typ"), str(out / "cell_State.var")]
-    run("from-ros", "cell/Plain", "--path", tmp_path / "share", "-o", out)
-    assert not (out / "cell_Plain.var").exists()
-    assert run("check", "--strict", out)[0] == 0
-    assert (
-        "# cell/State\nstd_msgs/Header header\nfloat64[] q\n" in run("to-ros", "cell_State", out)[1]
-    )
-    with pytest.raises(PlcError, match=r"Not a directory|File exists"):
-        run("from-ros", "cell/Plain", "--path", tmp_path / "share", "-o", share / "State.msg")
-
-
-def test_what_has_no_ros_form_is_refused(run: Run, project: Path) -> None:
-    with pytest.raises(DeclarationError, match="a function block has no ROS form"):
-        run("to-ros", "Axis", project)
-    (project / "Main" / "E.typ").write_text("TYPE E : (a, b); END_TYPE")
-    with pytest.raises(PlcError, match="E is no STRUCT"):
-        run("to-ros", "E", project)
-    with pytest.raises(DeclarationError, match="no message and no service is called x/Nothing"):
-        run("from-ros", "x/Nothing")
 
 
 def test_our_own_library_is_sound(run: Run) -> None:

@@ -19,8 +19,6 @@ ARGUMENTS = {
     "header": ["header"],
     "python": ["python"],
     "print": ["print"],
-    "to-ros": ["to-ros", "A"],
-    "from-ros": ["from-ros", "p/A"],
 }
 
 
@@ -36,10 +34,6 @@ def test_every_command_has_arguments_and_an_act(parser: argparse.ArgumentParser)
         [],
         ["check"],
         ["layout"],
-        ["from-ros"],
-        ["from-ros", "p/A", "--array", "0"],
-        ["from-ros", "p/A", "--string", "x"],
-        ["from-ros", "p/A", "--string", "99999"],
     ],
 )
 def test_wrong_usage(

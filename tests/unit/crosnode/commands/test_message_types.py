@@ -1,13 +1,12 @@
 """What the commands of ``plcsim ros`` print."""
 
-import argparse
 import io
 import json
 from pathlib import Path
 
 import pytest
 
-from crosnode.commands.ros import register
+from plcsim.cli.main import main
 
 DATA = Path(__file__).parents[3] / "data" / "ros1"
 
@@ -18,12 +17,7 @@ def _no_ros_environment(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def run(*arguments: str) -> int:
-    parser = argparse.ArgumentParser()
-    register(parser.add_subparsers())
-    namespace = parser.parse_args(["ros", *arguments])
-    status = namespace.func(namespace)
-    assert isinstance(status, int)
-    return status
+    return main(["ros", *arguments])
 
 
 def test_md5(capsys: pytest.CaptureFixture[str]) -> None:
@@ -57,7 +51,7 @@ def test_md5_goes_on_after_an_unknown_type(capsys: pytest.CaptureFixture[str]) -
     assert run("md5", "std_msgs/None", "std_msgs/Bool") == 1
     out, err = capsys.readouterr()
     assert out == "std_msgs/Bool 8b94c1b53db61fb6aed406028ad6332a\n"
-    assert err == "error: No message or service type std_msgs/None.\n"
+    assert err == "plcsim: No message, service or action type std_msgs/None.\n"
 
 
 def test_show(capsys: pytest.CaptureFixture[str]) -> None:
@@ -101,7 +95,7 @@ def test_half_of_a_service(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("encode", "std_srvs/SetBoolRequest", '{"data": true}') == 0
     assert capsys.readouterr().out == "01\n"
     assert run("encode", "std_srvs/SetBool", "{}") == 1
-    assert "std_srvs/SetBoolRequest or std_srvs/SetBoolResponse" in capsys.readouterr().err
+    assert "std_srvs/SetBoolRequest, std_srvs/SetBoolResponse" in capsys.readouterr().err
 
 
 def test_standard_input(
@@ -133,4 +127,16 @@ def test_errors(arguments: list[str], message: str, capsys: pytest.CaptureFixtur
     assert run(*arguments) == 1
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith(f"error: {message}")
+    assert err.startswith(f"plcsim: {message}")
+
+
+def test_an_action_is_shown_in_its_three_parts(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    folder = tmp_path / "arm" / "action"
+    folder.mkdir(parents=True)
+    (folder / "Move.action").write_text("float64 to\n---\nbool done\n---\nfloat64 at\n")
+    assert run("show", "--path", str(tmp_path), "arm/Move") == 0
+    assert capsys.readouterr().out == "float64 to\n---\nbool done\n---\nfloat64 at\n"
+    assert run("encode", "--path", str(tmp_path), "arm/Move", "{}") == 1
+    assert "arm/Move is no message; name one of arm/MoveGoal, " in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""STRUCTs as ROS 1 messages: the way back of `st_types.writers.ros`.
+"""STRUCTs as ROS 1 messages: the way back of `crosnode.messages.struct_declarations`.
 
 A STRUCT named ``pkg_Type`` is the message ``pkg/Type``; any other takes the package it is given. An
 ARRAY with a member ``name_length`` of type UDINT behind it is of variable length. BYTE, WORD, DWORD
@@ -13,7 +13,8 @@ import re
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from st_types.errors import DeclarationError
+from crosnode.errors import DefinitionError
+from crosnode.messages.struct_declarations import PRIMITIVES, TIMES
 from st_types.types.derived import (
     ArrayType,
     DataBlockType,
@@ -25,7 +26,6 @@ from st_types.types.derived import (
     resolve_alias,
 )
 from st_types.types.elementary import UDINT, ElementaryType
-from st_types.writers.ros import PRIMITIVES, TIMES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,7 +52,7 @@ def messages_from_struct(data_type: StructType[object], package: str = "plc") ->
         package: of STRUCTs whose name does not tell one.
 
     Raises:
-        DeclarationError: a member has no ROS form; the message names it.
+        DefinitionError: a member has no ROS form; the message names it.
     """
     found: dict[str, str] = {}
     _add(data_type, package, found)
@@ -68,7 +68,7 @@ def message_name(data_type: StructType[object], package: str = "plc") -> str:
 def _add(data_type: StructType[object], package: str, found: dict[str, str]) -> str:
     name = message_name(data_type, package)
     if isinstance(data_type, DataBlockType):
-        raise DeclarationError(f"{data_type}: a function block has no ROS form.")
+        raise DefinitionError(f"{data_type}: a function block has no ROS form.")
     if name not in found:
         found[name] = ""
         lines = list(_lines(data_type, package, found))
@@ -82,7 +82,7 @@ def _lines(data_type: StructType[object], package: str, found: dict[str, str]) -
     for member, following in members:
         where = f"{data_type}.{member.name}"
         if _FIELD_NAME.fullmatch(member.name) is None:
-            raise DeclarationError(f"{where}: a ROS field cannot have this name.")
+            raise DefinitionError(f"{where}: a ROS field cannot have this name.")
         kind = resolve_alias(member.data_type)
         if isinstance(kind, EnumerationType):
             yield from (f"int32 {key}={value}" for key, value in kind.values.items())
@@ -104,7 +104,7 @@ def _is_length(array: Member, following: Member | None) -> bool:
 
 def _length(where: str, data_type: ArrayType[object]) -> int:
     if len(data_type.bounds) > 1:
-        raise DeclarationError(f"{where}: an ARRAY of several dimensions has no ROS form.")
+        raise DefinitionError(f"{where}: an ARRAY of several dimensions has no ROS form.")
     return data_type.count
 
 
@@ -123,4 +123,4 @@ def _ros_type(where: str, declared: DataType[object], package: str, found: dict[
             return _add(data_type, package, found)
         case ElementaryType() if data_type.name in _ROS_TYPES:
             return _ROS_TYPES[data_type.name]
-    raise DeclarationError(f"{where}: {data_type} has no ROS form.")
+    raise DefinitionError(f"{where}: {data_type} has no ROS form.")

@@ -1,4 +1,4 @@
-"""What the commands of ``plcsim ros`` do; ``cli`` declares them."""
+"""What the commands of ``plcsim ros`` about types do; `crosnode.commands.ros` declares them."""
 
 from __future__ import annotations
 
@@ -8,36 +8,26 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from crosnode.errors import CrosnodeError, MessageTypeError, MessageValueError
+from crosnode.errors import MessageTypeError, MessageValueError
 from crosnode.messages import MessageType, MessageTypes, from_json, to_json
 from crosnode.messages.outline import outline
 
 if TYPE_CHECKING:
     import argparse
-    from collections.abc import Callable
+    from collections.abc import Sequence
 
 STANDARD_INPUT: Final = "-"
 
 
-def run(name: str, arguments: argparse.Namespace) -> int:
-    """Run a command and return the exit status: 0 done, 1 an error, which is printed."""
-    try:
-        _COMMANDS[name](arguments)
-    except CrosnodeError as error:
-        sys.stderr.write(f"error: {error}\n")
-        return 1
-    return 0
-
-
 def show(arguments: argparse.Namespace) -> None:
     """Print the outline of a type."""
-    types = _types(arguments)
+    types = message_types(arguments.path)
     _print(outline(types, types.find(arguments.type)))
 
 
 def md5(arguments: argparse.Namespace) -> None:
     """Print a line for each type that is found; the first error is raised after the last line."""
-    types, fault = _types(arguments), None
+    types, fault = message_types(arguments.path), None
     for name in arguments.types:
         try:
             _print(f"{name} {types.find(name).md5sum}")
@@ -49,7 +39,7 @@ def md5(arguments: argparse.Namespace) -> None:
 
 def encode(arguments: argparse.Namespace) -> None:
     """Print the bytes of the message that a JSON object stands for."""
-    types = _types(arguments)
+    types = message_types(arguments.path)
     message_type = _message_type(types, arguments.type)
     try:
         value = json.loads(_text(arguments.json))
@@ -60,7 +50,7 @@ def encode(arguments: argparse.Namespace) -> None:
 
 def decode(arguments: argparse.Namespace) -> None:
     """Print the JSON object of a message."""
-    types = _types(arguments)
+    types = message_types(arguments.path)
     message_type = _message_type(types, arguments.type)
     try:
         data = bytes.fromhex(_text(arguments.hex))
@@ -72,22 +62,25 @@ def decode(arguments: argparse.Namespace) -> None:
     _print(text.encode(errors="backslashreplace").decode())
 
 
-def _types(arguments: argparse.Namespace) -> MessageTypes:
-    """Return the types of ``--path``, then of ROS_PACKAGE_PATH, then the common ones."""
-    for path in arguments.path:
+def message_types(paths: Sequence[Path]) -> MessageTypes:
+    """Return the types of ``--path``, then of ROS_PACKAGE_PATH, then the common ones.
+
+    Raises:
+        MessageTypeError: a path is no folder.
+    """
+    for path in paths:
         if not path.is_dir():
             raise MessageTypeError(f"{path}: no such folder.")
     environment = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
-    return MessageTypes([*arguments.path, *(Path(path) for path in environment if path)])
+    return MessageTypes([*paths, *(Path(path) for path in environment if path)])
 
 
 def _message_type(types: MessageTypes, name: str) -> MessageType:
     found = types.find(name)
     if isinstance(found, MessageType):
         return found
-    raise MessageTypeError(
-        f"{found.name} is a service; name {found.request.name} or {found.response.name}."
-    )
+    names = ", ".join(each.name for each in found.messages)
+    raise MessageTypeError(f"{found.name} is no message; name one of {names}.")
 
 
 def _text(argument: str) -> str:
@@ -96,11 +89,3 @@ def _text(argument: str) -> str:
 
 def _print(text: str) -> None:
     sys.stdout.write(text + "\n")
-
-
-_COMMANDS: Final[dict[str, Callable[[argparse.Namespace], None]]] = {
-    "show": show,
-    "md5": md5,
-    "encode": encode,
-    "decode": decode,
-}

@@ -1,17 +1,26 @@
+from pathlib import Path
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from st_types.errors import DeclarationError
+from crosnode.errors import CrosnodeError, DefinitionError, MessageTypeError
+from crosnode.messages import MessageTypes
+from crosnode.messages.struct_declarations import (
+    PRIMITIVES,
+    Bounds,
+    StructDeclaration,
+    print_constants,
+    print_types,
+    struct_declarations,
+)
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
-from st_types.syntax.printer import print_item
 from st_types.types.derived import StructType, resolve_alias
 from st_types.types.elementary import ELEMENTARY
 from st_types.types.values import encode
-from st_types.writers.ros import PRIMITIVES, Limits, structs_from_ros
 
-from ..checked import checked
+from ...st_types.checked import checked
 
 DEFINITIONS = {
     ("sensor_msgs/JointState", "msg"): (
@@ -35,26 +44,34 @@ DEFINITIONS = {
 }
 
 
-def read(name: str, kind: str) -> str | None:
-    return DEFINITIONS.get((name, kind))
+@pytest.fixture
+def types(tmp_path: Path) -> MessageTypes:
+    for (name, kind), text in DEFINITIONS.items():
+        file = tmp_path / f"{name}.{kind}"
+        file.parent.mkdir(exist_ok=True)
+        file.write_bytes(text.encode())
+    return MessageTypes([tmp_path])
 
 
-def text_of(name: str, limits: Limits | None = None) -> str:
-    found = structs_from_ros(name, read, limits)
-    return print_item(found.types) + print_item(found.constants)
+def printed(found: list[StructDeclaration]) -> str:
+    return print_types(found) + print_constants(found)
 
 
-def table_of(name: str, limits: Limits | None = None) -> Scope:
-    file = parse_text(text_of(name, limits))
-    table = checked([file], strict=True)
+def text_of(types: MessageTypes, name: str, bounds: Bounds | None = None) -> str:
+    return printed(struct_declarations(types, [name], bounds))
+
+
+def scope_of(types: MessageTypes, name: str, bounds: Bounds | None = None) -> Scope:
+    file = parse_text(text_of(types, name, bounds))
+    scope = checked([file], strict=True)
     file.diagnostics.raise_errors()
-    return table
+    return scope
 
 
-def test_joint_state() -> None:
+def test_joint_state(types: MessageTypes) -> None:
     name = "STRING[sensor_msgs_JointState_name_LENGTH]"
     assert (
-        text_of("sensor_msgs/JointState", Limits(array=6, string=20))
+        text_of(types, "sensor_msgs/JointState", Bounds(array=6, string=20))
         == f"""\
 TYPE
 	ros_time : STRUCT
@@ -90,8 +107,8 @@ END_VAR
     )
 
 
-def test_the_bounds_lay_the_struct_out() -> None:
-    small, large = (table_of("sensor_msgs/JointState", Limits(n, 20)) for n in (1, 6))
+def test_the_bounds_lay_the_struct_out(types: MessageTypes) -> None:
+    small, large = (scope_of(types, "sensor_msgs/JointState", Bounds(n, 20)) for n in (1, 6))
     first, second = (t.find_type("sensor_msgs_JointState") for t in (small, large))
     assert first is not None
     assert second is not None
@@ -99,8 +116,8 @@ def test_the_bounds_lay_the_struct_out() -> None:
     assert second.size == 36 + 128 + 4 + 3 * (6 * 8 + 4)
 
 
-def test_every_primitive_and_constants() -> None:
-    table = table_of("x/All")
+def test_every_primitive_and_constants(types: MessageTypes) -> None:
+    table = scope_of(types, "x/All")
     found = table.find_type("x_All")
     assert isinstance(found, StructType)
     types = [str(resolve_alias(m.data_type)) for m in found.members]
@@ -119,8 +136,8 @@ def test_every_primitive_and_constants() -> None:
     }
 
 
-def test_names_that_differ_in_case_only() -> None:
-    found = table_of("x/Point").find_type("x_Point")
+def test_names_that_differ_in_case_only(types: MessageTypes) -> None:
+    found = scope_of(types, "x/Point").find_type("x_Point")
     assert isinstance(found, StructType)
     assert [m.name for m in found.members] == ["x", "X_", "x_length", "x_length_length"]
 
@@ -132,52 +149,79 @@ def test_names_that_differ_in_case_only() -> None:
         ("x/Trigger", {"x_TriggerRequest": [], "x_TriggerResponse": ["success", "message"]}),
     ],
 )
-def test_services(service: str, names: dict[str, list[str]]) -> None:
-    table = table_of(service)
+def test_services(types: MessageTypes, service: str, names: dict[str, list[str]]) -> None:
+    table = scope_of(types, service)
     for name, expected in names.items():
         found = table.find_type(name)
         assert isinstance(found, StructType)
         assert [m.name for m in found.members] == expected
 
 
+def test_an_action_is_seven_messages(types: MessageTypes, tmp_path: Path) -> None:
+    (tmp_path / "x" / "Move.action").write_text("float64 to\n---\nbool done\n---\nfloat64 at\n")
+    scope = scope_of(types, "x/Move")
+    suffixes = ("Goal", "Result", "Feedback", "ActionGoal", "ActionResult", "ActionFeedback")
+    for suffix in (*suffixes, "Action"):
+        assert isinstance(scope.find_type(f"x_Move{suffix}"), StructType)
+
+
+def test_a_package_whose_folder_has_another_name(tmp_path: Path) -> None:
+    folder = tmp_path / "src" / "driver_v2" / "msg"
+    folder.mkdir(parents=True)
+    (folder.parent / "package.xml").write_text("<package><name>driver</name></package>")
+    (folder / "State.msg").write_text("int8 x\n")
+    found = struct_declarations(MessageTypes([tmp_path]), ["driver/State"])
+    assert [each.name for each in found] == ["driver_State"]
+
+
+def test_messages_without_fields_and_arrays_of_them(tmp_path: Path) -> None:
+    types = MessageTypes()
+    types.define("x/Nothing", "# nothing\n")
+    types.define("x/Holder", "Nothing one\nNothing[] many\nNothing[2] two\nint8 last\n")
+    holder = scope_of(types, "x/Holder").find_type("x_Holder")
+    assert isinstance(holder, StructType)
+    assert [m.name for m in holder.members] == ["one", "many", "many_length", "two", "last"]
+
+
+def test_what_several_types_need_is_declared_once(types: MessageTypes) -> None:
+    found = struct_declarations(types, ["sensor_msgs/JointState", "std_msgs/Header", "x/Point"])
+    names = ["ros_time", "std_msgs_Header", "sensor_msgs_JointState", "x_Point"]
+    assert [each.name for each in found] == names
+    assert found[1].typ().startswith("TYPE\n\tstd_msgs_Header : STRUCT")
+    assert found[1].var() == (
+        "VAR CONSTANT\n\tstd_msgs_Header_frame_id_LENGTH : UDINT := 80; (*characters*)\nEND_VAR\n"
+    )
+    assert found[0].var() == ""
+
+
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("x/Loop", r"x/Loop contains itself: x/Loop -> x/Other -> x/Loop"),
-        ("x/Broken", r"x/Broken, line 2: 'int32 b c' is no field and no constant"),
-        ("x/Endless", r"x/Endless, line 1: 'int32\[9+\] a' is no field and no constant"),
-        ("x/Missing", "x/Missing: no message is called y/Nothing"),
-        ("x/Absent", "no message and no service is called x/Absent"),
-        ("JointState", "'JointState' is no type name; pkg/Type was expected"),
+        ("x/Loop", "contains itself"),
+        ("x/Broken", r"x/Broken, line 2: expected 'type name', got 'int32 b c'"),
+        ("x/Endless", r"x/Endless, line 1: "),
+        ("x/Missing", "x/Missing.n: No message type y/Nothing"),
+        ("x/Absent", "No message, service or action type x/Absent"),
+        ("JointState", "'JointState' is not a type name"),
     ],
 )
-def test_errors(name: str, message: str) -> None:
-    with pytest.raises(DeclarationError, match=message):
-        structs_from_ros(name, read)
+def test_errors(types: MessageTypes, name: str, message: str) -> None:
+    with pytest.raises(MessageTypeError, match=message):
+        struct_declarations(types, [name])
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("int8 A=x", "'x' is no value of int8"),
-        ("float32 A=inf", "'inf' is no value of float32"),
-        ("bool A=2", "'2' is no value of bool"),
-        ("time A=2", "'2' is no value of time"),
-        ("int8[0] a", "an ARRAY cannot have 0 elements"),
-        ("int8[99999999999] a", "an ARRAY cannot have 99999999999 elements"),
+        ("float32 A=inf", "x_A_A: inf is no value of a PLC"),
+        ("int8[0] a", r"x_A.a: an ARRAY cannot have 0 elements"),
     ],
 )
-def test_errors_in_a_line(text: str, message: str) -> None:
-    with pytest.raises(DeclarationError, match=message):
-        structs_from_ros("x/A", lambda name, kind: text if (name, kind) == ("x/A", "msg") else None)
-
-
-def test_deep_nesting_is_an_error() -> None:
-    def endless(name: str, kind: str) -> str | None:
-        return f"{name}x field" if kind == "msg" else None
-
-    with pytest.raises(DeclarationError, match="contains itself"):
-        structs_from_ros("p/A", endless)
+def test_what_has_no_form_in_a_plc(text: str, message: str) -> None:
+    types = MessageTypes()
+    types.define("x/A", text)
+    with pytest.raises(DefinitionError, match=message):
+        struct_declarations(types, ["x/A"])
 
 
 WORDS = [
@@ -199,16 +243,13 @@ WORDS = [
 
 @given(st.lists(st.sampled_from(WORDS), max_size=20).map(" ".join) | st.text(max_size=40))
 def test_any_text_is_converted_or_refused(text: str) -> None:
-    def any_message(name: str, _kind: str) -> str | None:
-        return {"p/B": text, "p/A": "int8 a", "std_msgs/Header": "time stamp"}.get(name)
-
+    types = MessageTypes()
+    types.define("p/A", "int8 a")
     try:
-        found = structs_from_ros("p/B", any_message)
-    except DeclarationError:
+        types.define("p/B", text)
+        found = struct_declarations(types, ["p/B"])
+    except CrosnodeError:
         return
-    table = checked(
-        [parse_text(print_item(found.types) + print_item(found.constants))], strict=True
-    )
-    data_type = table.find_type("p_B")
+    data_type = checked([parse_text(printed(found))], strict=True).find_type("p_B")
     if data_type is not None:  # a constant may be out of the range of its type
         assert len(encode(data_type, None)) == data_type.size
