@@ -9,7 +9,7 @@ from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
 from plcsim.core.duration import format_duration
-from plcsim.host.realtime import missing_cpu
+from plcsim.host.processors import missing_cpu
 from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project

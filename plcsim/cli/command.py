@@ -11,6 +11,8 @@ from importlib.metadata import version
 from typing import TextIO
 
 from plcsim.cli import check, doctor, new, report, run, st, types, watch
+from plcsim.cli.console import print_error
+from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.installed import COMMANDS, register_installed
 from plcsim.core.errors import PlcError
 from st_types.errors import TypeSystemError
@@ -44,9 +46,8 @@ def run_command(arguments: list[str] | None) -> int:
     except BrokenPipeError:  # the reader has seen enough, as `head` has
         pass
     except (PlcError, TypeSystemError, OSError) as err:
-        with contextlib.suppress(OSError):
-            print(f"plcsim: {err}", file=sys.stderr)
-        code = 1
+        print_error(err)
+        code = ExitCode.FAILED
     _drop_output(sys.stdout)
     _drop_output(sys.stderr)
     return code

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import linecache
-import threading
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Group
-from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
@@ -15,12 +13,10 @@ from plcsim.cli.console import CommandConsole
 from plcsim.core.duration import format_duration
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from plcsim.project.plc_toml import Project
     from plcsim.shared_image.status_page import StatusPage
-
-PERIOD_S = 0.25
 
 _STATE_STYLES = {"BOOT": "yellow", "RUN": "green", "SERVICE": "bold red", "STOPPED": "cyan"}
 
@@ -42,43 +38,29 @@ def _programs(number: int, names: Iterable[str]) -> Text:
 
 
 class LiveTable:
-    """A table that is drawn anew every quarter of a second, by a thread of the parent process.
-
-    A thread, so that a terminal that does not take output cannot stop the watchdog. Nothing is
-    shown where stderr is not a terminal.
+    """The table of a run as it is now.
 
     Args:
         project: what runs.
         page: its status page.
         for_ns: when the run ends, on the controller's clock; None for never.
+        hints: what a person can do meanwhile, a line each.
     """
 
-    def __init__(self, project: Project, page: StatusPage, for_ns: int | None = None) -> None:
+    def __init__(
+        self,
+        project: Project,
+        page: StatusPage,
+        for_ns: int | None = None,
+        hints: Sequence[str] = (),
+    ) -> None:
         self._project = project
         self._page = page
         self._goal = "" if for_ns is None else f" of {format_duration(for_ns)}"
-        self._console = CommandConsole(stderr=True)
-        self._done = threading.Event()
-        self._thread = threading.Thread(target=self._draw, daemon=True)
+        self._hints = [Text(hint, style="dim") for hint in hints]
 
-    def __enter__(self) -> LiveTable:
-        if self._console.is_terminal:
-            self._thread.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._done.set()
-        if self._thread.is_alive():
-            self._thread.join(2 * PERIOD_S)
-
-    def _draw(self) -> None:
-        with Live(
-            console=self._console, auto_refresh=False, transient=True, redirect_stdout=False
-        ) as live:
-            while not self._done.wait(PERIOD_S):
-                live.update(self._picture(), refresh=True)
-
-    def _picture(self) -> Group:
+    def picture(self) -> Group:
+        """Return state, time, task classes and hints."""
         state = self._page.state.name
         elapsed = f"{self._page.elapsed_ns / 1e9:.1f} s{self._goal}"
         head = Text.assemble(
@@ -97,7 +79,7 @@ class LiveTable:
                 _pair(s.lateness_ns, s.longest_lateness_ns),
             )
         names = (_programs(c.number, (p.name for p in c.programs)) for c in self._project.classes)
-        return Group(head, table, *names)
+        return Group(head, table, *names, *self._hints)
 
 
 def print_summary(result: dict[str, Any]) -> None:
@@ -136,6 +118,8 @@ def print_summary(result: dict[str, Any]) -> None:
         seconds = f"{entry['time_ns'] / 1e9:.6f}"
         text = Text(f"{seconds:>13} s  {entry['source']}: {entry['text']}")
         console.print(text, soft_wrap=True)
+    if lost := result.get("output_lost_bytes"):
+        console.print(f"{lost:,} bytes that were printed are lost: nobody took them in time")
     if len(entries) > 10:
         console.print(f"... and {len(entries) - 10} earlier entries; --report FILE keeps them")
 

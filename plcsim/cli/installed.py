@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING
+
+from plcsim.cli.console import print_error
 
 if TYPE_CHECKING:
     import argparse
@@ -24,4 +25,4 @@ def register_installed(
         try:
             entry.load()(subparsers)
         except ImportError as err:  # a package that is half installed costs its own command only
-            print(f"plcsim: the command {entry.name} is not there: {err}", file=sys.stderr)
+            print_error(f"the command {entry.name} is not there: {err}")

@@ -5,16 +5,22 @@ from __future__ import annotations
 import argparse
 import contextlib
 import json
+import os
+import shlex
 import signal
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.cli.check import notes_on_cpu
+from plcsim.cli.console import CommandConsole, print_error
 from plcsim.cli.display import LiveTable, print_summary
+from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.output_file import check_output, write_output
+from plcsim.cli.terminal import Terminal
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError
+from plcsim.process.output import Output
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 
@@ -24,8 +30,7 @@ if TYPE_CHECKING:
 
     from plcsim.project.plc_toml import Project
 
-SERVICE_NEVER_SERVED = 1
-ENDED_IN_SERVICE = 3
+HINT = "Ctrl-C stops it; values in another terminal: plcsim watch {}"
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -35,8 +40,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="run a project",
         description="Run a project until Ctrl-C, a limit, or a fault. Ctrl-C runs the EXITs; a "
         "second one ends a program that hangs.",
-        epilog="Exit codes: 0 ran and stopped, 1 configuration error or a service (Modbus, the "
-        "embedded master) that could not serve at any time, 3 ended in SERVICE.",
+        epilog=epilog(
+            DONE="ran and stopped",
+            FAILED="the project is wrong, or a service (Modbus, the embedded master) could not "
+            "serve at any time",
+            SERVICE="",
+        ),
     )
     parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
     parser.add_argument(
@@ -89,27 +98,56 @@ def run(options: argparse.Namespace) -> int:
     if not (options.quiet or options.virtual):
         for note in notes_on_cpu(project):
             print(f"on this host: {note}", file=sys.stderr)
+    terminal = None if options.quiet else _terminal()
+    stdout = terminal if terminal is not None and _is_one_terminal() else None
     supervisor = Supervisor(
         project,
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
+        output=Output(stdout, terminal, patient=options.virtual),
         quiet=options.quiet,
     )
     with supervisor, _signals_forwarded(supervisor):
-        result = _wait(supervisor, project, options)
+        with _table_on(terminal, _table(project, supervisor, options)):
+            result = supervisor.wait()
         code = _finish(result, options)  # a late Ctrl-C shall not cost the report
         code = code or _judge_services(supervisor.services.never_served)
-        if options.stay and code == ENDED_IN_SERVICE:
+        if options.stay and code == ExitCode.SERVICE:
             _stay(supervisor, options)
         return code
 
 
-def _wait(supervisor: Supervisor, project: Project, options: argparse.Namespace) -> dict[str, Any]:
-    if options.quiet:
-        return supervisor.wait()
-    with LiveTable(project, supervisor.page, options.for_ns):
-        return supervisor.wait()
+def _terminal() -> Terminal | None:
+    """Return the terminal that stderr is, None where it is none that can show a table."""
+    console = CommandConsole(stderr=True)
+    can = console.is_terminal and not console.is_dumb_terminal and sys.stderr.isatty()
+    return Terminal(console) if can else None
+
+
+def _is_one_terminal() -> bool:
+    """Whether stdout is the terminal that stderr is."""
+    with contextlib.suppress(OSError):
+        return os.fstat(1).st_rdev == os.fstat(2).st_rdev and os.isatty(1)
+    return False
+
+
+def _table(project: Project, supervisor: Supervisor, options: argparse.Namespace) -> LiveTable:
+    hints = [HINT.format(shlex.quote(str(options.project)))]
+    return LiveTable(project, supervisor.page, options.for_ns, hints)
+
+
+@contextlib.contextmanager
+def _table_on(terminal: Terminal | None, table: LiveTable) -> Iterator[None]:
+    """Show a table, where there is a terminal."""
+    if terminal is None:
+        yield
+        return
+    terminal.show(table.picture)
+    try:
+        yield
+    finally:
+        terminal.hide()
 
 
 @contextlib.contextmanager
@@ -138,23 +176,35 @@ def _stay(supervisor: Supervisor, options: argparse.Namespace) -> None:
 
 
 def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
+    """Write the report, print the summary, and return the exit code."""
     if "error" in result:
         raise ConfigurationError(result["error"])
     in_service = result["state"] == "SERVICE"
+    unwritten = _write_report(result, options.report)
+    if not options.quiet or in_service:
+        _show(result)
+    if unwritten:  # how the run ended was told all the same, and counts more
+        print_error(unwritten)
+    failed = ExitCode.FAILED if unwritten else ExitCode.DONE
+    return ExitCode.SERVICE if in_service else failed
+
+
+def _write_report(result: dict[str, Any], file: Path | None) -> str:
+    """Write the report, where one is wanted; return why it cannot be written, "" where it is."""
+    if file is None:
+        return ""
     try:
-        if options.report is not None:
-            write_output("--report", options.report, json.dumps(result, indent=2) + "\n")
-    finally:
-        if not options.quiet or in_service:
-            _show(result)
-    return ENDED_IN_SERVICE if in_service else 0
+        write_output("--report", file, json.dumps(result, indent=2) + "\n")
+    except ConfigurationError as err:
+        return str(err)
+    return ""
 
 
 def _judge_services(never_served: list[str]) -> int:
     """Say which services were not there at any time of the run; return the exit code for it."""
     for table in never_served:
-        print(f"plcsim: [{table}] never served; the reason stands above", file=sys.stderr)
-    return SERVICE_NEVER_SERVED if never_served else 0
+        print_error(f"[{table}] never served; the reason stands above")
+    return ExitCode.FAILED if never_served else ExitCode.DONE
 
 
 def _show(result: dict[str, Any]) -> None:

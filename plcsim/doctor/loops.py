@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from plcsim.core.statistics import Histogram, Summary
 from plcsim.doctor.errors import MeasurementError
 from plcsim.doctor.host import read_cpu_ticks
-from plcsim.host import realtime
+from plcsim.host import processors, realtime
 from plcsim.process.report import summary_of
 
 if TYPE_CHECKING:
@@ -218,7 +218,7 @@ def probe_rights() -> realtime.Rights:
 
 def _cpu() -> int:
     """Return the processor that a scan with rights stays on, -1 for any."""
-    cpu = realtime.scan_cpu(None)
+    cpu = processors.free_cpu()
     return -1 if cpu is None else cpu
 
 

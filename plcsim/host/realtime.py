@@ -7,7 +7,6 @@ scan runs.
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 import re
@@ -15,7 +14,7 @@ import resource
 from pathlib import Path
 from typing import NamedTuple
 
-from plcsim.host import garbage
+from plcsim.host import garbage, processors
 
 _MCL_CURRENT, _MCL_FUTURE = 1, 2
 _PR_SET_PDEATHSIG, _PR_SET_TIMERSLACK = 1, 29
@@ -27,10 +26,17 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 class Rights(NamedTuple):
-    """What the host gave and what it refused, in words."""
+    """What the host gave and what it refused.
+
+    Attributes:
+        granted: in words.
+        refused: in words, with the reason.
+        cpu: the processor that the scan stays on, None for any.
+    """
 
     granted: tuple[str, ...]
     refused: tuple[str, ...]
+    cpu: int | None = None
 
     @property
     def complete(self) -> bool:
@@ -60,11 +66,10 @@ def acquire(priority: int, cpu: int | None) -> Rights:
 
     Args:
         priority: of SCHED_FIFO, 1 to 98.
-        cpu: the processor to stay on; None takes the last one allowed, if there are several, and so
-            does one that is not there.
+        cpu: the processor to stay on; see `plcsim.host.processors.claim`.
     """
     granted: list[str] = []
-    missing = missing_cpu(cpu)
+    missing = processors.missing_cpu(cpu)
     refused = [missing] if missing else []
     sharpen_timers()
     try:
@@ -75,33 +80,26 @@ def acquire(priority: int, cpu: int | None) -> Rights:
     except OSError as err:
         refused.append(f"SCHED_FIFO: {err.strerror}")
         return Rights(tuple(granted), tuple(refused))
-    chosen = scan_cpu(cpu)
-    if chosen is not None:
-        try:
-            os.sched_setaffinity(0, {chosen})
-            granted.append(f"CPU {chosen}")
-        except OSError as err:
-            refused.append(f"CPU {chosen}: {err.strerror}")
+    chosen = _pin(cpu, granted, refused)
     _lock_memory(granted, refused)
     _stay_awake(granted, refused)
-    return Rights(tuple(granted), tuple(refused))
+    return Rights(tuple(granted), tuple(refused), chosen)
 
 
-def scan_cpu(cpu: int | None) -> int | None:
-    """Return the processor for the scan: the given one if it is there, or the last of several."""
-    allowed = sorted(os.sched_getaffinity(0))
-    if cpu in allowed:
-        return cpu
-    return allowed[-1] if len(allowed) > 1 else None
-
-
-def missing_cpu(cpu: int | None) -> str:
-    """Return in words that a processor is not there for this process, "" where it is."""
-    allowed = sorted(os.sched_getaffinity(0))
-    if cpu is None or cpu in allowed:
-        return ""
-    numbers = ", ".join(map(str, allowed))
-    return f"there is no processor {cpu} for the scan, only {numbers}; {allowed[-1]} is taken"
+def _pin(cpu: int | None, granted: list[str], refused: list[str]) -> int | None:
+    """Stay on one processor; return it, None where there is none or the host refuses."""
+    chosen, note = processors.claim(cpu)
+    if note:
+        refused.append(note)
+    if chosen is None:
+        return None
+    try:
+        os.sched_setaffinity(0, {chosen})
+    except OSError as err:
+        refused.append(f"CPU {chosen}: {err.strerror}")
+        return None
+    granted.append(f"CPU {chosen}")
+    return chosen
 
 
 def _lock_memory(granted: list[str], refused: list[str]) -> None:
@@ -134,14 +132,6 @@ def _stay_awake(granted: list[str], refused: list[str]) -> None:
         granted.append("no deep sleep")
     except OSError as err:
         refused.append(f"no deep sleep: {err.strerror}")
-
-
-def keep_off(cpu: int | None) -> None:
-    """Keep the calling process off the processor of the scan, where there is another."""
-    others = os.sched_getaffinity(0) - {cpu}
-    if others:
-        with contextlib.suppress(OSError):
-            os.sched_setaffinity(0, others)
 
 
 def settle() -> None:

@@ -98,4 +98,5 @@ def report(controller: Controller, name: str, elapsed_ns: int, rights: list[str]
             {**entry._asdict(), "severity": entry.severity.value} for entry in controller.logbook
         ],
         "logbook_dropped": controller.logbook.dropped,
+        "output_lost_bytes": 0,
     }

@@ -1,8 +1,8 @@
 """Where running projects are found: a small file for each run, in a folder of the user's own.
 
 It names the supervisor and the descriptors of its shared memory, which another process of the same
-user opens through /proc. A file whose supervisor has died is no run; the next run of the same
-project removes it.
+user opens through /proc. A file whose supervisor has died is no run; whoever looks for runs next
+removes it, of whatever project it is.
 """
 
 from __future__ import annotations
@@ -68,10 +68,8 @@ def _file(project: Path, run: Run) -> Path:
 
 
 def announce(project: Path, run: Run) -> None:
-    """Write the run file of a run of a project folder, and remove those of runs that have died."""
-    for file in _files(project):
-        if _read(file) is None:
-            file.unlink(missing_ok=True)
+    """Write the run file of a run of a project folder."""
+    _remove_dead()
     file = _file(project, run)
     fresh = file.with_suffix(".new")
     fresh.write_text(json.dumps(run._asdict()), "utf-8")
@@ -82,6 +80,14 @@ def withdraw(project: Path, run: Run) -> None:
     """Remove the run file of a run."""
     with contextlib.suppress(PlcError, OSError):
         _file(project, run).unlink()
+
+
+def _remove_dead() -> None:
+    """Remove the run files of all runs that have died, killed ones and those of a lost host."""
+    for file in _folder().glob("*.json"):
+        if _read(file) is None:
+            with contextlib.suppress(OSError):
+                file.unlink()
 
 
 def _files(project: Path) -> list[Path]:
@@ -109,6 +115,7 @@ def find_runs(project: Path) -> list[Run]:
     Raises:
         PlcError: it is not running.
     """
+    _remove_dead()
     runs = [run for file in _files(project) if (run := _read(file)) is not None]
     if not runs:
         raise PlcError(f"{project} is not running; start it with plcsim run")

@@ -22,6 +22,7 @@ from plcsim.core.errors import ConfigurationError, PlcError
 from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
 from plcsim.network import OsNetwork, VirtualNetwork
+from plcsim.process import printing
 from plcsim.process.report import report
 from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load
 from plcsim.project.plc_toml import FILE_NAME, Project
@@ -111,12 +112,15 @@ def main() -> int:
     """Run the order given as the only argument; the result goes to its file."""
     order = RunOrder(**json.loads(sys.argv[1]))
     realtime.die_with_parent(signal.SIGKILL, order.parent)
-    if isinstance(sys.stdout, io.TextIOWrapper):
+    page = _PageHeartbeat(order.status_fd)
+    if order.virtual and isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)  # what was printed before a crash is seen
+    elif not order.virtual:
+        printing.never_wait(page.lost)
     faulthandler.enable(file=order.dump_fd, all_threads=False)
     faulthandler.register(DUMP, file=order.dump_fd, all_threads=False)
     try:
-        result = _run(order)
+        result = _run(order, page)
     except (PlcError, TypeSystemError) as err:
         result = {"error": str(err)}
     with os.fdopen(order.result_fd, "w", encoding="utf-8") as file:
@@ -124,15 +128,17 @@ def main() -> int:
     return 0
 
 
-def _run(order: RunOrder) -> dict[str, Any]:
+def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     project = project_of(order.project_fd)
     clock: Clock = VirtualClock() if order.virtual else MonotonicClock()
     network: Network = (
         VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
     )
-    page = _PageHeartbeat(order.status_fd)
     page.clock = clock
     application = load(project)
+    rights = _take_rights(project, order)
+    if rights.cpu is not None:
+        page.pinned(rights.cpu)  # before services are started, which keep off it
     controller = assemble(
         application.in_process(VIRTUAL_IP) if order.virtual else application,
         clock=clock,
@@ -142,7 +148,6 @@ def _run(order: RunOrder) -> dict[str, Any]:
         system_fd=order.system_fd,
     )
     _handle_signals(controller)
-    rights = _take_rights(project, order)
     controller.boot()
     if rights.complete:
         realtime.settle()

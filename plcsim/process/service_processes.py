@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
+    from plcsim.process.output import ChildOutput, Output
     from plcsim.shared_image.status_page import StatusPage
 
 MAIN = "plcsim.process.service_main"
@@ -33,10 +34,13 @@ STOP_S = 2.0
 class _Service:
     """One service process and when to start it again."""
 
-    def __init__(self, module: str, order: ServiceOrder, page: StatusPage) -> None:
+    def __init__(
+        self, module: str, order: ServiceOrder, page: StatusPage, output: ChildOutput
+    ) -> None:
         self.order = order
         self._module = module
         self._page = page
+        self._output = output
         self.starts = 0
         self._process: subprocess.Popen[bytes] | None = None
         self._next_ns = 0
@@ -64,6 +68,8 @@ class _Service:
             pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
             process_group=0,
             stdin=subprocess.DEVNULL,
+            stdout=self._output.fds[0],
+            stderr=self._output.fds[1],
         )
         self.starts += 1
 
@@ -73,6 +79,11 @@ class _Service:
         number = self.order.number
         failing = self._page.service_state(number) is ServiceState.FAILING
         return failing and not self._page.has_served(number)
+
+    @property
+    def pid(self) -> int | None:
+        """The process, None before its first start."""
+        return None if self._process is None else self._process.pid
 
     def stop(self) -> None:
         """Ask the process to end; kill it where it does not."""
@@ -92,6 +103,7 @@ class ServiceProcesses:
     Args:
         settings: of the extensions of the project, by table.
         page: the status page.
+        output: carries what the services print.
         quiet: the services print nothing but errors.
 
     Attributes:
@@ -100,7 +112,7 @@ class ServiceProcesses:
     """
 
     def __init__(
-        self, settings: Mapping[str, Any], page: StatusPage, *, quiet: bool = False
+        self, settings: Mapping[str, Any], page: StatusPage, output: Output, *, quiet: bool = False
     ) -> None:
         self.image_fd = make_file()
         modules = services_of(settings)
@@ -110,6 +122,7 @@ class ServiceProcesses:
                 module,
                 ServiceOrder(name, number, os.getpid(), self.image_fd, page.fd, wake_fd, quiet),
                 page,
+                output.child(),
             )
             for number, ((name, module), wake_fd) in enumerate(
                 zip(modules.items(), self.wake_fds, strict=True)
@@ -121,6 +134,11 @@ class ServiceProcesses:
         if self._services and os.fstat(self.image_fd).st_size > HEADER_SIZE:
             for service in self._services:
                 service.tend(now_ns)
+
+    @property
+    def pids(self) -> set[int]:
+        """The processes that run, as far as is known."""
+        return {service.pid for service in self._services if service.pid is not None}
 
     @property
     def starts(self) -> dict[str, int]:

@@ -1,11 +1,10 @@
-"""The parent of the scan process: starts it, watches it, ends a program that never returns.
+"""The parent of the scan process: starts it, watches it, ends what does not go on.
 
-The watchdog is a process of its own because a stuck program holds the scan's thread, and with
-real-time rights its processor too. It looks at the status page: the same heartbeat for too long
-while a program is active means that the program does not return. Then it sends a signal, which
-ends the program by an exception. Compiled code, where no signal handler of Python runs, polls a
-budget in shared memory, which the watchdog writes. Where all that has no effect, because the
-program is stuck inside a call, it takes the Python stack and kills the scan process.
+The watchdog (`plcsim.process.watchdog`) is in a process of its own because a stuck program holds
+the scan's thread, and with real-time rights its processor too. What it judges is on the status
+page. A program that does not return is ended by a signal, which becomes an exception there;
+compiled code, where no signal handler of Python runs, polls a budget in shared memory, which is
+written here. Before a scan process is killed, its Python stack is taken.
 """
 
 from __future__ import annotations
@@ -26,24 +25,29 @@ from plcsim.core.errors import Fault, PlcError, ProgramError
 from plcsim.core.system import State
 from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
-from plcsim.host import realtime
+from plcsim.host.processors import keep_off
+from plcsim.process import watchdog
+from plcsim.process.orphans import Orphans, end_group
+from plcsim.process.output import Output
 from plcsim.process.report import SCHEMA, fault_report
 from plcsim.process.run_file import Run, announce, withdraw
 from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
+from plcsim.process.watchdog import Sight, Sign, Watch, Watchdog
 from plcsim.shared_image.status_page import StatusPage
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from plcsim.process.output import ChildOutput
     from plcsim.project.plc_toml import Project
     from plcsim.project.tables import TaskClassEntry
 
 POLL_S = 0.02
 """The watchdog looks this often."""
 
-PATIENCE_NS = 1_000_000_000
-"""After the signal, a program has this long to end before the process is killed."""
+REAP_NS = 1_000_000_000
+"""Between two looks for orphans that have ended."""
 
 DUMP_POLLS = 10
 """How often the watchdog looks for the stack of a program before it kills."""
@@ -61,6 +65,7 @@ class Supervisor:
         virtual: run on the virtual clock and network.
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
+        output: carries what the processes print; by default to this process' stdout and stderr.
         quiet: the services print nothing but errors.
 
     Attributes:
@@ -75,17 +80,21 @@ class Supervisor:
         virtual: bool = False,
         for_ns: int | None = None,
         cycles: int | None = None,
+        output: Output | None = None,
         quiet: bool = False,
     ) -> None:
         self.page = StatusPage()
         self._project = project
+        self._output = output or Output(patient=virtual)
+        self._orphans = Orphans()
+        self._reaped_ns = 0
         self._classes = self._class_of_each_task(project)
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
         self._system_fd = SystemArea.shared()
         self._system = SystemArea(self._system_fd)
         self.services = ServiceProcesses(
-            {} if virtual else project.extensions, self.page, quiet=quiet
+            {} if virtual else project.extensions, self.page, self._output, quiet=quiet
         )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         files = self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd
@@ -102,20 +111,20 @@ class Supervisor:
                 self.services.wake_fds,
             ),
             (project_fd, *fds, *self.services.wake_fds),
+            self._output.child(),
         )
         os.close(project_fd)
         with contextlib.suppress(OSError, PlcError):  # only `plcsim watch` needs it
             announce(project.folder, self._run)
         self._virtual = virtual
+        self._for_ns = for_ns
+        self._running_since_ns: int | None = None
         self._stops = 0
-        self._seen = (-1, 0)
-        self._signalled_ns = 0
-        self._result_seen_ns = 0
+        self._watchdog = Watchdog()
         self._kill_reason = ""
         self._stopped_while_loading = False
+        self._keeps_off = False
         self._cpus = os.sched_getaffinity(0)
-        if not virtual and project.plc.realtime != "off":
-            realtime.keep_off(realtime.scan_cpu(project.plc.pinned_cpu))
 
     @staticmethod
     def _class_of_each_task(project: Project) -> list[TaskClassEntry | None]:
@@ -126,11 +135,12 @@ class Supervisor:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._process.poll() is None:
-            self._process.kill()
-            self._process.wait()
+        self._reap()
         withdraw(self._project.folder, self._run)
         self.services.close()
+        self._orphans.end()
+        self._output.flush()
+        self._output.close()
         self.page.close()
         os.close(self._result_fd)
         os.close(self._dump_fd)
@@ -144,13 +154,13 @@ class Supervisor:
         being loaded, kills the scan process.
         """
         self._stops += 1
-        if self._process.poll() is not None:
+        if self._has_ended:
             return
         if self._is_loading:
             self._stopped_while_loading = True
             self._process.kill()
         elif self._stops > 2:
-            self._kill("killed because it did not stop")
+            self._act(self._watchdog.give_up())
         else:
             if self._stops > 1:
                 self._system.end_program(system_area.STOPPED)
@@ -170,13 +180,44 @@ class Supervisor:
         Returns:
             the report (see `plcsim.process.report`), or {"error": text} where the project is wrong.
         """
-        while self._process.poll() is None:
+        while not self._has_ended:
             now_ns = time.monotonic_ns()
-            self._watch(now_ns)
-            self.services.tend(now_ns)
+            self._act(self._watchdog.look(self._sight(now_ns)))
+            self._tend(now_ns)
             look()
             time.sleep(POLL_S)  # Popen.wait(timeout) would wake five times as often
-        return self._outcome()
+        self._reap()
+        outcome = self._outcome()
+        lost = self._output.flush(lambda: self._virtual and not self._stops)
+        if "error" not in outcome:
+            outcome["output_lost_bytes"] = lost + self.page.lost_output
+        return outcome
+
+    def _tend(self, now_ns: int) -> None:
+        """Do what is due beside the scan."""
+        if self.page.cpu is not None and not self._keeps_off:
+            keep_off(self.page.cpu)  # before services are started: they run where we do
+            self._keeps_off = True
+        self.services.tend(now_ns)
+        self._output.carry()
+        if now_ns - self._reaped_ns > REAP_NS:
+            self._orphans.reap({self._process.pid} | self.services.pids)
+            self._reaped_ns = now_ns
+
+    @property
+    def _has_ended(self) -> bool:
+        """The scan process has ended; it is not waited for yet, so that its id stays its own."""
+        options = os.WEXITED | os.WNOHANG | os.WNOWAIT
+        return (
+            self._process.returncode is not None
+            or os.waitid(os.P_PID, self._process.pid, options) is not None
+        )
+
+    def _reap(self) -> None:
+        """End the scan process where it has not ended, and what its programs have started."""
+        if self._process.returncode is None:
+            end_group(self._process.pid)
+            self._process.wait()
 
     def stay(self, look: Callable[[], None] = lambda: None) -> None:
         """Stay up in SERVICE until `stop` is called: services and watchers read the last snapshot.
@@ -187,51 +228,73 @@ class Supervisor:
             look: called about every `POLL_S` seconds.
         """
         while not self._stops:
-            self.services.tend(time.monotonic_ns())
+            self._tend(time.monotonic_ns())
             look()
             time.sleep(POLL_S)
 
-    def _watch(self, now_ns: int) -> None:
-        """Signal, and later kill, what has been running for too long."""
-        if self._result_seen_ns or os.fstat(self._result_fd).st_size:
-            self._watch_end(now_ns)
-            return
+    def _sight(self, now_ns: int) -> Sight:
+        """Return what is to be seen of the scan process now."""
         active = self.page.active  # before the heartbeat, which grows first
-        heartbeat = self.page.heartbeat
-        if heartbeat != self._seen[0] or (active is None and not self._is_loading):
-            self._seen = (heartbeat, now_ns)
-            self._signalled_ns = 0
-        elif self._is_loading:
-            if now_ns - self._seen[1] > self._project.plc.init_timeout_ns:
-                limit = format_duration(self._project.plc.init_timeout_ns)
-                self._kill(f"the programs were not loaded within {limit}")
-        elif self._signalled_ns:
-            if now_ns - self._signalled_ns > PATIENCE_NS:
-                limit = format_duration(self._limit_ns())
-                self._kill(f"did not return within {limit} and could not be interrupted")
-        elif now_ns - self._seen[1] > self._limit_ns():
-            self._system.end_program(system_area.STALLED)
-            self._process.send_signal(STALLED)
-            self._signalled_ns = now_ns
+        if self.page.state is State.RUN and self._running_since_ns is None:
+            self._running_since_ns = now_ns
+        return Sight(
+            now_ns=now_ns,
+            heartbeat=self.page.heartbeat,
+            limit_ns=self._limit_ns(active, now_ns),
+            has_result=bool(os.fstat(self._result_fd).st_size),
+            waits_for_reader=self._output.waits_for_reader,
+        )
 
-    def _watch_end(self, now_ns: int) -> None:
-        """Kill a scan process that has left its result and is held up by a program's thread."""
-        self._result_seen_ns = self._result_seen_ns or now_ns
-        if now_ns - self._result_seen_ns > PATIENCE_NS:
-            self._process.kill()
-
-    def _limit_ns(self) -> int:
-        """Return how long the active unit may take."""
-        task_class = self._classes[self.page.active or 0]
-        if self.page.state is not State.RUN or task_class is None:
+    def _limit_ns(self, active: int | None, now_ns: int) -> int:
+        """Return how long it may take what the scan process does now."""
+        if self._is_loading or self.page.state is not State.RUN:
+            return self._project.plc.init_timeout_ns
+        if active is None:
+            return self._limit_outside_ns(now_ns)
+        task_class = self._classes[active]
+        if task_class is None:
             return self._project.plc.init_timeout_ns
         return max(self._project.plc.watchdog_ns, task_class.cycle_ns + task_class.tolerance_ns)
 
+    def _limit_outside_ns(self, now_ns: int) -> int:
+        """Return how long no program may run: the longest sleep, and some more for the host."""
+        sleep_ns = min(max(c.cycle_ns, c.first_release_ns) for c in self._project.classes)
+        ran_ns = now_ns - (self._running_since_ns or now_ns)
+        patience_ns = watchdog.PATIENCE_NS
+        if self._for_ns is not None and not self._virtual and ran_ns > self._for_ns + patience_ns:
+            return patience_ns  # it should have ended
+        return sleep_ns + self._project.plc.init_timeout_ns
+
+    def _act(self, sign: Sign | None) -> None:
+        """Do what the watchdog says."""
+        if sign is None:
+            return
+        if self._watchdog.watch is Watch.STALLED:
+            self._system.end_program(system_area.STALLED)
+            self._process.send_signal(STALLED)
+        elif self._watchdog.watch is Watch.KILLED:
+            self._kill(self._reason(sign))
+
+    def _reason(self, sign: Sign) -> str:
+        """Return why the scan process is killed, "" where it has left its result."""
+        limit = format_duration(self._watchdog.limit_ns)
+        match sign:
+            case Sign.OVERDUE:
+                return f"the programs were not loaded within {limit}"
+            case Sign.DEAF if self.page.active is None:
+                return f"the scan did not go on for {limit}; no program was active"
+            case Sign.DEAF:
+                return f"did not return within {limit} and could not be interrupted"
+            case Sign.GIVEN_UP:
+                return "killed because it did not stop"
+        return ""
+
     def _kill(self, reason: str) -> None:
         """End a scan process that does not hear; keep where it is stuck."""
-        self._kill_reason = reason
-        self._process.send_signal(DUMP)
-        self._await_dump()
+        if reason:
+            self._kill_reason = reason
+            self._process.send_signal(DUMP)
+            self._await_dump()
         self._process.kill()
 
     def _await_dump(self) -> None:
@@ -293,6 +356,7 @@ class Supervisor:
             "violations": [],
             "logbook": [entry],
             "logbook_dropped": 0,
+            "output_lost_bytes": 0,
         }
 
     def _location_of_death(self) -> str:
@@ -302,7 +366,7 @@ class Supervisor:
         return next((f"{file}:{line}" for file, line in frames if file.startswith(folder)), "")
 
 
-def _start(order: RunOrder, fds: tuple[int, ...]) -> subprocess.Popen[bytes]:
+def _start(order: RunOrder, fds: tuple[int, ...], output: ChildOutput) -> subprocess.Popen[bytes]:
     """Start the scan process, in a group of its own so that Ctrl-C reaches it through us only."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
     try:
@@ -311,6 +375,8 @@ def _start(order: RunOrder, fds: tuple[int, ...]) -> subprocess.Popen[bytes]:
             pass_fds=fds,
             process_group=0,
             stdin=subprocess.DEVNULL,
+            stdout=output.fds[0],
+            stderr=output.fds[1],
         )
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)

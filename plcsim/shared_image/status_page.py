@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MAGIC = 0x504C_4353_494D_0001
 SIZE = 4096
 
-_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME = range(5)
+_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME, _LOST, _CPU = range(7)
 _CLASSES = 16
 _FIELDS_PER_CLASS = 16
 _CELL_OF_CAUSE = {
@@ -125,6 +125,14 @@ class StatusPage:
         """Note the time since the start on the controller's clock."""
         self._cells[_TIME] = elapsed_ns
 
+    def lost(self, size: int) -> None:
+        """Note that bytes that programs printed found no room."""
+        self._cells[_LOST] += size
+
+    def pinned(self, cpu: int) -> None:
+        """Note the processor that the scan stays on."""
+        self._cells[_CPU] = cpu + 1
+
     # a service's side
 
     def note_service(self, number: int, state: ServiceState) -> None:
@@ -163,6 +171,16 @@ class StatusPage:
     def elapsed_ns(self) -> int:
         """Time since the start on the controller's clock, at the end of the last cycle."""
         return self._cells[_TIME]
+
+    @property
+    def lost_output(self) -> int:
+        """Bytes that programs printed and that found no room."""
+        return self._cells[_LOST]
+
+    @property
+    def cpu(self) -> int | None:
+        """The processor that the scan stays on, None for any."""
+        return self._cells[_CPU] - 1 if self._cells[_CPU] else None
 
     def of_class(self, number: int) -> ClassStatus:
         """Return the figures of task class ``number``."""

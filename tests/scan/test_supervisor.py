@@ -9,13 +9,14 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from plcsim.core.errors import PlcError
 from plcsim.core.system import State
-from plcsim.process import supervisor
+from plcsim.process import watchdog
 from plcsim.process.run_file import find_run
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
@@ -24,7 +25,6 @@ from plcsim.shared_image.status_page import StatusPage
 MS = 1_000_000
 HEAD = "import ctypes, os, signal, sys, threading, time\nfrom plcsim import Program\n"
 QUICK = 'watchdog = "100ms"\nrealtime = "off"\n'  # other tests may need the processor
-QUICK_INIT = QUICK + 'init_timeout = "1s"'
 SLOW = 'realtime = "off"'
 IN = "print('in', flush=True)"
 
@@ -45,12 +45,24 @@ def program(project_of):
 
 @pytest.fixture
 def supervise(monkeypatch):
-    """``supervise(folder, cycles=1)``: the result of a run, killed after little patience."""
-    monkeypatch.setattr(supervisor, "PATIENCE_NS", 200 * MS)
+    """``supervise(folder, cycles=1)``: the result of a run, killed after little patience.
 
-    def supervise(folder, look=lambda _: None, **options):
-        with Supervisor(read_project(folder), **options) as supervised:
-            return supervised.wait(lambda: look(supervised))
+    As soon as the programs are loaded, which takes its time on a busy machine, INIT and EXIT have
+    only 300 ms, and so has a scan outside a program.
+    """
+    monkeypatch.setattr(watchdog, "PATIENCE_NS", 200 * MS)
+
+    def supervise(folder, look=lambda _: None, is_loaded=lambda s: s.page.heartbeat, **options):
+        project = read_project(folder)
+        quick = replace(project, plc=replace(project.plc, init_timeout_ns=300 * MS))
+
+        def look_and_shorten(supervised):
+            if is_loaded(supervised):
+                supervised._project = quick
+            look(supervised)
+
+        with Supervisor(project, **options) as supervised:
+            return supervised.wait(lambda: look_and_shorten(supervised))
 
     return supervise
 
@@ -137,7 +149,7 @@ def test_a_loop_that_swallows_exceptions_is_ended_all_the_same(program, supervis
     ],
 )
 def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit, body):
-    folder = program(plc=QUICK_INIT, before=SPIN, **{unit: body})
+    folder = program(before=SPIN, **{unit: body})
     result = supervise(folder, cycles=1)
     fault = result["fault"]
     assert (result["state"], fault["kind"]) == ("SERVICE", "program_error")
@@ -168,7 +180,7 @@ def test_a_program_that_does_not_return_may_be_logged_only(program, supervise):
 
 @pytest.mark.parametrize("unit", ["init", "exit"])
 def test_an_init_or_exit_that_does_not_return_is_ended(program, supervise, unit):
-    folder = program(plc=QUICK_INIT, **{unit: "while True: pass"})
+    folder = program(**{unit: "while True: pass"})
     fault = supervise(folder, cycles=1)["fault"]
     assert (fault["program"], fault["unit"]) == ("main", unit.upper())
     assert fault["location"] == line_of(folder, "while True")
@@ -182,12 +194,45 @@ def test_a_blocking_call_is_ended_and_blamed_on_the_program(program, supervise):
     assert fault["location"] == line_of(folder, "time.sleep")
 
 
-def test_a_project_that_is_never_loaded_is_ended(program, finish):
-    folder = program(plc=QUICK_INIT, before="while True: pass")
-    code, out, err = finish("run", folder)
-    assert (code, out) == (1, "")
+def test_a_project_that_is_never_loaded_is_ended(program, supervise, tmp_path):
+    is_there = tmp_path / "there"
+    folder = program(before=f"open({str(is_there)!r}, 'w')\nwhile True: pass")
+    result = supervise(folder, is_loaded=lambda _: is_there.exists())
     place = line_of(folder, "while True")
-    assert err == f"plcsim: {place}: the programs were not loaded within 1 s\n"
+    assert result == {"error": f"{place}: the programs were not loaded within 300 ms"}
+
+
+# a scan that hangs outside a program
+
+HANGING_LATCH = """
+from plcsim.core.image import ProcessImage
+def hang(*_):
+    while True: pass
+ProcessImage.latch = hang
+"""
+
+
+@pytest.mark.parametrize("limits", [{"for_ns": 50 * MS}, {}])
+def test_a_scan_that_was_stopped_in_its_sleep_is_ended(program, supervise, limits):
+    """After the end that was asked for at once, otherwise after ``init_timeout``."""
+    stopped = []
+
+    def look(supervised):
+        if not stopped and supervised.page.of_class(1).cycles > 2 and not supervised.page.active:
+            stopped.append(supervised)
+            os.kill(supervised._process.pid, signal.SIGSTOP)
+
+    fault = supervise(program(cyclic="pass"), look, **limits)["fault"]
+    assert (fault["program"], fault["unit"]) == ("scan", "")
+    limit = "200 ms" if limits else "310 ms"
+    assert fault["text"] == f"the scan did not go on for {limit}; no program was active"
+
+
+def test_a_scan_that_hangs_in_latch_is_ended_with_its_place(program, supervise):
+    folder = program(before=HANGING_LATCH, cyclic="pass")
+    fault = supervise(folder)["fault"]
+    assert fault["text"] == "the scan did not go on for 310 ms; no program was active"
+    assert fault["location"] == line_of(folder, "while True: pass")
 
 
 # programs that end the process
@@ -372,6 +417,66 @@ def test_a_program_that_prints_a_lot_loses_nothing(program, finish):
 def test_what_a_program_printed_before_it_was_killed_is_seen(program, finish):
     code, out, _ = finish("run", program(cyclic="print('last words')\nos._exit(0)"), "--quiet")
     assert (code, out) == (3, "last words\n")
+
+
+FLOOD = "for _ in range(200): print('x' * 1_000)"  # 2 MB in 10 cycles: more than all pipes hold
+
+
+def test_a_program_that_prints_to_a_blocked_pipe_goes_on(program, start):
+    process = start("run", program(cyclic=FLOOD), "--cycles", "30")
+    err = process.stderr.read()
+    assert process.wait(20) == 0
+    assert "STOPPED" in err
+    (lost,) = [line for line in err.splitlines() if "are lost" in line]
+    assert int(lost.split()[0].replace(",", "")) + len(process.stdout.read()) == 30 * 200 * 1_001
+
+
+def test_on_the_virtual_clock_a_program_waits_for_its_reader(program, start):
+    """Longer than the watchdog would let it do anything else."""
+    process = start("run", program(cyclic=FLOOD), "--virtual", "--cycles", "30")
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(2)
+    assert len(process.stdout.read()) == 30 * 200 * 1_001
+    assert "are lost" not in process.stderr.read()
+    assert process.wait(20) == 0
+
+
+def test_a_reader_that_has_seen_enough_does_not_end_the_run(program, start):
+    process = start("run", program(cyclic="print('line')"), "--cycles", "20")
+    process.stdout.readline()
+    process.stdout.close()
+    process.stdout = None
+    assert "lost" not in process.stderr.read()
+    assert process.wait(20) == 0
+
+
+@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
+def test_closed_standard_descriptors_do_not_matter(program, closed, tmp_path):
+    """What a program prints must not end up in a file of ours that has got the number."""
+    folder = program(cyclic="print('x' * 5000)\nprint('y' * 5000, file=sys.stderr)")
+    report = tmp_path / "report.json"
+    command = f'"{sys.executable}" -P -m plcsim run "$1" --cycles 5 --report "$2" {closed}'
+    done = subprocess.run(
+        ["sh", "-c", command, "sh", folder, report], capture_output=True, timeout=30, check=False
+    )
+    assert done.returncode == 0
+    assert json.loads(report.read_text())["state"] == "STOPPED"
+
+
+DAEMON = """if not self.context.violation and not hasattr(Main, 'started'):
+    Main.started = True
+    for new_session in (False, True):
+        child = subprocess.Popen(['sleep', '3600'], start_new_session=new_session)
+        print(child.pid, flush=True)"""
+
+
+@pytest.mark.parametrize("ending", ["pass", "1 // 0", "os._exit(3)"])
+def test_what_programs_start_does_not_outlive_the_run(program, finish, ending):
+    folder = program(before="import subprocess", cyclic=f"{DAEMON}\n{ending}")
+    _, out, _ = finish("run", folder, "--cycles", "3")
+    pids = out.split()
+    assert len(pids) == 2
+    assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
 
 
 def test_a_flood_of_violations_is_bounded(program, supervise):

@@ -86,7 +86,7 @@ def live(project_of):
     """The live table of a project of one program, and its status page."""
     folder = project_of("")
     page = StatusPage()
-    yield LiveTable(read_project(folder), page, 60_000 * MS), page
+    yield LiveTable(read_project(folder), page, 60_000 * MS, ["what to do"]), page
     page.close()
 
 
@@ -100,15 +100,9 @@ def test_the_live_table_shows_the_status_page(live, make_controller, task_class,
     controller.run(cycles=4)
     page.ticked(12_340 * MS)
     out = io.StringIO()
-    Console(file=out, width=80).print(table._picture())
-    head, _, row, names = out.getvalue().splitlines()
+    Console(file=out, width=80).print(table.picture())
+    head, _, row, names, hint = out.getvalue().splitlines()
     assert " ".join(head.split()) == "cell RUN 12.3 s of 60 s"
     assert " ".join(row.split()) == "#1 10 ms 4 4 4 11 ms / 11 ms 0 ns / 0 ns"
     assert names == "#1: main"
-
-
-def test_without_a_terminal_nothing_is_drawn(live, capsys):
-    table, _ = live
-    with table:
-        pass
-    assert capsys.readouterr() == ("", "")
+    assert hint == "what to do"

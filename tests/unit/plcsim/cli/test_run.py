@@ -114,6 +114,10 @@ def test_a_report_that_cannot_be_written_after_the_run_is_an_error(project_of, c
     shown = capsys.readouterr().err
     assert "STOPPED" in shown
     assert shown.endswith("plcsim: --report /dev/full: No space left on device\n")
+    assert main(["run", str(project_of(FAILS)), *VIRTUAL, "--report", "/dev/full"]) == 3
+    shown = capsys.readouterr().err
+    assert "SERVICE: main CYCLIC: ValueError: " in shown
+    assert shown.endswith("plcsim: --report /dev/full: No space left on device\n")
 
 
 @pytest.mark.parametrize(

@@ -44,4 +44,4 @@ def test_the_program_writes_figures_and_rights(monkeypatch, capsys):
     assert python_loop.main() == 0
     figures = json.loads(capsys.readouterr().out)
     assert len(figures["lateness_ns"]) == 2
-    assert figures["rights"] == {"granted": [], "refused": []}
+    assert figures["rights"] == {"granted": [], "refused": [], "cpu": None}

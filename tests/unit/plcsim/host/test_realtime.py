@@ -10,14 +10,12 @@ import sys
 
 import pytest
 
-from plcsim.host import garbage, realtime
+from plcsim.host import garbage, processors, realtime
 from plcsim.host.realtime import Rights
-
-CPUS = sorted(os.sched_getaffinity(0))
 
 
 @pytest.fixture
-def scheduler(monkeypatch):
+def scheduler(monkeypatch, tmp_path):
     """A host that gives everything; what was asked for is noted."""
     asked = []
     monkeypatch.setattr(os, "sched_setscheduler", lambda *given: asked.append(given))
@@ -25,6 +23,7 @@ def scheduler(monkeypatch):
     monkeypatch.setattr(realtime, "_lock_memory", lambda granted, _: granted.append("memory"))
     monkeypatch.setattr(realtime, "_stay_awake", lambda granted, _: granted.append("awake"))
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1, 2})
+    monkeypatch.setattr(processors, "FOLDERS", tmp_path)  # no run of this host is in the way
     return asked
 
 
@@ -34,7 +33,7 @@ def refuse(*_):
 
 def test_what_is_given_is_said(scheduler):
     rights = realtime.acquire(50, None)
-    assert rights == Rights(("SCHED_FIFO 50", "CPU 2", "memory", "awake"), ())
+    assert rights == Rights(("SCHED_FIFO 50", "CPU 2", "memory", "awake"), (), 2)
     assert rights.complete
     assert scheduler[0][:2] == (0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK)
     assert scheduler[0][2].sched_priority == 50
@@ -59,22 +58,21 @@ def test_a_processor_that_is_refused_does_not_matter(scheduler, monkeypatch):
     rights = realtime.acquire(50, 1)
     assert rights.complete
     assert rights.refused == ("CPU 1: Operation not permitted",)
+    assert rights.cpu is None
 
 
 def test_a_processor_that_is_not_there_is_said_and_another_taken(scheduler):
     rights = realtime.acquire(50, 7)
-    assert rights.refused == ("there is no processor 7 for the scan, only 0, 1, 2; 2 is taken",)
+    (refused,) = rights.refused
+    assert refused.startswith("there is no processor 7 for the scan")
     assert scheduler[1] == (0, {2})
-    assert [realtime.missing_cpu(cpu) for cpu in (None, 0, 1, 2)] == [""] * 4
 
 
-def test_the_scan_takes_the_last_of_several_processors(monkeypatch):
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3, 5, 4})
-    assert realtime.scan_cpu(None) == 5
-    assert realtime.scan_cpu(3) == 3
-    assert realtime.scan_cpu(7) == 5
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
-    assert realtime.scan_cpu(None) is None
+def test_a_processor_that_another_run_has_is_said(scheduler, monkeypatch):
+    monkeypatch.setattr(processors, "claim", lambda _: (0, "CPU 0: another run has it as well"))
+    rights = realtime.acquire(50, 0)
+    assert rights.refused == ("CPU 0: another run has it as well",)
+    assert rights.cpu == 0
 
 
 class Libc:
@@ -107,21 +105,6 @@ def test_memory_is_locked_only_where_no_limit_stops_a_later_allocation(
     realtime._lock_memory(given, refused)
     assert given == ["locked memory"] * granted
     assert refused == ["locked memory: the limit is 64 KiB"] * (not granted)
-
-
-@pytest.mark.skipif(len(CPUS) < 2, reason="needs two processors")
-def test_the_parent_keeps_off_the_processor_of_the_scan():
-    try:
-        realtime.keep_off(CPUS[-1])
-        assert os.sched_getaffinity(0) == set(CPUS[:-1])
-    finally:
-        os.sched_setaffinity(0, CPUS)
-
-
-def test_on_the_only_processor_the_parent_stays(monkeypatch):
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0})
-    monkeypatch.setattr(os, "sched_setaffinity", refuse)
-    realtime.keep_off(0)
 
 
 def test_timers_are_sharpened():

@@ -55,6 +55,7 @@ REPORT = {
     "violations": [VIOLATION],
     "logbook": [{"time_ns": int, "severity": str, "source": str, "text": str}],
     "logbook_dropped": int,
+    "output_lost_bytes": int,
 }
 
 

@@ -58,13 +58,16 @@ def test_runs_of_the_same_folder_are_found_beside_each_other(
     assert find_run(tmp_path) == first
 
 
-def test_a_new_run_removes_the_files_of_those_that_were_killed(
+def test_whoever_looks_removes_the_files_of_runs_that_were_killed(
     tmp_path: Path, runtime_folder: Path
 ) -> None:
     announce(tmp_path, Run(2**22 + 1, 5, 6))
     announce(tmp_path / "other", Run(2**22 + 1, 5, 6))
     announce(tmp_path, own_run())
-    assert len(list(runtime_folder.iterdir())) == 2
+    assert len(list(runtime_folder.iterdir())) == 1
+    announce(tmp_path / "other", Run(2**22 + 1, 5, 6))
+    find_run(tmp_path)
+    assert len(list(runtime_folder.iterdir())) == 1
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", json.dumps({"pid": 1})])

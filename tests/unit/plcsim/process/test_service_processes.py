@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.process import service_processes as module
+from plcsim.process.output import Output
 from plcsim.process.service_processes import ServiceProcesses
 from plcsim.shared_image.layout import HEADER_SIZE
 from plcsim.shared_image.status_page import ServiceState, StatusPage
@@ -20,9 +21,11 @@ def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Servi
     monkeypatch.setattr(module, "MAIN", "main_for_tests")
     monkeypatch.setattr(module, "services_of", lambda settings: settings)
     page = StatusPage()
-    made = ServiceProcesses({"web": "service_for_tests"}, page)
+    output = Output()
+    made = ServiceProcesses({"web": "service_for_tests"}, page, output)
     yield made
     made.close()
+    output.close()
     page.close()
 
 

@@ -1,0 +1,93 @@
+"""Processes that programs start do not outlive the run."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from plcsim.process import orphans
+from plcsim.process.orphans import Orphans, end_group
+
+DAEMON = """
+import os, subprocess, sys
+null = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+daemon = subprocess.Popen(["sleep", "3600"], start_new_session=True, **null)
+print(daemon.pid)
+"""
+
+
+def leave_a_daemon():
+    """Start a process that leaves another one behind, outside its group; return its id."""
+    return int(
+        subprocess.run([sys.executable, "-c", DAEMON], capture_output=True, check=True).stdout
+    )
+
+
+def is_there(pid):
+    return Path(f"/proc/{pid}").exists()
+
+
+def test_a_daemon_is_ended():
+    found = Orphans()
+    daemon = leave_a_daemon()
+    assert is_there(daemon)
+    found.end()
+    assert not is_there(daemon)
+
+
+def test_children_from_before_are_left_alone():
+    child = subprocess.Popen(["sleep", "3600"])
+    Orphans().end()
+    assert child.poll() is None
+    child.kill()
+    child.wait()
+
+
+def test_after_it_orphans_are_no_children_of_ours():
+    Orphans().end()
+    daemon = leave_a_daemon()
+    assert daemon not in orphans._children()
+    os.kill(daemon, signal.SIGKILL)
+
+
+def test_orphans_that_have_ended_are_let_go_of():
+    found = Orphans()
+    daemon = leave_a_daemon()
+    own = subprocess.Popen(["true"])
+    os.waitid(os.P_PID, own.pid, os.WEXITED | os.WNOWAIT)
+    found.reap({own.pid})
+    assert is_there(daemon)
+    os.kill(daemon, signal.SIGKILL)
+    os.waitid(os.P_PID, daemon, os.WEXITED | os.WNOWAIT)
+    found.reap({own.pid})
+    assert not is_there(daemon)
+    assert own.wait() == 0  # its exit code was not taken away
+    found.end()
+
+
+def test_one_that_may_not_be_killed_is_left(monkeypatch):
+    found = Orphans()
+    daemon = leave_a_daemon()
+
+    def refuse(*_):
+        raise PermissionError
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "kill", refuse)
+        found.end()
+    assert is_there(daemon)
+    os.kill(daemon, signal.SIGKILL)
+    os.waitpid(daemon, 0)
+
+
+def test_a_group_is_ended_whose_leader_has_ended():
+    command = "sleep 3600 & echo $!"
+    leader = subprocess.Popen(["sh", "-c", command], stdout=subprocess.PIPE, process_group=0)
+    left = int(leader.stdout.readline())
+    os.waitid(os.P_PID, leader.pid, os.WEXITED | os.WNOWAIT)
+    end_group(leader.pid)
+    assert leader.stdout.read() == b""  # ends when nobody can write to it any more
+    leader.communicate()
+    end_group(leader.pid)  # there is none any more
+    assert left
