@@ -64,7 +64,7 @@ def unit() -> bytes:
         "empty": (NO_ARGUMENTS, b""),
         "add": (binary, op.LOCAL_GET + uleb(0) + op.LOCAL_GET + uleb(1) + op.I32_ADD),
         "plain": (NO_ARGUMENTS, op.CALL + uleb(plain)),
-        "block": (NO_ARGUMENTS, op.I32_CONST + sleb(0x110000) + op.CALL + uleb(block)),
+        "block": (NO_ARGUMENTS, op.I32_CONST + sleb(0x120000) + op.CALL + uleb(block)),
         "fault": (NO_ARGUMENTS, op.I32_CONST + sleb(0) + op.I32_LOAD + memarg() + op.DROP),
     }
     for name, (signature, code) in bodies.items():
@@ -84,7 +84,7 @@ def program(lines: int, seed: int) -> bytes:
         part = writer.function(NO_ARGUMENTS, f"part{start}")
         code = bytearray()
         for line in range(start, min(lines, start + STATEMENTS_PER_FUNCTION)):
-            target, other = 0x110000 + line * 4, 0x110000 + (line * 7 + seed) % lines * 4
+            target, other = 0x120000 + line * 4, 0x110000 + (line * 7 + seed) % lines * 4
             address = op.I32_CONST + sleb(target)
             code += address + address + op.I32_LOAD + memarg()
             code += op.I32_CONST + sleb(other) + op.I32_LOAD + memarg()

@@ -6,6 +6,7 @@ All variables of all programs lie in one mapping::
     SYSTEM_AREA - s  the stack of compiled programs, s bytes where one was opened; it grows
                      downwards, and what overflows it runs into nil
     SYSTEM_AREA      one page for compiled code (`plcsim.core.system_area`)
+    LIBRARY_AREA     data of the C library, always at the same address, so that it is compiled once
     FIRST            the variables, up to the last allocated page
     above            not valid
 
@@ -42,7 +43,10 @@ PAGE = 0x1_0000
 SYSTEM_AREA = 0x10_0000
 """Address of the page that the controller shares with compiled code."""
 
-FIRST = SYSTEM_AREA + PAGE
+LIBRARY_AREA = SYSTEM_AREA + PAGE
+"""Address of the data of the C library, one page."""
+
+FIRST = LIBRARY_AREA + PAGE
 """Address of the first variable."""
 
 MAX_STACK = SYSTEM_AREA - PAGE
@@ -141,7 +145,7 @@ class Memory:
 
     def check(self, address: int, size: int) -> None:
         """Raise PageFault unless all ``size`` bytes at ``address`` are valid."""
-        if size < 0 or not FIRST <= address <= self._limit - size:
+        if size < 0 or not LIBRARY_AREA <= address <= self._limit - size:
             self._check_stack(address, size)
 
     def _check_stack(self, address: int, size: int) -> None:
@@ -182,7 +186,7 @@ class Memory:
             PageFault: the string runs into an address that is not valid.
         """
         self.check(address, 1)
-        end = min(address + limit, self._limit if address >= FIRST else SYSTEM_AREA)
+        end = min(address + limit, self._limit if address >= LIBRARY_AREA else SYSTEM_AREA)
         found = self._map.find(b"\0", address, end)
         if found < 0:
             self.check(address, limit)

@@ -43,9 +43,9 @@ def test_classes_programs_and_memory_are_shown(cell, capsys):
     head, *rows, last = shown.out.splitlines()
     assert head.split() == ["class", "cycle", "tolerance", "program", "address", "bytes", "tags"]
     assert [row.split() for row in rows] == [
-        ["#1", "2", "ms", "16.5", "ms", "main", "16#00110000", "12", "2"],
-        ["#1", "2", "ms", "16.5", "ms", "second", "16#0011000C", "12", "2"],
-        ["#4", "100", "ms", "100", "ms", "other", "16#00110018", "12", "2"],
+        ["#1", "2", "ms", "16.5", "ms", "main", "16#00120000", "12", "2"],
+        ["#1", "2", "ms", "16.5", "ms", "second", "16#0012000C", "12", "2"],
+        ["#4", "100", "ms", "100", "ms", "other", "16#00120018", "12", "2"],
     ]
     assert re.fullmatch(r"cell: 3 programs, 36 of 16777216 bytes .*, tick 1 ms", last)
 

@@ -9,6 +9,7 @@ from plcsim.core.errors import ConfigurationError, PageFault
 from plcsim.core.memory import (
     DEFAULT_SIZE,
     FIRST,
+    LIBRARY_AREA,
     MAX_SIZE,
     MAX_STACK,
     PAGE,
@@ -93,14 +94,15 @@ def test_default_size():
         (1, 4),
         (SYSTEM_AREA - 1, 1),
         (SYSTEM_AREA, 8),
-        (FIRST - 1, 1),
-        (FIRST - 1, 2),
+        (LIBRARY_AREA - 1, 1),
+        (LIBRARY_AREA - 1, 2),
         (FIRST + PAGE, 1),
         (FIRST + PAGE - 3, 4),
         (-1, 1),
         (2**32 - 1, 1),
         (2**32 + FIRST, 1),
         (FIRST, PAGE + 1),
+        (LIBRARY_AREA, 2 * PAGE + 1),
         (FIRST, -1),
     ],
 )
@@ -114,7 +116,7 @@ def test_a_wild_address_is_a_page_fault(memory, address, size):
 
 
 @pytest.mark.parametrize(
-    "address", [0, FIRST - 1, FIRST + PAGE - type_of(Cell).size + 1, 2**32 - 4]
+    "address", [0, LIBRARY_AREA - 1, FIRST + PAGE - type_of(Cell).size + 1, 2**32 - 4]
 )
 def test_access_to_a_wild_address_is_a_page_fault(memory, address):
     memory.allocate(10)
@@ -130,6 +132,7 @@ def test_a_page_fault_says_where():
 def test_before_the_first_allocation_nothing_is_valid(memory):
     with pytest.raises(PageFault):
         memory.read(FIRST, 1)
+    assert memory.read(LIBRARY_AREA, PAGE) == bytes(PAGE)
 
 
 def test_addresses_are_valid_to_the_end_of_the_page(memory):
@@ -149,7 +152,15 @@ def test_a_write_that_faults_stores_nothing(memory):
     assert memory.read(FIRST + PAGE - 2, 2) == b"\0\0"
 
 
-EDGES = (0, SYSTEM_AREA - 2 * PAGE, SYSTEM_AREA, FIRST, FIRST + PAGE, FIRST + 2 * PAGE)
+EDGES = (
+    0,
+    SYSTEM_AREA - 2 * PAGE,
+    SYSTEM_AREA,
+    LIBRARY_AREA,
+    FIRST,
+    FIRST + PAGE,
+    FIRST + 2 * PAGE,
+)
 
 
 @given(
@@ -165,7 +176,7 @@ def test_an_access_is_good_or_a_page_fault(address, size, allocated, stack):
     memory.open_stack(stack)
     top = FIRST + -(-allocated // PAGE) * PAGE
     low = SYSTEM_AREA - -(-stack // PAGE) * PAGE
-    in_variables = FIRST <= address <= address + size <= top
+    in_variables = LIBRARY_AREA <= address <= address + size <= top
     in_stack = low <= address < SYSTEM_AREA and address + size <= SYSTEM_AREA
     if size >= 0 and (in_variables or in_stack):
         assert memory.read(address, size) == bytes(size)

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.core.memory import FIRST, PAGE, SYSTEM_AREA, Memory
+from plcsim.core.memory import FIRST, LIBRARY_AREA, PAGE, SYSTEM_AREA, Memory
 from plcsim.machine.address_space import GUARD, RESERVATION, AddressSpace, must_compare
 from plcsim.machine.errors import MachineError
 
 MAPS = Path("/proc/self/maps")
+ALWAYS = [SYSTEM_AREA, LIBRARY_AREA]
 
 
 def rights(space):
@@ -35,10 +36,10 @@ def space(request):
 
 
 def test_only_what_is_valid_has_rights(space):
-    assert rights(space) == {SYSTEM_AREA: "rw-s"}
+    assert rights(space) == dict.fromkeys(ALWAYS, "rw-s")
     space._memory.allocate(PAGE + 1)
     space._memory.open_stack(1)
-    valid = [SYSTEM_AREA - PAGE, SYSTEM_AREA, FIRST, FIRST + PAGE]
+    valid = [SYSTEM_AREA - PAGE, *ALWAYS, FIRST, FIRST + PAGE]
     assert rights(space) == dict.fromkeys(valid, "rw-s")
     space._memory.allocate(3 * PAGE - 4)
     assert max(rights(space)) == FIRST + 3 * PAGE
@@ -49,7 +50,7 @@ def test_what_was_allocated_before_is_valid_too():
     memory.allocate(1)
     memory.open_stack(1)
     space = AddressSpace(memory)
-    assert rights(space) == dict.fromkeys([SYSTEM_AREA - PAGE, SYSTEM_AREA, FIRST], "rw-s")
+    assert rights(space) == dict.fromkeys([SYSTEM_AREA - PAGE, *ALWAYS, FIRST], "rw-s")
     space.close()
 
 
@@ -108,7 +109,7 @@ load = writer.function(Signature(bytes([I32]), bytes([I32])), "load")
 writer.body(load, LOCAL_GET + uleb(0) + I32_LOAD + memarg())
 writer.export_function("load", load)
 code = machines[0].compile(writer.encode().wasm)
-for address in 0, 0x120000, 0x7fffffff, 0xffffffff:
+for address in 0, 0x130000, 0x7fffffff, 0xffffffff:
     try:
         machines[0].instantiate(code, {}).function("load")(address)
     except MachineFault as fault:

@@ -15,8 +15,8 @@ from .units import FAULTS, Rig
 KINDS = [
     ("load", (0,), FaultKind.PAGE_FAULT, "page fault: address 16#00000000"),
     ("load", (4,), FaultKind.PAGE_FAULT, "page fault: address 16#00000004"),
-    ("store", (FIRST + PAGE,), FaultKind.PAGE_FAULT, "page fault: address 16#00120000"),
-    ("store", (FIRST + PAGE - 2,), FaultKind.PAGE_FAULT, "page fault: address 16#0012"),
+    ("store", (FIRST + PAGE,), FaultKind.PAGE_FAULT, "page fault: address 16#00130000"),
+    ("store", (FIRST + PAGE - 2,), FaultKind.PAGE_FAULT, "page fault: address 16#0013"),
     ("load", (0xFFFF_FFFF,), FaultKind.PAGE_FAULT, "page fault: address 16#FFFFFFFF"),
     ("divide", (1, 0), FaultKind.DIVISION_BY_ZERO, "division by zero"),
     ("divide", (-(2**31), -1), FaultKind.INTEGER_OVERFLOW, "integer overflow"),

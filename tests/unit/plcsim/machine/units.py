@@ -40,7 +40,7 @@ FAULTS = """
 (func $recurse (export "recurse") (call $recurse))
 (func (export "indirect") (param i32) (call_indirect (local.get 0)))
 (func (export "unreachable") unreachable)
-(func (export "endless") (i32.store (i32.const 0x110000) (i32.const 1)) (loop $again
+(func (export "endless") (i32.store (i32.const 0x120000) (i32.const 1)) (loop $again
   (if (i64.lt_s (i64.load (i32.const 0x100000)) (i64.const 0)) (then unreachable))
   (br $again)))
 (func (export "fine") (result i32) (i32.const 42))
