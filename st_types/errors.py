@@ -62,6 +62,7 @@ class Diagnostic:
         hint: how to put it right, may be empty.
         excerpt: the source line, cut around the column where it is long.
         caret: place of the column in ``excerpt``, from 0.
+        code: names the kind of finding, such as ``ST2001``; empty where kinds have no codes.
     """
 
     severity: Severity
@@ -72,9 +73,11 @@ class Diagnostic:
     hint: str = ""
     excerpt: str = ""
     caret: int = 0
+    code: str = ""
 
     def __str__(self) -> str:
-        return f"{self.path}:{self.line}:{self.column}: {self.severity}: {self.message}"
+        kind = f"{self.severity} {self.code}" if self.code else self.severity
+        return f"{self.path}:{self.line}:{self.column}: {kind}: {self.message}"
 
     def render(self) -> str:
         """Return the finding as lines of text: message, source line, caret, hint."""

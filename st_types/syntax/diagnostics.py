@@ -59,23 +59,28 @@ class DiagnosticLog:
         self.error_count = 0
         self.warning_count = 0
 
-    def error(self, offset: int, message: str, hint: str = "") -> None:
+    def error(self, offset: int, message: str, hint: str = "", code: str = "") -> None:
         """Record an error at the character ``offset``."""
         self.error_count += 1
-        self._add(Severity.ERROR, self.error_count, offset, message, hint)
+        if self.error_count > MAX_DIAGNOSTICS:
+            self.omitted += 1
+        else:
+            self._add(Severity.ERROR, offset, message, hint, code)
 
-    def warning(self, offset: int, message: str, hint: str = "") -> None:
+    def warning(self, offset: int, message: str, hint: str = "", code: str = "") -> None:
         """Record a warning at the character ``offset``."""
         self.warning_count += 1
-        self._add(Severity.WARNING, self.warning_count, offset, message, hint)
-
-    def _add(self, severity: Severity, count: int, offset: int, message: str, hint: str) -> None:
-        if count > MAX_DIAGNOSTICS:
+        if self.warning_count > MAX_DIAGNOSTICS:
             self.omitted += 1
-            return
+        else:
+            self._add(Severity.WARNING, offset, message, hint, code)
+
+    def _add(self, severity: Severity, offset: int, message: str, hint: str, code: str) -> None:
         path, line, column = self.source.location(offset)
         excerpt, caret = excerpt_of(self.source.line_text(line), column)
-        self.records.append(Diagnostic(severity, path, line, column, message, hint, excerpt, caret))
+        self.records.append(
+            Diagnostic(severity, path, line, column, message, hint, excerpt, caret, code)
+        )
 
     def raise_errors(self) -> None:
         """Raise all findings if one of them is an error.
