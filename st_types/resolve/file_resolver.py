@@ -229,13 +229,14 @@ class FileResolver(ConstantResolver):
         return first, last
 
     def _reference(self, node: ReferenceSpecification, _name: str) -> ReferenceType:
-        return self._reference_to(node.target, lambda: self.data_type(node.target, ""))
+        return self._reference_to(node, lambda: self.data_type(node.target, ""))
 
     def _reference_to(
-        self, target: TypeSpecification, find: Callable[[], DataType[object] | None]
+        self, node: ReferenceSpecification, find: Callable[[], DataType[object] | None]
     ) -> ReferenceType:
         """Return a reference whose target is found later, for that may hold the reference."""
-        reference = ReferenceType(find, f"REFERENCE TO {print_specification(target)}")
+        is_pointer = node.keyword != "REFERENCE"
+        reference = ReferenceType(find, print_specification(node), is_pointer=is_pointer)
         self._references.append(reference)
         return reference
 
@@ -351,7 +352,8 @@ class FileResolver(ConstantResolver):
         node = entry.node
         section = _SECTIONS[entry.block.section]
         if section is Section.IN_OUT:
-            reference = self._reference_to(node.specification, lambda: _completed(entry))
+            specification = ReferenceSpecification(node.at, node.specification)
+            reference = self._reference_to(specification, lambda: _completed(entry))
             return Member(node.name, reference, None, section)
         self.complete(entry)
         data_type = entry.data_type

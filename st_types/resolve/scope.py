@@ -127,12 +127,29 @@ class Scope:
         """
         if not self.dialect.case_sensitive:
             return next(self._near(space, name), None)
-        for scope in self.chain:
-            entry = scope.index.names(space).get(name)
-            if entry is not None:
-                return Hit(name, entry)
+        entry = self.exact(space, name)
+        if entry is not None:
+            return Hit(name, entry)
         near = {hit.name: hit for hit in reversed(list(self._near(space, name)))}
         return near.popitem()[1] if len(near) == 1 else None
+
+    def exact(self, space: NameSpace, name: str) -> Entry | None:
+        """Return the declaration that is spelled exactly like this, None if there is none."""
+        entry = self.index.names(space).get(name)
+        if entry is not None or not self.outer:
+            return entry
+        if len(self.outer) == 1:
+            return self.outer[0].exact(space, name)
+        around = self._around.setdefault(space, {})
+        if name not in around:
+            found = (scope.index.names(space).get(name) for scope in self.chain[1:])
+            around[name] = next((entry for entry in found if entry is not None), None)
+        return around[name]
+
+    @cached_property
+    def _around(self) -> dict[NameSpace, dict[str, Entry | None]]:
+        """What names mean that were looked up in several scopes around this one."""
+        return {}
 
     def _near(self, space: NameSpace, name: str) -> Iterator[Hit]:
         for scope in self.chain:

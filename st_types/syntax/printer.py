@@ -113,7 +113,8 @@ def print_specification(node: TypeSpecification, indent: str = "") -> str:
             bounds = ", ".join(_range(low, high) for low, high in node.bounds)
             return f"ARRAY[{bounds}] OF {print_specification(node.element, indent)}"
         case ReferenceSpecification():
-            return f"{node.keyword} TO {print_specification(node.target, indent)}"
+            keyword = node.keyword if node.keyword == "REF_TO" else f"{node.keyword} TO"
+            return f"{keyword} {print_specification(node.target, indent)}"
         case SubrangeSpecification():
             return f"{node.base}({_range(node.low, node.high)})"
         case StructSpecification():

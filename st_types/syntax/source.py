@@ -81,22 +81,23 @@ class Source:
             return cls.decode(shown or str(path), file.read(MAX_SOURCE_BYTES + 1))
 
     @cached_property
-    def _line_starts(self) -> list[int]:
+    def line_starts(self) -> list[int]:
+        """Offsets of the first characters of all lines."""
         return [0, *(match.end() for match in _LINE_END.finditer(self.text))]
 
     @property
     def line_count(self) -> int:
         """Number of lines; a text that ends in a line end has no further line after it."""
-        starts = self._line_starts
+        starts = self.line_starts
         return len(starts) - (starts[-1] == len(self.text))
 
     def location(self, offset: int) -> Location:
         """Return the place of the character at ``offset`` (0 up to the length of the text)."""
-        line = bisect_right(self._line_starts, offset)
-        return Location(self.path, line, offset - self._line_starts[line - 1] + 1)
+        line = bisect_right(self.line_starts, offset)
+        return Location(self.path, line, offset - self.line_starts[line - 1] + 1)
 
     def line_text(self, line: int) -> str:
         """Return line number ``line`` (from 1) without its line end."""
-        start = self._line_starts[line - 1]
-        end = self._line_starts[line] if line < len(self._line_starts) else len(self.text)
+        start = self.line_starts[line - 1]
+        end = self.line_starts[line] if line < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")

@@ -234,7 +234,8 @@ class SpecificationParser(InitialParser):
     def _reference_specification(self) -> ReferenceSpecification:
         at = self.index
         self.index += 1
-        self.expect("TO", f"after {self.texts[at]}")
+        if self.texts[at].upper() != "REF_TO":
+            self.expect("TO", f"after {self.texts[at]}")
         return ReferenceSpecification(at, self.specification(), self.texts[at].upper())
 
     def _struct_specification(self) -> StructSpecification:
@@ -287,6 +288,7 @@ _RULES: dict[str, Callable[[SpecificationParser], TypeSpecification]] = {
     "WSTRING": SpecificationParser._string_specification,
     "REFERENCE": SpecificationParser._reference_specification,
     "POINTER": SpecificationParser._reference_specification,
+    "REF_TO": SpecificationParser._reference_specification,
     "STRUCT": SpecificationParser._struct_specification,
     "(": SpecificationParser._enumeration_specification,
 }

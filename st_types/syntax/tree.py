@@ -44,7 +44,7 @@ class ArraySpecification(Node):
 
 @dataclass(slots=True)
 class ReferenceSpecification(Node):
-    """``REFERENCE TO target``; ``keyword`` is REFERENCE or, from other vendors, POINTER."""
+    """``REFERENCE TO target``; ``keyword`` is REFERENCE or, from others, POINTER or REF_TO."""
 
     target: TypeSpecification
     keyword: str = "REFERENCE"

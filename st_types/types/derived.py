@@ -229,21 +229,27 @@ class SubrangeType(DataType[int]):
 
 
 class ReferenceType(DataType[int]):
-    """REFERENCE TO target: a 32-bit address, 0 for none.
+    """REFERENCE TO target, or POINTER TO target: a 32-bit address, 0 for none.
+
+    A name of a reference means what it refers to; a pointer is followed by ``^``.
 
     Args:
         target: what lies at the address, None where it is not known. A function is called when
             the target is first asked for: a type may refer to itself.
         name: as it is written in a declaration.
+        is_pointer: it is a POINTER TO or a REF_TO.
     """
 
-    __slots__ = ("_find", "_target")
+    __slots__ = ("_find", "_target", "is_pointer")
 
     def __init__(
         self,
         target: DataType[object] | Callable[[], DataType[object] | None] | None,
         name: str = "",
+        *,
+        is_pointer: bool = False,
     ) -> None:
+        self.is_pointer = is_pointer
         self._target: DataType[object] | None = None
         self._find: Callable[[], DataType[object] | None] | None = None
         if target is None or isinstance(target, DataType):

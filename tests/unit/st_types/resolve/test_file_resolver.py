@@ -49,7 +49,8 @@ def test_a_pointer_of_another_vendor_is_a_reference() -> None:
     scope = scope_of("VAR x : POINTER TO Point; END_VAR")
     (variable,) = scope.variables
     assert isinstance(variable.data_type, ReferenceType)
-    assert variable.data_type.name == "REFERENCE TO Point"
+    assert variable.data_type.name == "POINTER TO Point"
+    assert variable.data_type.is_pointer
     assert variable.data_type.target is scope.find_type("Point")
 
 

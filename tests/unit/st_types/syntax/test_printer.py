@@ -179,7 +179,10 @@ specifications = st.recursive(
             ArraySpecification, st.just(0), few(st.tuples(expressions, expressions), 1), inner
         ),
         st.builds(
-            ReferenceSpecification, st.just(0), inner, st.sampled_from(["REFERENCE", "POINTER"])
+            ReferenceSpecification,
+            st.just(0),
+            inner,
+            st.sampled_from(["REFERENCE", "POINTER", "REF_TO"]),
         ),
         st.builds(StructSpecification, st.just(0), few(declarations_of(inner))),
     ),

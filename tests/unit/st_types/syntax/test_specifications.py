@@ -53,6 +53,11 @@ def declarations(text: str, end: str = "END_VAR") -> tuple[list[Declaration], li
         ("REFERENCE TO X", ReferenceSpecification, None),
         ("REFERENCE TO ARRAY[0..3] OF TON", ReferenceSpecification, None),
         ("POINTER TO REAL", ReferenceSpecification, None),
+        (
+            "Ref_To ARRAY[0..3] OF REF_TO X",
+            ReferenceSpecification,
+            "REF_TO ARRAY[0..3] OF REF_TO X",
+        ),
         ("USINT(4..6)", SubrangeSpecification, None),
         ("SINT (-3..+6)", SubrangeSpecification, "SINT(-3..+6)"),
         ("(A, B := 5)", EnumerationSpecification, None),

@@ -1,0 +1,1 @@
+"""From syntax trees and scopes to typed trees, with findings."""

@@ -1,0 +1,498 @@
+"""Checking calls: built-in functions, functions with a declaration, function blocks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from plcsim.core.suggestion import did_you_mean
+from plcsim.program.structured_text.check import builtins
+from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.expressions import ExpressionChecker
+from plcsim.program.structured_text.check.fits import are_alike
+from plcsim.program.structured_text.check.kinds import (
+    ANY_INT,
+    BOOL,
+    UDINT,
+    VOID,
+    Kind,
+    kind_of,
+    plain,
+)
+from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING
+from plcsim.program.structured_text.check.typed import (
+    PLACES,
+    Address,
+    Assign,
+    Bit,
+    Call,
+    CallBlock,
+    Constant,
+    Edge,
+    Element,
+    Member,
+    SetAddress,
+    Target,
+    Unary,
+    Variable,
+)
+from st_types.syntax import expressions as syntax
+from st_types.types.derived import DataBlockType, ReferenceType, Section
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.typed import Statement, Value
+    from st_types.resolve.declared import Function
+    from st_types.syntax.expressions import Expression
+
+_INPUTS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT"])
+_PARAMETERS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
+
+
+class Parameter(NamedTuple):
+    """A parameter of a function.
+
+    Attributes:
+        name: as declared.
+        type: plain; None for ANY_NUM and the like, which take the value's own.
+        section: VAR_INPUT, VAR_IN_OUT or VAR_OUTPUT.
+        by_address: the address of a place goes over.
+        is_optional: it has an initial value.
+    """
+
+    name: str
+    type: Type | None
+    section: str
+    by_address: bool
+    is_optional: bool
+
+
+def parameters_of(function: Function) -> tuple[Parameter, ...]:
+    """Return the parameters of a function in order."""
+    found = []
+    for variable in function.variables:
+        section = variable.block.section
+        if section in _PARAMETERS and not variable.is_constant:
+            data_type = None if variable.data_type is None else plain(variable.data_type)
+            by_address = section != "VAR_INPUT" or (
+                data_type is not None and kind_of(data_type) in BY_ADDRESS
+            )
+            has_initial = variable.node.initial is not None
+            found.append(Parameter(variable.name, data_type, section, by_address, has_initial))
+    return tuple(found)
+
+
+class CallChecker(ExpressionChecker):
+    """Checks calls.
+
+    Attributes:
+        edges: how many edge functions were met in the function block, for its zzEdge members.
+    """
+
+    edges = 0
+
+    def _call(self, node: syntax.Call) -> Value:
+        name = node.function
+        if type(name) is not syntax.Name:
+            return self._not_callable(node)
+        upper = name.name.upper()
+        if upper in builtins.PLACE_FUNCTIONS:
+            return self._place_function(node, upper)
+        if upper in builtins.EDGES:
+            return self._edge(node, upper)
+        rule = builtins.rule_of(name.name)
+        if rule is not None:
+            return self._builtin(node, upper, rule)
+        return self._declared(node, name)
+
+    def _not_callable(self, node: syntax.Call) -> Value:
+        value = self.value(node.function)
+        if isinstance(value.type, DataBlockType):
+            message = f"{value.type} is a function block; its call is a statement and has no value"
+            self.error(node, Code.NO_VALUE, message)
+        elif value.type is not VOID:
+            self.error(node, Code.NOT_CALLABLE, f"{value.type} cannot be called")
+        return NOTHING
+
+    # Functions of a place
+
+    def _place_function(self, node: syntax.Call, name: str) -> Value:
+        if len(node.arguments) != 1 or node.arguments[0].value is None:
+            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes one argument")
+            return NOTHING
+        argument = node.arguments[0].value
+        return self._size(argument) if name == "SIZEOF" else self.address(argument)
+
+    def _size(self, node: Expression) -> Value:
+        if type(node) is syntax.Name and self.names.value(node) is None:
+            data_type = self.names.scope.find_type(node.name)
+            if data_type is not None:
+                return Constant(ANY_INT, data_type.size)
+        if isinstance(node, syntax.Literal) and isinstance(node.constant.value, str):
+            return Constant(ANY_INT, len(node.constant.value) + 1)
+        value = self.value(node)
+        if value.type is not VOID and (isinstance(value, Bit) or not isinstance(value, PLACES)):
+            self.error(node, Code.NO_ADDRESS, "SIZEOF takes a variable or a type")
+        return Constant(ANY_INT, value.type.size)
+
+    def address(self, node: Expression) -> Value:
+        """Return the address of a place, a constant, or of a string that is written there."""
+        constant = self.names.constant(node) if type(node) is syntax.Name else None
+        value = constant or self.value(node)
+        if isinstance(value, Constant) and isinstance(value.value, str):
+            return Address(UDINT, value)
+        if value.type is VOID:
+            return NOTHING
+        if isinstance(value, Bit) or not isinstance(value, PLACES):
+            self.error(node, Code.NO_ADDRESS, "this has no address")
+            return NOTHING
+        keep_address(value)
+        return Address(UDINT, value)
+
+    # Edges
+
+    def _edge(self, node: syntax.Call, name: str) -> Value:
+        if len(node.arguments) != 1 or node.arguments[0].value is None:
+            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes one argument")
+            return NOTHING
+        argument = node.arguments[0].value
+        value = self.value(argument)
+        self.check_fit(argument, value, BOOL)
+        return Edge(BOOL, name, value, self._edge_memory(node))
+
+    def _edge_memory(self, node: syntax.Call) -> Value:
+        """Return the variable that remembers the value: of a function block a member of its own.
+
+        Automation Studio declares such members itself, zzEdge00000 and so on, in order of the text.
+        """
+        number = self.edges
+        self.edges += 1
+        if self.names.symbols.storages.get(self.names.scope) == "instance":
+            name = f"zzEdge{number:05}"
+            found = self.names.value(syntax.Name(node.at, name))
+            if found is None:
+                message = f"the function block has no member {name} for this edge"
+                hint = "declare it as VAR : BOOL, as Automation Studio does when it builds"
+                self.error(node, Code.UNKNOWN_MEMBER, message, hint)
+            return found or NOTHING
+        symbol = self.names.symbols.hide(f"edge {number}", BOOL)
+        return Variable(BOOL, symbol)
+
+    # Built-in functions
+
+    def _builtin(self, node: syntax.Call, name: str, rule: builtins.Rule) -> Value:
+        nodes = self._arguments_in_order(node, name, rule)
+        if nodes is None:
+            return NOTHING
+        values = [self.value(each) for each in nodes]
+        if any(value.type is VOID for value in values):
+            return NOTHING
+        found = rule.made(name, values)
+        if found is None:
+            types = ", ".join(str(value.type) for value in values)
+            self.error(node, Code.WRONG_OPERANDS, f"{name} does not take {types}")
+            return NOTHING
+        return found
+
+    def _arguments_in_order(
+        self, node: syntax.Call, name: str, rule: builtins.Rule
+    ) -> list[Expression] | None:
+        found: list[Expression] = []
+        named: dict[int, Expression] = {}
+        for argument in node.arguments:
+            if argument.value is None or argument.is_output:
+                self.error(argument, Code.WRONG_ARGUMENTS, f"{name} takes values only")
+                return None
+            if not argument.name:
+                found.append(argument.value)
+                continue
+            place = _place_of(argument.name.upper(), rule)
+            if place is None or place in named:
+                message = f"{name} has no parameter {argument.name}"
+                self.error(argument, Code.UNKNOWN_PARAMETER, message)
+                return None
+            named[place] = argument.value
+        if named:
+            found += [named[place] for place in sorted(named)]
+        if not rule.least <= len(found) <= rule.most:
+            wanted = f"{rule.least}" if rule.least == rule.most else f"{rule.least} or more"
+            message = f"{name} takes {wanted} arguments, not {len(found)}"
+            self.error(node, Code.WRONG_ARGUMENTS, message)
+            return None
+        return found
+
+    # Declared functions
+
+    def _declared(self, node: syntax.Call, name: syntax.Name) -> Value:
+        scope = self.names.scope
+        hit = scope.lookup("functions", name.name)
+        function = None if hit is None else scope.find_function(name.name)
+        if function is None or hit is None:
+            return self._no_function(node, name)
+        self.names.check_case(name, hit)
+        arguments = self._arguments_of(node, function)
+        result = VOID if function.result is None else plain(function.result)
+        if function.node.result is not None and function.result is None:
+            self.error(node, Code.UNKNOWN_TYPE, f"the type of {name.name} is not known")
+        return Call(result, function, arguments)
+
+    def _no_function(self, node: syntax.Call, name: syntax.Name) -> Value:
+        if self.names.value(name) is not None:
+            return self._not_callable(node)
+        scope = self.names.scope
+        known = (each for outer in scope.chain for each in outer.index.names("functions"))
+        message = f"no function is called {name.name}{did_you_mean(name.name, known)}"
+        self.error(node, Code.UNKNOWN_NAME, message, scope.hint("functions", name.name))
+        for argument in node.arguments:
+            if argument.value is not None:
+                self.value(argument.value)
+        return NOTHING
+
+    def _arguments_of(self, node: syntax.Call, function: Function) -> list[Value | None]:
+        """Return the arguments in the order of the parameters, each checked against its own."""
+        parameters = parameters_of(function)
+        given = self._given(node, function.name, parameters)
+        found: list[Value | None] = []
+        for parameter in parameters:
+            argument = given.get(parameter.name)
+            if argument is not None and argument.value is not None:
+                found.append(self._argument(argument.value, parameter))
+                continue
+            found.append(None)
+            is_needed = parameter.section in _INPUTS and not parameter.is_optional
+            if is_needed and not given.get("", None):
+                message = f"{function.name} needs a value for {parameter.name}"
+                self.error(node, Code.WRONG_ARGUMENTS, message)
+        return found
+
+    def _given(
+        self, node: syntax.Call, name: str, parameters: Sequence[Parameter]
+    ) -> dict[str, syntax.Argument]:
+        """Return the arguments by the names of their parameters."""
+        found: dict[str, syntax.Argument] = {}
+        key_of = self.names.scope.dialect.key
+        spellings = {key_of(each.name): each.name for each in parameters}
+        for place, argument in enumerate(node.arguments):
+            if argument.name:
+                key = spellings.get(key_of(argument.name))
+            else:
+                key = parameters[place].name if place < len(parameters) else None
+            if key is None:
+                self._no_parameter(argument, name, parameters)
+            elif key in found:
+                self.error(argument, Code.WRONG_ARGUMENTS, f"{key} is given twice")
+            else:
+                found[key] = argument
+        return found
+
+    def _no_parameter(
+        self, argument: syntax.Argument, name: str, parameters: Sequence[Parameter]
+    ) -> None:
+        if argument.name:
+            near = did_you_mean(argument.name, (each.name for each in parameters))
+            message = f"{name} has no parameter {argument.name}{near}"
+            self.error(argument, Code.UNKNOWN_PARAMETER, message)
+        else:
+            message = f"{name} takes {len(parameters)} arguments"
+            self.error(argument, Code.WRONG_ARGUMENTS, message)
+        if argument.value is not None:
+            self.value(argument.value)
+
+    def _argument(self, node: Expression, parameter: Parameter) -> Value:
+        value = self.value(node)
+        target = parameter.type
+        if value.type is VOID or target is None:
+            return value
+        if isinstance(target, ReferenceType):
+            return self._reference_argument(node, value, target)
+        if not parameter.by_address:
+            self.check_fit(node, value, target)
+            return value
+        return self._address_argument(node, value, parameter, target)
+
+    def _reference_argument(self, node: Expression, value: Value, target: ReferenceType) -> Value:
+        """Check what goes into a REFERENCE TO: an address, or a place of the type referred to."""
+        lying = target.target
+        if lying is None or isinstance(value, Address) or not are_alike(value.type, lying):
+            self.check_fit(node, value, target)
+            return value
+        if isinstance(value, Target) and isinstance(value.pointer.type, ReferenceType):
+            return value.pointer
+        return self.address(node)
+
+    def _address_argument(
+        self, node: Expression, value: Value, parameter: Parameter, target: Type
+    ) -> Value:
+        if value.type is UDINT and isinstance(value, Address):
+            return value  # ADR(x) for a STRING or a STRUCT, as Automation Studio lets it be
+        self.check_fit(node, value, target)
+        if parameter.section == "VAR_INPUT":
+            is_place = isinstance(value, PLACES) and not isinstance(value, Bit)
+            return Address(UDINT, value) if is_place else value
+        if isinstance(value, Bit) or not isinstance(value, PLACES):
+            message = f"{parameter.name} takes a variable"
+            self.error(node, Code.NO_VARIABLE, message)
+            return NOTHING
+        keep_address(value)
+        return Address(UDINT, value)
+
+    # Function blocks
+
+    def block_call(self, node: syntax.Call, line: int) -> Statement | None:
+        """Check the call of a function block, None if it is none."""
+        instance = self._instance(node.function)
+        if instance is None:
+            return None
+        block = instance.type
+        assert isinstance(block, DataBlockType)
+        before: list[Statement] = []
+        after: list[Statement] = []
+        inputs = iter([member for member in block.members if member.section is Section.INPUT])
+        for argument in node.arguments:
+            name = argument.name
+            if not name:
+                member = next(inputs, None)
+                if member is None:
+                    message = f"{block} takes fewer arguments without a name"
+                    self.error(argument, Code.WRONG_ARGUMENTS, message)
+                    continue
+                name = member.name
+            self._block_argument(argument, name, instance, before, after, line)
+        return CallBlock(line, instance, block.name, before, after)
+
+    def _instance(self, node: Expression) -> Value | None:
+        if type(node) is syntax.Name and self.names.value(node) is None:
+            return None
+        value = self.value(node)
+        return value if isinstance(value.type, DataBlockType) else None
+
+    def bare_call(self, node: Expression, line: int) -> Statement | None:
+        """Check an instance as a statement, which is its call; None if it is none."""
+        instance = self._instance(node)
+        if instance is None:
+            return None
+        return CallBlock(line, instance, instance.type.name, (), ())
+
+    def _block_argument(
+        self,
+        argument: syntax.Argument,
+        name: str,
+        instance: Value,
+        before: list[Statement],
+        after: list[Statement],
+        line: int,
+    ) -> None:
+        block = instance.type
+        assert isinstance(block, DataBlockType)
+        spelling = block.spelling(name)
+        section = None if spelling is None else block.find(spelling)[0].section
+        wanted = (Section.OUTPUT,) if argument.is_output else (Section.INPUT, Section.IN_OUT)
+        if spelling is None or section not in wanted:
+            self._no_block_parameter(argument, name, block, wanted)
+            return
+        if argument.value is None:
+            return
+        if spelling != name:
+            message = f"{name} is declared as {spelling}"
+            self.findings.warning(argument, Code.OTHER_CASE, message)
+        member = self.member_of(instance, block, spelling)
+        if argument.is_output:
+            after += self._output(argument, member, line)
+        else:
+            before += self._input(argument, member, section, line)
+
+    def _no_block_parameter(
+        self,
+        argument: syntax.Argument,
+        name: str,
+        block: DataBlockType[Any],
+        wanted: tuple[Section, ...],
+    ) -> None:
+        names = [member.name for member in block.members if member.section in wanted]
+        kind = "output" if argument.is_output else "input"
+        message = f"{block} has no {kind} {name}{did_you_mean(name, names)}"
+        self.error(argument, Code.UNKNOWN_PARAMETER, message)
+        if argument.value is not None:
+            self.value(argument.value)
+
+    def _output(self, argument: syntax.Argument, member: Value, line: int) -> list[Statement]:
+        assert argument.value is not None
+        target = self.assigned(argument.value)
+        value: Value = Unary(BOOL, "NOT", member) if argument.is_negated else member
+        self.check_fit(argument.value, value, target.type)
+        return [Assign(line, target, value)]
+
+    def _input(
+        self, argument: syntax.Argument, member: Value, section: Section | None, line: int
+    ) -> list[Statement]:
+        assert argument.value is not None
+        if section is Section.IN_OUT:
+            assert isinstance(member, Target)
+            parameter = Parameter(argument.name, member.type, "VAR_IN_OUT", True, False)  # noqa: FBT003  # by address
+            value = self._argument(argument.value, parameter)
+            return [SetAddress(line, member.pointer, value)]
+        return [self.assignment(argument.value, member, self.value(argument.value), line)]
+
+    # Assignments, of statements and of inputs
+
+    def assigned(self, node: Expression) -> Value:
+        """Check what is assigned: a variable that is no constant."""
+        value = self.value(node)
+        if isinstance(value, PLACES):
+            symbol = root_of(value)
+            if symbol is not None and symbol.is_constant:
+                message = f"{symbol.name} is a constant"
+                self.error(node, Code.CONSTANT_ASSIGNED, message)
+            return value
+        if value.type is not VOID:
+            is_name = type(node) is syntax.Name
+            code = Code.CONSTANT_ASSIGNED if is_name else Code.NO_VARIABLE
+            message = "a constant cannot be assigned" if is_name else "this cannot be assigned"
+            self.error(node, code, message)
+        return NOTHING
+
+    def assignment(self, node: Expression, target: Value, value: Value, line: int) -> Statement:
+        """Return ``target := value``; ``node`` is the value.
+
+        An address goes into a reference itself, unless that refers to an integer of 32 bits: then
+        it goes there, as any other value does.
+        """
+        if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
+            value_type = UDINT if isinstance(value, Address) else value.type
+            if value_type is UDINT and _takes_address(target.type, value):
+                return SetAddress(line, target.pointer, value)
+        self.check_fit(node, value, target.type)
+        return Assign(line, target, value)
+
+
+def _takes_address(target: Type, value: Value) -> bool:
+    """Return whether an address goes into a reference to ``target`` itself, not where it leads."""
+    kind = kind_of(target)
+    if isinstance(value, Address):
+        return kind is not Kind.INTEGER or target.size != UDINT.size
+    return kind >= Kind.STRING
+
+
+def _place_of(name: str, rule: builtins.Rule) -> int | None:
+    """Return the place of a parameter; ``IN1``, ``IN2``, ... where any number is taken."""
+    if name in rule.parameters:
+        return rule.parameters.index(name)
+    number = name.removeprefix("IN")
+    if name.startswith("IN") and number.isdecimal() and rule.most == builtins.MANY:
+        return len(rule.parameters) + int(number)
+    return None
+
+
+def root_of(value: Value) -> Any:
+    """Return the variable that a place is in, None if it is reached by an address."""
+    while isinstance(value, Member | Element | Bit):
+        value = value.base
+    return value.symbol if isinstance(value, Variable) else None
+
+
+def keep_address(value: Value) -> None:
+    """Note that the address of a place is known from now on."""
+    symbol = root_of(value)
+    if symbol is not None:
+        symbol.has_address = True

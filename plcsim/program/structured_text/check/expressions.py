@@ -1,0 +1,345 @@
+"""Checking expressions: names to variables, operations to types."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.core.suggestion import did_you_mean
+from plcsim.program.structured_text.check import operations
+from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.fits import fit
+from plcsim.program.structured_text.check.kinds import (
+    ANY_INT,
+    ANY_REAL,
+    BOOL,
+    VOID,
+    Fit,
+    Kind,
+    kind_of,
+    number_type,
+    plain,
+)
+from plcsim.program.structured_text.check.names import NOTHING, followed
+from plcsim.program.structured_text.check.typed import (
+    Binary,
+    Bit,
+    Constant,
+    Element,
+    Member,
+    Target,
+    Unary,
+)
+from st_types.syntax import expressions as syntax
+from st_types.types.derived import (
+    ArrayType,
+    EnumerationType,
+    ReferenceType,
+    StringType,
+    StructType,
+    WStringType,
+)
+from st_types.types.elementary import ELEMENTARY
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.typed import Value
+    from st_types.syntax.expressions import Expression
+
+_LITERAL_TYPES: Final[dict[str, Type]] = {**ELEMENTARY, "ANY_INT": ANY_INT, "ANY_REAL": ANY_REAL}
+
+
+class ExpressionChecker:
+    """Checks the expressions of one body.
+
+    Args:
+        names: what names mean in it.
+        findings: take what is wrong.
+    """
+
+    def __init__(self, names: Names, findings: Findings) -> None:
+        self.names = names
+        self.findings = findings
+        self.error = findings.error
+        self._members: dict[tuple[Type, str], tuple[int, Type]] = {}
+
+    def value(self, node: Expression) -> Value:
+        """Return the value of an expression; `NOTHING` after an error."""
+        return _RULES[type(node)](self, node)
+
+    def _name(self, node: syntax.Name) -> Value:
+        found = self.names.values.get(node.name)
+        if found is None:
+            found = self.names.value(node)
+        return self.unknown_name(node) if found is None else found
+
+    def unknown_name(self, node: syntax.Name) -> Value:
+        """Tell that nothing has this name."""
+        scope = self.names.scope
+        if scope.lookup("types", node.name) or scope.lookup("functions", node.name):
+            self.error(node, Code.NO_VALUE, f"{node.name} has no value; it is no variable")
+            return NOTHING
+        known = (name for each in scope.chain[:2] for name in each.index.names("variables"))
+        message = f"no variable is called {node.name}{did_you_mean(node.name, known)}"
+        self.error(node, Code.UNKNOWN_NAME, message, scope.hint("variables", node.name))
+        return NOTHING
+
+    def _literal(self, node: syntax.Literal) -> Value:
+        constant = node.constant
+        found = _LITERAL_TYPES.get(constant.type_name)
+        if found is not None:
+            return Constant(found, constant.value)
+        text = str(constant.value)
+        is_wide = constant.type_name == "WSTRING"
+        return Constant(
+            WStringType(len(text) or 1) if is_wide else StringType(len(text) or 1), text
+        )
+
+    def _address(self, node: syntax.DirectAddress) -> Value:
+        hint = "declare a variable AT this address"
+        self.error(node, Code.NOT_SUPPORTED, f"{node.text} in a statement is not supported", hint)
+        return NOTHING
+
+    # Paths
+
+    def _member(self, node: syntax.MemberAccess) -> Value:
+        base = node.base
+        if type(base) is syntax.Name and self.names.value(base) is None:
+            return self._type_member(node, base)
+        value = self.value(base)
+        name = node.name
+        found = self._members.get((value.type, name))
+        if found is not None:
+            return followed(Member(found[1], value, found[0]))
+        data_type = value.type
+        if isinstance(data_type, StructType):
+            return self._struct_member(node, value, data_type)
+        if data_type is VOID:
+            return NOTHING
+        if name.isdecimal() or name[:2].upper() == "%X":
+            return self._bit(node, value)
+        message = f"{data_type} has no members"
+        self.error(node, Code.NO_MEMBERS, message, _pointer_hint(data_type))
+        return NOTHING
+
+    def _type_member(self, node: syntax.MemberAccess, base: syntax.Name) -> Value:
+        """Check ``Type.value`` and ``Type#value`` of an enumeration."""
+        hit = self.names.scope.lookup("types", base.name)
+        data_type = self.names.scope.find_type(base.name) if hit is not None else None
+        if data_type is None or hit is None:
+            return self.unknown_name(base)
+        self.names.check_case(base, hit)
+        enumeration = plain(data_type)
+        if not isinstance(enumeration, EnumerationType):
+            return self.unknown_name(base)
+        spelling = enumeration.spelling(node.name)
+        if spelling is None:
+            near = did_you_mean(node.name, enumeration.values)
+            message = f"{base.name} has no value {node.name}{near}"
+            self.error(node, Code.UNKNOWN_MEMBER, message)
+            return NOTHING
+        return Constant(enumeration, enumeration.values[spelling])
+
+    def _struct_member(
+        self, node: syntax.MemberAccess, value: Value, data_type: StructType[Any]
+    ) -> Value:
+        spelling = data_type.spelling(node.name)
+        if spelling is None:
+            near = did_you_mean(node.name, (member.name for member in data_type.members))
+            message = f"{data_type} has no member {node.name}{near}"
+            self.error(node, Code.UNKNOWN_MEMBER, message)
+            return NOTHING
+        found = self.member_of(value, data_type, spelling)
+        if spelling == node.name or not self.names.scope.dialect.case_sensitive:
+            member, offset = data_type.find(spelling)
+            self._members[data_type, node.name] = offset, plain(member.data_type)
+        else:
+            message = f"{node.name} is declared as {spelling}"
+            self.findings.warning(node, Code.OTHER_CASE, message)
+        return found
+
+    def member_of(self, value: Value, data_type: StructType[Any], name: str) -> Value:
+        """Return the member ``name`` of a structure, what it refers to if it is a reference."""
+        member, offset = data_type.find(name)
+        return followed(Member(plain(member.data_type), value, offset))
+
+    def _bit(self, node: syntax.MemberAccess, value: Value) -> Value:
+        number = int(node.name.removeprefix("%").lstrip("xX"))
+        kind = kind_of(value.type)
+        if kind is Kind.BOOL and number == 0:
+            return value
+        if kind is not Kind.INTEGER:
+            message = f"{value.type} has no bits; only integers have"
+            self.error(node, Code.WRONG_BIT, message)
+            return NOTHING
+        bits = 8 * value.type.size
+        if number >= bits:
+            self.error(node, Code.WRONG_BIT, f"{value.type} has the bits 0 to {bits - 1}")
+            return NOTHING
+        return Bit(BOOL, value, number)
+
+    def _index(self, node: syntax.Index) -> Value:
+        value = self.value(node.base)
+        array = value.type
+        indices = [self._index_value(index) for index in node.indices]
+        if not isinstance(array, ArrayType):
+            if array is not VOID:
+                message = f"{array} cannot be indexed; it is no ARRAY"
+                self.error(node, Code.NO_ARRAY, message, _pointer_hint(array))
+            return NOTHING
+        if len(indices) != len(array.bounds):
+            message = f"{array} takes {len(array.bounds)} indices, not {len(indices)}"
+            self.error(node, Code.WRONG_INDEX, message)
+            return NOTHING
+        for each, index, (low, high) in zip(node.indices, indices, array.bounds, strict=True):
+            if type(index) is Constant and not low <= int(index.value) <= high:
+                message = f"index {index.value} is outside {low}..{high}"
+                self.error(each, Code.INDEX_OUTSIDE, message)
+        return followed(Element(plain(array.element), value, array, indices))
+
+    def _index_value(self, node: Expression) -> Value:
+        index = self.value(node)
+        kind = kind_of(index.type)
+        if kind is Kind.INTEGER or kind is Kind.VOID:
+            return index if kind is Kind.INTEGER else Constant(VOID, 0)
+        self.error(node, Code.WRONG_INDEX, f"an index is an integer, not {index.type}")
+        return NOTHING
+
+    def _dereference(self, node: syntax.Dereference) -> Value:
+        value = self.value(node.base)
+        data_type = value.type
+        if isinstance(data_type, ReferenceType):
+            target = data_type.target
+            return followed(Target(VOID if target is None else plain(target), value))
+        if not isinstance(value, Target) and data_type is not VOID:
+            self.error(node, Code.NO_REFERENCE, f"{data_type} is no pointer")
+        return value
+
+    # Operations
+
+    def _unary(self, node: syntax.Unary) -> Value:
+        value = self.value(node.operand)
+        if node.operator == "+":
+            return value
+        if isinstance(value, Constant) and not isinstance(value.value, str):
+            folded = operations.folded(node.operator, value)
+            if folded is not None:
+                return folded
+        if operations.takes(node.operator, value.type):
+            return Unary(value.type, node.operator, value)
+        if value.type is not VOID:
+            message = f"{node.operator} does not take {value.type}"
+            self.error(node, Code.WRONG_OPERANDS, message)
+        return NOTHING
+
+    def _binary(self, node: syntax.Binary) -> Value:
+        """Check a chain of operators from its left end, for it may be hundreds long."""
+        chain = [node]
+        while type(chain[-1].left) is syntax.Binary:
+            chain.append(chain[-1].left)
+        left = self.value(chain[-1].left)
+        for each in reversed(chain):
+            left = self._operation(each, left, self.value(each.right))
+        return left
+
+    def _operation(self, node: syntax.Binary, left: Value, right: Value) -> Value:
+        left, right = address_of_aggregate(left), address_of_aggregate(right)
+        found = operations.operation(node.operator, left, right)
+        if found is None:
+            if left.type is not VOID and right.type is not VOID:
+                message = f"{node.operator} does not take {left.type} and {right.type}"
+                self.error(node, Code.WRONG_OPERANDS, message)
+            return NOTHING
+        if node.operator in ("/", "MOD") and _is_zero(right):
+            self._division_by_zero(node, found)
+        elif operations.mixes_signs(found):
+            message = f"{left.type} and {right.type} are compared as unsigned numbers"
+            self.findings.warning(node, Code.SIGN_MIXED, message)
+        return found
+
+    def _division_by_zero(self, node: syntax.Binary, value: Binary | Any) -> None:
+        if node.operator == "/" and kind_of(value.type) is not Kind.REAL:
+            self.error(node, Code.DIVISION_BY_ZERO, "division by zero")
+
+    def _call(self, node: syntax.Call) -> Value:
+        raise NotImplementedError
+
+    # Uses
+
+    def condition(self, node: Expression) -> Value:
+        """Check a condition."""
+        value = self.value(node)
+        kind = kind_of(value.type)
+        if kind is not Kind.BOOL and kind is not Kind.VOID:
+            is_number = isinstance(value, Constant) and value.value in (0, 1)
+            if not is_number:
+                message = f"a condition is a BOOL, not {value.type}"
+                self.error(node, Code.NO_CONDITION, message)
+        return value
+
+    def check_fit(self, node: Expression, value: Value, target: Type) -> None:
+        """Tell where ``value`` does not go into a variable of type ``target`` by itself."""
+        if value.type is target:
+            return
+        found = fit(value, target)
+        if found is Fit.EXACT:
+            return
+        is_number = isinstance(value, Constant) and value.type is ANY_INT
+        shown = f"{value.value}" if is_number and isinstance(value, Constant) else f"{value.type}"
+        if found is Fit.NARROWED:
+            if is_number:
+                stored = number_type(target).wrap(int(shown))
+                message = f"{shown} does not fit {target}; {stored} is stored"
+            else:
+                message = f"{shown} may not fit {target}"
+            self.findings.warning(node, Code.NARROWED, message)
+        elif is_number and kind_of(target) is Kind.INTEGER:
+            self.error(node, Code.VALUE_OUTSIDE, f"{shown} does not fit {target}")
+        else:
+            hint = _conversion_hint(value.type, target)
+            self.error(node, Code.CANNOT_CONVERT, f"{shown} does not go into {target}", hint)
+
+    def integer(self, node: Expression, value: Value) -> bool:
+        """Return True for an integer, else tell that it is none."""
+        if kind_of(value.type) in (Kind.INTEGER, Kind.VOID):
+            return True
+        self.error(node, Code.CANNOT_CONVERT, f"an integer was expected, not {value.type}")
+        return False
+
+
+def address_of_aggregate(value: Value) -> Value:
+    """Return the address in a reference to a STRUCT or an ARRAY: what calculations take of it."""
+    if type(value) is not Target or kind_of(value.type) not in (Kind.STRUCT, Kind.ARRAY):
+        return value
+    return value.pointer if isinstance(value.pointer.type, ReferenceType) else value
+
+
+def _is_zero(value: Value) -> bool:
+    return isinstance(value, Constant) and value.value == 0
+
+
+def _pointer_hint(data_type: Type) -> str:
+    is_pointer = isinstance(data_type, ReferenceType)
+    return "^ follows a pointer" if is_pointer else ""
+
+
+def _conversion_hint(source: Type, target: Type) -> str:
+    names = [t.name.partition("[")[0] for t in (source, target)]
+    known = {*ELEMENTARY, "STRING", "WSTRING"}
+    return f"use {'_TO_'.join(names)}" if known.issuperset(names) else ""
+
+
+_RULES: dict[type, Callable[[ExpressionChecker, Any], Value]] = {
+    syntax.Name: ExpressionChecker._name,
+    syntax.Literal: ExpressionChecker._literal,
+    syntax.DirectAddress: ExpressionChecker._address,
+    syntax.MemberAccess: ExpressionChecker._member,
+    syntax.Index: ExpressionChecker._index,
+    syntax.Dereference: ExpressionChecker._dereference,
+    syntax.Unary: ExpressionChecker._unary,
+    syntax.Binary: ExpressionChecker._binary,
+    syntax.Call: lambda checker, node: checker._call(node),
+}

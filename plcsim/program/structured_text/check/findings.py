@@ -1,0 +1,44 @@
+"""Recording findings with their codes, and lines of tokens."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from plcsim.program.structured_text.check.codes import Code
+    from st_types.syntax.diagnostics import DiagnosticLog
+    from st_types.syntax.expressions import Node
+    from st_types.syntax.lexer import Tokens
+
+
+class Findings:
+    """The findings of one file.
+
+    Args:
+        tokens: of the file.
+        log: takes the findings.
+        hidden: codes of warnings that are not recorded.
+    """
+
+    def __init__(
+        self, tokens: Tokens, log: DiagnosticLog, hidden: Collection[Code] = frozenset()
+    ) -> None:
+        self.tokens = tokens
+        self.log = log
+        self._hidden = hidden
+
+    def error(self, node: Node, code: Code, message: str, hint: str = "") -> None:
+        """Record an error at a node."""
+        self.log.error(self.tokens.offset(node.at), message, hint, code)
+
+    def warning(self, node: Node, code: Code, message: str, hint: str = "") -> None:
+        """Record a warning at a node, unless its code is hidden."""
+        if code not in self._hidden:
+            self.log.warning(self.tokens.offset(node.at), message, hint, code)
+
+    def line(self, node: Node) -> int:
+        """Return the line of a node, from 1."""
+        return bisect_right(self.tokens.source.line_starts, self.tokens.offset(node.at))

@@ -1,0 +1,196 @@
+"""What names of variables and constants mean in a body."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.kinds import VOID, Kind, kind_of, plain
+from plcsim.program.structured_text.check.typed import Constant, Symbol, Target, Variable
+from st_types.resolve.constants import UnknownValueError
+from st_types.resolve.index import VariableEntry
+from st_types.resolve.scope import Hit
+from st_types.types.derived import ReferenceType
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.typed import Storage, Value
+    from st_types.resolve.index import Entry, NameSpace
+    from st_types.resolve.scope import Scope
+    from st_types.syntax.expressions import Name
+
+BY_ADDRESS: Final = frozenset([Kind.STRING, Kind.WSTRING, Kind.STRUCT, Kind.ARRAY])
+"""Kinds of parameters of a FUNCTION that go over by their address: what the function does to them
+is done to the caller's variable, as in the C of Automation Studio."""
+
+_REFERENCE_SECTIONS = frozenset(["VAR_IN_OUT"])
+_ADDRESS_SECTIONS = frozenset(["VAR_IN_OUT", "VAR_OUTPUT"])
+_SPACES: Final[tuple[NameSpace, ...]] = ("variables", "constants")
+NOTHING: Final = Constant(VOID, 0)
+"""The value of what was reported already."""
+
+
+class Symbols:
+    """The variables that the bodies of a program name, each once.
+
+    Args:
+        storages: where the variables of a scope lie; those of others are global.
+
+    Attributes:
+        hidden: those that only the code knows, in order.
+    """
+
+    def __init__(self, storages: Mapping[Scope, Storage]) -> None:
+        self.storages = dict(storages)
+        self.hidden: list[Symbol] = []
+        self._symbols: dict[VariableEntry, Symbol] = {}
+
+    def of(self, entry: VariableEntry) -> Symbol | None:
+        """Return the variable of a declaration, None if its type has no layout."""
+        found = self._symbols.get(entry)
+        if found is None:
+            entry.resolver.complete(entry)
+            if entry.data_type is None:
+                return None
+            found = self._symbols[entry] = self._made(entry, plain(entry.data_type))
+        return found
+
+    def _made(self, entry: VariableEntry, data_type: Type) -> Symbol:
+        scope, section = entry.resolver.scope, entry.block.section
+        storage = self.storages.get(scope, "global")
+        symbol = Symbol(entry.name, data_type, storage, scope, initial=entry.value)
+        if entry.is_constant or section == "VAR_STAT":
+            symbol.is_constant = entry.is_constant
+            symbol.storage = "hidden"
+            self.hidden.append(symbol)
+        elif section == "VAR_TEMP":
+            symbol.storage = "frame"
+        elif storage == "frame":
+            symbol.by_address = section in _ADDRESS_SECTIONS or (
+                section == "VAR_INPUT" and kind_of(data_type) in BY_ADDRESS
+            )
+        else:
+            symbol.by_address = section in _REFERENCE_SECTIONS
+        symbol.has_address = symbol.by_address
+        return symbol
+
+    def hide(self, name: str, data_type: Type, initial: object = None) -> Symbol:
+        """Return a new variable that only the code knows."""
+        symbol = Symbol(name, data_type, "hidden", initial=initial)
+        self.hidden.append(symbol)
+        return symbol
+
+
+def named(symbol: Symbol) -> Value:
+    """Return what the name of a variable means: of a reference, what it refers to."""
+    data_type = symbol.type
+    variable = Variable(data_type, symbol)
+    return followed(variable)
+
+
+def followed(place: Value) -> Value:
+    """Return what a place means: of a reference, what it refers to."""
+    data_type = place.type
+    if not isinstance(data_type, ReferenceType) or data_type.is_pointer:
+        return place
+    target = data_type.target
+    return Target(VOID if target is None else plain(target), place)
+
+
+class Names:
+    """Names as one scope knows them.
+
+    Args:
+        scope: of the body.
+        symbols: of the program.
+        findings: take what is wrong.
+    """
+
+    def __init__(self, scope: Scope, symbols: Symbols, findings: Findings) -> None:
+        self.scope = scope
+        self.symbols = symbols
+        self.findings = findings
+        self.values: dict[str, Value | None] = {}
+
+    def value(self, node: Name) -> Value | None:
+        """Return the variable or constant that a name means, None if there is none."""
+        name = node.name
+        if name not in self.values:
+            self.values[name] = self._found(node)
+        return self.values[name]
+
+    def _found(self, node: Name) -> Value | None:
+        hit = self._hit(node.name)
+        if hit is None:
+            return None
+        self.check_case(node, hit)
+        entry = hit.entry
+        if not isinstance(entry, VariableEntry):
+            return self._enumeration_value(hit.name, entry)
+        if entry.block.section == "VAR_EXTERNAL":
+            return self._external(node, entry)
+        return self._variable(node, entry)
+
+    def _hit(self, name: str) -> Hit | None:
+        """Look a name up among variables and values of enumerations, in its own case first."""
+        for space in _SPACES:
+            entry = self.scope.exact(space, name)
+            if entry is not None:
+                return Hit(name, entry)
+        found = (self.scope.lookup(space, name) for space in _SPACES)
+        return next((hit for hit in found if hit is not None), None)
+
+    def check_case(self, node: Name, hit: Hit) -> None:
+        """Warn where a name is declared in another case, if case matters."""
+        if hit.name != node.name and self.scope.dialect.case_sensitive:
+            message = f"{node.name} is declared as {hit.name}"
+            self.findings.warning(node, Code.OTHER_CASE, message)
+
+    def _external(self, node: Name, entry: VariableEntry) -> Value | None:
+        for scope in self.scope.chain:
+            if scope is not entry.resolver.scope:
+                hit = scope.index.names("variables").get(entry.name)
+                if isinstance(hit, VariableEntry) and hit.block.section != "VAR_EXTERNAL":
+                    return self._variable(node, hit)
+        message = f"{entry.name} is declared as VAR_EXTERNAL, and nowhere as VAR_GLOBAL"
+        self.findings.error(node, Code.UNKNOWN_NAME, message)
+        return NOTHING
+
+    def _variable(self, node: Name, entry: VariableEntry) -> Value:
+        symbol = self.symbols.of(entry)
+        if symbol is None:
+            self.findings.error(node, Code.UNKNOWN_TYPE, f"the type of {entry.name} is not known")
+            return NOTHING
+        symbol.used = True
+        if entry.is_constant and kind_of(symbol.type) < Kind.STRING:
+            return self._constant(node, entry, symbol)
+        return named(symbol)
+
+    def _constant(self, node: Name, entry: VariableEntry, symbol: Symbol) -> Value:
+        try:
+            value = entry.resolver.scope.constant(entry.name)
+        except UnknownValueError as err:
+            message = f"the value of {entry.name} is not known"
+            self.findings.error(node, Code.NO_VALUE, message, err.message)
+            return NOTHING
+        if value is None:
+            return named(symbol)
+        return Constant(symbol.type, value.value)
+
+    def constant(self, node: Name) -> Value | None:
+        """Return the place of a VAR CONSTANT, None for any other name."""
+        hit = self.scope.lookup("variables", node.name)
+        if hit is None or not isinstance(hit.entry, VariableEntry) or not hit.entry.is_constant:
+            return None
+        symbol = self.symbols.of(hit.entry)
+        return None if symbol is None else named(symbol)
+
+    def _enumeration_value(self, name: str, entry: Entry) -> Value:
+        value = entry.resolver.scope.constant(name)
+        data_type = entry.data_type
+        assert value is not None
+        assert data_type is not None
+        return Constant(plain(data_type), value.value)

@@ -1,0 +1,191 @@
+"""Types of operations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.program.structured_text.check.kinds import (
+    ANY_INT,
+    ANY_REAL,
+    BOOL,
+    COUNTS,
+    DATES,
+    DINT,
+    NUMBERS,
+    TIME,
+    UDINT,
+    Kind,
+    common_number,
+    is_unsigned,
+    kind_of,
+    number_type,
+)
+from plcsim.program.structured_text.check.typed import Binary, Compare, Constant, Unary
+from st_types.types.elementary import LREAL, REAL
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.typed import Value
+
+COMPARISONS: Final = frozenset(["=", "<>", "<", ">", "<=", ">="])
+CALCULABLE: Final = NUMBERS | {Kind.BOOL}
+"""Kinds that calculations take; a BOOL counts as 0 or 1."""
+
+LOGIC: Final = frozenset(["AND", "OR", "XOR", "AND_THEN", "OR_ELSE"])
+
+
+def takes(operator: str, data_type: Type) -> bool:
+    """Return whether ``-`` or ``NOT`` takes a type."""
+    kind = kind_of(data_type)
+    if operator == "NOT":
+        return kind is Kind.BOOL or kind is Kind.INTEGER
+    return kind in (Kind.INTEGER, Kind.REAL, Kind.TIME)
+
+
+def folded(operator: str, value: Constant) -> Constant | None:
+    """Return ``-`` or ``NOT`` of a number or a BOOL that is written there, else None."""
+    number = value.value
+    if isinstance(number, str):
+        return None
+    if operator == "-" and not isinstance(number, bool):
+        return Constant(value.type, -number)
+    if operator == "NOT" and value.type is BOOL:
+        return Constant(BOOL, not number)
+    return None
+
+
+def folded_pair(operator: str, left: Value, right: Value) -> Constant | None:
+    """Return the result of two whole numbers without a type, as one more; else None."""
+    if not (isinstance(left, Constant) and isinstance(right, Constant)):
+        return None
+    if left.type is not ANY_INT or right.type is not ANY_INT or operator not in _FOLDED:
+        return None
+    a, b = int(left.value), int(right.value)
+    if b == 0 and operator in ("/", "MOD"):
+        return Constant(ANY_INT, 0) if operator == "MOD" else None
+    number = _FOLDED[operator](a, b)
+    return Constant(ANY_INT, number) if abs(number) < 1 << 63 else None
+
+
+def _quotient(a: int, b: int) -> int:
+    return a // b if (a < 0) == (b < 0) else -(-a // b)
+
+
+_FOLDED: Final[dict[str, Callable[[int, int], int]]] = {
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "/": _quotient,
+    "MOD": lambda a, b: a - b * _quotient(a, b),
+}
+
+
+def negation(value: Value) -> Value | None:
+    """Return NOT of a value, None if its type has none."""
+    found = folded("NOT", value) if isinstance(value, Constant) else None
+    if found is None and takes("NOT", value.type):
+        return Unary(value.type, "NOT", value)
+    return found
+
+
+def operation(operator: str, left: Value, right: Value) -> Value | None:
+    """Return an operation on two values, None if there is none for their types."""
+    if operator in COMPARISONS:
+        operands = compared_type(left, right)
+        return None if operands is None else Compare(BOOL, operator, operands, left, right)
+    constant = folded_pair(operator, left, right)
+    if constant is not None:
+        return constant
+    data_type = (
+        _logic_type(left, right) if operator in LOGIC else _number_type(operator, left, right)
+    )
+    return None if data_type is None else Binary(data_type, operator, left, right)
+
+
+def compared_type(left: Value, right: Value) -> Type | None:
+    """Return the type in which two values are compared, None if they cannot be."""
+    a, b = left.type, right.type
+    kind, other = kind_of(a), kind_of(b)
+    if kind is other and kind not in NUMBERS:
+        return None if kind in (Kind.STRUCT, Kind.ARRAY, Kind.VOID) else a
+    if kind in CALCULABLE and other in CALCULABLE:
+        is_truth = Kind.BOOL in (kind, other) and (_is_truth_value(left) or _is_truth_value(right))
+        return BOOL if is_truth else common_number(a, b)
+    if kind in COUNTS and other in COUNTS:
+        return b if kind is Kind.INTEGER else a
+    if Kind.REFERENCE in (kind, other) and Kind.INTEGER in (kind, other):
+        return UDINT
+    return None
+
+
+def _is_truth_value(value: Value) -> bool:
+    return isinstance(value, Constant) and value.type is ANY_INT and value.value in (0, 1)
+
+
+def _logic_type(left: Value, right: Value) -> Type | None:
+    kind, other = kind_of(left.type), kind_of(right.type)
+    if kind is Kind.BOOL and other is Kind.BOOL:
+        return BOOL
+    if kind is Kind.INTEGER and other is Kind.INTEGER:
+        return common_number(left.type, right.type)
+    if kind in CALCULABLE and other in CALCULABLE and Kind.REAL not in (kind, other):
+        is_truth = _is_truth_value(left) or _is_truth_value(right)
+        return BOOL if is_truth else common_number(left.type, right.type)
+    return None
+
+
+def _number_type(operator: str, left: Value, right: Value) -> Type | None:
+    a, b = left.type, right.type
+    kind, other = kind_of(a), kind_of(b)
+    if kind is Kind.BOOL and other is Kind.BOOL:
+        return None
+    if operator == "**":
+        return _power_type(a, b) if kind in NUMBERS and other in NUMBERS else None
+    if kind in CALCULABLE and other in CALCULABLE:
+        found = common_number(a, b)
+        return None if operator == "MOD" and kind_of(found) is Kind.REAL else found
+    if Kind.REFERENCE in (kind, other) and Kind.INTEGER in (kind, other):
+        return UDINT if operator in ("+", "-") else None
+    if kind in (Kind.TIME, Kind.DATE) or other in (Kind.TIME, Kind.DATE):
+        return _time_type(operator, a, b)
+    if kind is Kind.REFERENCE and other is Kind.REFERENCE and operator == "-":
+        return DINT
+    return None
+
+
+def _power_type(base: Type, exponent: Type) -> Type:
+    return LREAL if LREAL in (base, exponent) or ANY_REAL in (base, exponent) else REAL
+
+
+def _time_type(operator: str, a: Type, b: Type) -> Type | None:
+    """Return the type of an operation with a TIME or a date: whole numbers, as in C."""
+    kinds = kind_of(a), kind_of(b)
+    if any(kind not in (*COUNTS, Kind.REAL) for kind in kinds):
+        return None
+    if operator in ("*", "/", "MOD"):
+        if kinds == (Kind.TIME, Kind.TIME):
+            return DINT if operator == "/" else TIME
+        return TIME if Kind.DATE not in kinds else None
+    if operator not in ("+", "-") or Kind.REAL in kinds:
+        return None
+    if kinds == (Kind.DATE, Kind.DATE):
+        return TIME if operator == "-" and a is b else None
+    return next(t for t in (a, b) if t in DATES) if Kind.DATE in kinds else TIME
+
+
+def mixes_signs(value: Value) -> bool:
+    """Return True for a comparison of a signed and an unsigned number as unsigned ones."""
+    if not isinstance(value, Compare) or not is_unsigned(value.operands):
+        return False
+    sides = (value.left, value.right)
+    if kind_of(value.operands) is not Kind.INTEGER:
+        return False
+    return any(
+        side.type is not ANY_INT
+        and not isinstance(side, Constant)
+        and kind_of(side.type) is Kind.INTEGER
+        and not is_unsigned(number_type(side.type))
+        for side in sides
+    )

@@ -1,0 +1,293 @@
+"""Checking all files of a program, or of a library in Structured Text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+from plcsim.program.structured_text.check import typed
+from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.findings import Findings
+from plcsim.program.structured_text.check.kinds import plain
+from plcsim.program.structured_text.check.names import Names, Symbols, named
+from plcsim.program.structured_text.check.statements import StatementChecker
+from plcsim.program.structured_text.syntax.tree import (
+    ActionUnit,
+    Configuration,
+    FunctionBlockUnit,
+    FunctionUnit,
+    Include,
+    MethodUnit,
+    ProgramUnit,
+    UnsupportedUnit,
+)
+from st_types.resolve.scope import Scope
+from st_types.syntax.tree import (
+    DeclarationFile,
+    FunctionDeclaration,
+    TypeBlock,
+    VariableBlock,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Mapping, Sequence
+
+    from plcsim.program.structured_text.check.typed import BodyKind, Value
+    from plcsim.program.structured_text.syntax.tree import (
+        Part,
+        Statement,
+        StructuredTextFile,
+        Unit,
+    )
+    from st_types.resolve.declared import Function
+    from st_types.syntax.tree import Item
+    from st_types.types.derived import DataBlockType
+
+UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
+"""Units of a task by the names of Automation Studio; any other PROGRAM is the cyclic one."""
+
+
+def declarations_of(file: StructuredTextFile) -> DeclarationFile:
+    """Return what a file of Structured Text declares, for a `Scope`.
+
+    Functions and function blocks without VAR blocks of their own are declared in a .fun file.
+    """
+    items: list[Item] = []
+    for unit in file.units:
+        if isinstance(unit, TypeBlock | VariableBlock):
+            items.append(unit)
+        elif isinstance(unit, FunctionUnit | FunctionBlockUnit) and _is_declared(unit):
+            items.append(unit.declaration)
+        elif isinstance(unit, Configuration):
+            items += unit.blocks
+            items += [block for resource in unit.resources for block in resource.blocks]
+    return DeclarationFile(items, "", file.tokens, file.diagnostics)
+
+
+def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
+    """Return True for a function (block) that has its parameters or its result beside its body."""
+    declaration = unit.declaration
+    has_result = isinstance(declaration, FunctionDeclaration) and declaration.result is not None
+    return has_result or bool(declaration.blocks)
+
+
+def check_program(
+    name: str,
+    files: Sequence[StructuredTextFile],
+    scope: Scope,
+    *,
+    hidden: Collection[Code] = frozenset(),
+) -> typed.Program:
+    """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
+
+    Actions that nothing calls are left out, as Automation Studio leaves them out.
+
+    Args:
+        name: of the program or the library.
+        files: parsed without errors.
+        scope: what the program declares, what stands in the files (`declarations_of`) included.
+        hidden: codes of warnings that are not wanted.
+    """
+    checker = _ProgramChecker(scope, hidden)
+    for file in files:
+        checker.add(file)
+    return typed.Program(name, checker.bodies(), checker.symbols.hidden)
+
+
+@dataclass(slots=True, eq=False)
+class _Owner:
+    """What actions belong to: a program, or a function block with its data block."""
+
+    scope: Scope
+    block: DataBlockType[object] | None = None
+    actions: dict[str, _Job] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False)
+class _Job:
+    """A body that is to be checked."""
+
+    name: str
+    kind: BodyKind
+    unit: Unit
+    nodes: Sequence[Statement]
+    file: StructuredTextFile
+    owner: _Owner
+    function: Function | None = None
+    is_needed: bool = True
+
+
+class _ProgramChecker:
+    def __init__(self, scope: Scope, hidden: Collection[Code]) -> None:
+        self.symbols = Symbols({scope: "program"})
+        self._scope = scope
+        self._hidden = hidden
+        self._values: dict[Scope, dict[str, Value | None]] = {}
+        self._jobs: list[_Job] = []
+        self._program = _Owner(scope)
+        self._taken: set[tuple[str, str]] = set()
+
+    def add(self, file: StructuredTextFile) -> None:
+        """Take the units of a file."""
+        self._file = file
+        self._findings = Findings(file.tokens, file.diagnostics, self._hidden)
+        for unit in file.units:
+            _RULES[type(unit)](self, unit)
+
+    def _is_new(self, unit: Unit, kind: str, name: str) -> bool:
+        key = (kind, self._scope.dialect.key(name))
+        if key in self._taken:
+            self._findings.error(unit, Code.DECLARED_TWICE, f"{name} is there twice")
+            return False
+        self._taken.add(key)
+        return True
+
+    # Units
+
+    def _program_unit(self, unit: ProgramUnit) -> None:
+        name = UNITS.get(unit.name.upper(), "cyclic")
+        owner = self._program
+        if unit.blocks:
+            file = DeclarationFile(unit.blocks, "", self._file.tokens, self._file.diagnostics)
+            scope = Scope(unit.name, [file], (self._scope,), dialect=self._scope.dialect)
+            self.symbols.storages[scope] = "program"
+            owner = _Owner(scope, actions=owner.actions)
+        self._parts(unit.parts, owner)
+        if self._is_new(unit, "unit", name):
+            self._jobs.append(_Job(name, "unit", unit, unit.body, self._file, owner))
+
+    def _parts(self, parts: Sequence[Part], owner: _Owner) -> None:
+        for part in parts:
+            if isinstance(part, ActionUnit):
+                self._add_action(part, owner)
+            else:
+                self._refused(part)
+
+    def _action(self, unit: ActionUnit) -> None:
+        self._add_action(unit, self._program)
+
+    def _add_action(self, unit: ActionUnit, owner: _Owner) -> None:
+        block = "" if owner.block is None else f"{owner.block.name}."
+        if self._is_new(unit, "action", block + unit.name):
+            job = _Job(unit.name, "action", unit, unit.body, self._file, owner, is_needed=False)
+            owner.actions[unit.name] = job
+            self._jobs.append(job)
+
+    def _function(self, unit: FunctionUnit) -> None:
+        name = unit.declaration.name
+        function = self._scope.find_function(name)
+        if function is None:
+            self._undeclared(unit, "FUNCTION", name)
+        elif self._is_new(unit, "function", name):
+            self.symbols.storages[function.scope] = "frame"
+            owner = _Owner(function.scope)
+            job = _Job(name, "function", unit, unit.body, self._file, owner, function)
+            self._jobs.append(job)
+
+    def _function_block(self, unit: FunctionBlockUnit) -> None:
+        name = unit.declaration.name
+        for word in (*unit.words, *(["EXTENDS or IMPLEMENTS"] if unit.bases else [])):
+            message = f"{word} of {name} is not supported"
+            self._findings.error(unit, Code.NOT_SUPPORTED, message)
+        block = self._scope.find_function_block(name)
+        if block is None or block.data_type is None:
+            self._undeclared(unit, "FUNCTION_BLOCK", name)
+        elif self._is_new(unit, "block", name):
+            self.symbols.storages[block.scope] = "instance"
+            owner = _Owner(block.scope, block.data_type)
+            self._parts(unit.parts, owner)
+            self._jobs.append(_Job(name, "block", unit, unit.body, self._file, owner))
+
+    def _undeclared(self, unit: FunctionUnit | FunctionBlockUnit, word: str, name: str) -> None:
+        if self._scope.lookup("types" if word == "FUNCTION_BLOCK" else "functions", name):
+            message = f"the declaration of {name} has an error"
+        else:
+            message = f"nothing declares the {word} {name}"
+        hint = "write its VAR blocks here, or declare it in a .fun file"
+        self._findings.error(unit, Code.NO_DECLARATION, message, hint)
+
+    def _refused(self, unit: MethodUnit | UnsupportedUnit) -> None:
+        if isinstance(unit, MethodUnit):
+            word = "PROPERTY" if "PROPERTY" in unit.words else "METHOD"
+            name = unit.declaration.name
+        else:
+            word, name = unit.keyword, unit.name
+        message = f"{word} {name}".rstrip()
+        self._findings.error(unit, Code.NOT_SUPPORTED, f"{message} is not supported")
+
+    def _include(self, unit: Include) -> None:
+        self._findings.error(unit, Code.NOT_SUPPORTED, f"#include {unit.path} is not supported")
+
+    def _declarations(self, _unit: Unit) -> None:
+        """Blocks of declarations are checked with their scope."""
+
+    # Bodies
+
+    def bodies(self) -> list[typed.Body]:
+        """Check what is needed: actions as soon as something calls them."""
+        found: list[typed.Body] = []
+        waiting = [job for job in reversed(self._jobs) if job.is_needed]
+        while waiting:
+            waiting += self._check(waiting.pop(), found)
+        for job in self._jobs:
+            if not job.is_needed:
+                findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
+                message = f"nothing calls the action {job.name}; it is not compiled"
+                findings.warning(job.unit, Code.NEVER_CALLED, message)
+        return found
+
+    def _check(self, job: _Job, into: list[typed.Body]) -> list[_Job]:
+        """Check a body and return the actions that it is the first to call."""
+        owner = job.owner
+        findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
+        names = Names(owner.scope, self.symbols, findings)
+        names.values = self._values.setdefault(owner.scope, {})
+        result = self._result(job, names)
+        checker = StatementChecker(names, findings, owner.actions)
+        line = findings.line(job.unit)
+        statements = checker.statements(job.nodes)
+        body = typed.Body(job.name, job.kind, job.file.path, line, statements, owner.block)
+        body.result = result
+        if job.kind in ("function", "block"):
+            body.parameters, body.locals = self._variables(owner.scope)
+        into.append(body)
+        called = [owner.actions[name] for name in checker.called]
+        found = [action for action in called if not action.is_needed]
+        for action in found:
+            action.is_needed = True
+        return found
+
+    @staticmethod
+    def _result(job: _Job, names: Names) -> typed.Symbol | None:
+        if job.function is None or job.function.result is None:
+            return None
+        data_type = plain(job.function.result)
+        result = typed.Symbol(job.name, data_type, "frame", names.scope, used=True)
+        names.values[job.name] = named(result)
+        return result
+
+    def _variables(self, scope: Scope) -> tuple[list[typed.Symbol], list[typed.Symbol]]:
+        """Return the parameters and the other variables that live for one call."""
+        parameters: list[typed.Symbol] = []
+        others: list[typed.Symbol] = []
+        for entry in scope.index.variables:
+            symbol = self.symbols.of(entry)
+            if symbol is not None and symbol.storage == "frame":
+                is_parameter = entry.block.section in _PARAMETERS
+                (parameters if is_parameter else others).append(symbol)
+        return parameters, others
+
+
+_PARAMETERS = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
+_RULES: Mapping[type, Callable[..., None]] = {
+    ProgramUnit: _ProgramChecker._program_unit,
+    ActionUnit: _ProgramChecker._action,
+    FunctionUnit: _ProgramChecker._function,
+    FunctionBlockUnit: _ProgramChecker._function_block,
+    MethodUnit: _ProgramChecker._refused,
+    UnsupportedUnit: _ProgramChecker._refused,
+    Include: _ProgramChecker._include,
+    TypeBlock: _ProgramChecker._declarations,
+    VariableBlock: _ProgramChecker._declarations,
+    Configuration: _ProgramChecker._declarations,
+}

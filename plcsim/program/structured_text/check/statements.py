@@ -1,0 +1,289 @@
+"""Checking statements."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from plcsim.program.structured_text.check import typed
+from plcsim.program.structured_text.check.calls import CallChecker
+from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.kinds import BOOL, COUNTS, UDINT, VOID, kind_of
+from plcsim.program.structured_text.check.names import NOTHING
+from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
+from plcsim.program.structured_text.syntax import tree
+from st_types.resolve.constants import EvaluationError
+from st_types.syntax import expressions as syntax
+from st_types.types.derived import ReferenceType
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Sequence
+
+    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.typed import Statement, Value
+    from st_types.syntax.expressions import Expression
+
+_LEAVING = (typed.Exit, typed.Continue, typed.Return)
+
+
+class StatementChecker(CallChecker):
+    """Checks the statements of one body.
+
+    Args:
+        names: what names mean in it.
+        findings: take what is wrong.
+        actions: names of the actions that it can call.
+
+    Attributes:
+        called: names of the actions that it calls.
+    """
+
+    def __init__(self, names: Names, findings: Findings, actions: Collection[str]) -> None:
+        super().__init__(names, findings)
+        self.called: set[str] = set()
+        self._actions = actions
+        self._loops = 0
+
+    def statements(self, nodes: Sequence[tree.Statement]) -> list[Statement]:
+        """Return the checked statements."""
+        found: list[Statement] = []
+        for node in nodes:
+            if found and isinstance(found[-1], _LEAVING):
+                self.findings.warning(node, Code.UNREACHABLE, "this is never reached")
+                nodes = ()
+            _RULES[type(node)](self, node, found)
+        return found
+
+    # Assignments
+
+    def _assignment(self, node: tree.Assignment, into: list[Statement]) -> None:
+        line = self.findings.line(node)
+        if node.operator != ":=":
+            into.append(_VENDOR_RULES[node.operator](self, node, line))
+            return
+        if type(node.value) is tree.Assignment:
+            self._chain(node, into)
+            return
+        target = self.assigned(node.target)
+        assert not isinstance(node.value, tree.Assignment)
+        into.append(self.assignment(node.value, target, self.value(node.value), line))
+
+    def _chain(self, node: tree.Assignment, into: list[Statement]) -> None:
+        """Check ``a := b := c``: b first, then a takes what b holds."""
+        links = [node]
+        while isinstance(links[-1].value, tree.Assignment):
+            links.append(links[-1].value)
+        last = links.pop()
+        self._assignment(last, into)
+        value, source = self.value(last.target), last.target
+        while links:
+            link = links.pop()
+            target = self.assigned(link.target)
+            into.append(self.assignment(source, target, value, self.findings.line(link)))
+            value, source = target, link.target
+
+    def _access(self, node: tree.Assignment, line: int) -> Statement:
+        reference = self._reference(node.target)
+        assert not isinstance(node.value, tree.Assignment)
+        value = self.value(node.value)
+        if kind_of(value.type) not in COUNTS and isinstance(value, PLACES):
+            value = self._address_of(node.value, value)
+        elif value.type.size != UDINT.size and value.type is not VOID:
+            self.integer(node.value, value)
+        return typed.SetAddress(line, reference, value)
+
+    def _refer(self, node: tree.Assignment, line: int) -> Statement:
+        reference = self._reference(node.target)
+        assert not isinstance(node.value, tree.Assignment)
+        value = self.value(node.value)
+        if not isinstance(value, Address) and not (
+            isinstance(value, Constant) and value.value == 0
+        ):
+            value = self._address_of(node.value, value)
+        return typed.SetAddress(line, reference, value)
+
+    def _address_of(self, node: Expression, value: Value) -> Value:
+        is_reference = isinstance(value, Target) and isinstance(value.pointer.type, ReferenceType)
+        if is_reference and isinstance(value, Target):
+            return value.pointer
+        return self.address(node)
+
+    def _reference(self, node: Expression) -> Value:
+        """Return the place that holds the address of a reference."""
+        value = self.value(node)
+        if isinstance(value, Target) and isinstance(value.pointer.type, ReferenceType):
+            return value.pointer
+        if isinstance(value.type, ReferenceType):
+            return value
+        if value.type is not VOID:
+            self.error(node, Code.NO_REFERENCE, f"{value.type} is no reference")
+        return NOTHING
+
+    def _set_or_reset(self, node: tree.Assignment, line: int) -> Statement:
+        """Check ``b S= c`` and ``b R= c`` as an IF."""
+        target = self.assigned(node.target)
+        assert not isinstance(node.value, tree.Assignment)
+        condition = self.condition(node.value)
+        self.check_fit(node.target, Constant(BOOL, 1), target.type)
+        value = Constant(BOOL, int(node.operator == "S="))
+        arm = typed.Arm(line, condition, [typed.Assign(line, target, value)])
+        return typed.If(line, [arm], ())
+
+    # Calls
+
+    def _expression(self, node: tree.ExpressionStatement, into: list[Statement]) -> None:
+        line = self.findings.line(node)
+        expression = node.expression
+        found: Statement | None = None
+        name = expression.function if type(expression) is syntax.Call else expression
+        if type(name) is syntax.Name and name.name in self._actions:
+            found = self._action(expression, name.name, line)
+        elif type(expression) is syntax.Call:
+            found = self.block_call(expression, line)
+        else:
+            found = self.bare_call(expression, line)
+        into.append(found or self._evaluated(expression, line))
+
+    def _action(self, node: Expression, name: str, line: int) -> Statement:
+        if isinstance(node, syntax.Call) and node.arguments:
+            self.error(node, Code.WRONG_ARGUMENTS, f"{name} is an action and takes no arguments")
+        self.called.add(name)
+        return typed.CallAction(line, name)
+
+    def _evaluated(self, node: Expression, line: int) -> Statement:
+        value = self.value(node)
+        if isinstance(node, syntax.Binary) and node.operator == "=":
+            message = "this compares; to assign, write :="
+            self.findings.warning(node, Code.COMPARED, message)
+        elif value.type is not VOID and not isinstance(node, syntax.Call):
+            self.findings.warning(node, Code.NO_EFFECT, "this statement does nothing")
+        return typed.Evaluate(line, value)
+
+    # Conditions and loops
+
+    def _if(self, node: tree.IfStatement, into: list[Statement]) -> None:
+        arms = [
+            typed.Arm(
+                self.findings.line(arm), self.condition(arm.condition), self.statements(arm.body)
+            )
+            for arm in node.arms
+        ]
+        other = self.statements(node.other) if node.other else ()
+        into.append(typed.If(arms[0].line, arms, other))
+
+    def _case(self, node: tree.CaseStatement, into: list[Statement]) -> None:
+        selector = self.value(node.selector)
+        self.integer(node.selector, selector)
+        taken: list[tuple[int, int]] = []
+        elements = [self._element(element, taken) for element in node.elements]
+        other = self.statements(node.other) if node.other else ()
+        into.append(typed.Case(self.findings.line(node), selector, elements, other))
+
+    def _element(self, node: tree.CaseElement, taken: list[tuple[int, int]]) -> typed.CaseElement:
+        ranges = []
+        for low, high in node.labels:
+            first = self._label(low)
+            last = first if high is None else self._label(high)
+            if first is None or last is None:
+                continue
+            if any(first <= upper and lower <= last for lower, upper in taken):
+                self.error(low, Code.LABEL_TWICE, f"{first} has a label already")
+                continue
+            taken.append((first, last))
+            ranges.append((first, last))
+        return typed.CaseElement(self.findings.line(node), ranges, self.statements(node.body))
+
+    def _label(self, node: Expression) -> int | None:
+        try:
+            value = self._label_value(node)
+        except EvaluationError as err:
+            self.error(node, Code.WRONG_LABEL, f"this is no constant: {err.message}")
+            return None
+        if isinstance(value, int):
+            return int(value)
+        self.error(node, Code.WRONG_LABEL, "the label of a CASE is an integer")
+        return None
+
+    def _label_value(self, node: Expression) -> object:
+        if isinstance(node, syntax.Name | syntax.MemberAccess | syntax.Literal):
+            value = self.value(node)
+            if isinstance(value, Constant):
+                return value.value
+            if value.type is not VOID:
+                raise EvaluationError(node.at, "it is a variable")
+            return 0
+        return self.names.scope.evaluate(node).value
+
+    def _for(self, node: tree.ForStatement, into: list[Statement]) -> None:
+        line = self.findings.line(node)
+        variable = self.assigned(node.variable)
+        if self.integer(node.variable, variable) and not isinstance(variable, PLACES):
+            variable = NOTHING
+        values = [self.value(each) for each in (node.first, node.last)]
+        self.check_fit(node.first, values[0], variable.type)
+        self.integer(node.last, values[1])
+        step = None if node.step is None else self.value(node.step)
+        if step is not None and node.step is not None:
+            self.integer(node.step, step)
+        body = self._loop_body(node.body)
+        into.append(typed.For(line, variable, values[0], values[1], step, body))
+
+    def _loop_body(self, nodes: Sequence[tree.Statement]) -> list[Statement]:
+        self._loops += 1
+        found = self.statements(nodes)
+        self._loops -= 1
+        return found
+
+    def _while(self, node: tree.WhileStatement, into: list[Statement]) -> None:
+        line = self.findings.line(node)
+        condition = self.condition(node.condition)
+        into.append(typed.While(line, condition, self._loop_body(node.body)))
+
+    def _repeat(self, node: tree.RepeatStatement, into: list[Statement]) -> None:
+        body = self._loop_body(node.body)
+        condition = self.condition(node.condition)
+        until = self.findings.line(node.condition)
+        into.append(typed.Repeat(self.findings.line(node), body, until, condition))
+
+    def _exit(self, node: tree.ExitStatement, into: list[Statement]) -> None:
+        self._check_in_loop(node, "EXIT")
+        into.append(typed.Exit(self.findings.line(node)))
+
+    def _continue(self, node: tree.ContinueStatement, into: list[Statement]) -> None:
+        self._check_in_loop(node, "CONTINUE")
+        into.append(typed.Continue(self.findings.line(node)))
+
+    def _check_in_loop(self, node: syntax.Node, word: str) -> None:
+        if not self._loops:
+            self.error(node, Code.NOT_IN_LOOP, f"{word} stands in no loop")
+
+    def _return(self, node: tree.ReturnStatement, into: list[Statement]) -> None:
+        into.append(typed.Return(self.findings.line(node)))
+
+    def _jump(self, node: tree.JumpStatement, _into: list[Statement]) -> None:
+        self.error(node, Code.NOT_SUPPORTED, f"JMP {node.label} is not supported")
+
+    def _mark(self, node: tree.LabelStatement, _into: list[Statement]) -> None:
+        self.error(node, Code.NOT_SUPPORTED, f"the label {node.label} is not supported")
+
+
+_VENDOR_RULES: dict[str, Callable[[StatementChecker, tree.Assignment, int], Statement]] = {
+    "ACCESS": StatementChecker._access,
+    "REF=": StatementChecker._refer,
+    "S=": StatementChecker._set_or_reset,
+    "R=": StatementChecker._set_or_reset,
+}
+_RULES: dict[type, Callable[[StatementChecker, Any, list[Statement]], None]] = {
+    tree.Assignment: StatementChecker._assignment,
+    tree.ExpressionStatement: StatementChecker._expression,
+    tree.IfStatement: StatementChecker._if,
+    tree.CaseStatement: StatementChecker._case,
+    tree.ForStatement: StatementChecker._for,
+    tree.WhileStatement: StatementChecker._while,
+    tree.RepeatStatement: StatementChecker._repeat,
+    tree.ExitStatement: StatementChecker._exit,
+    tree.ContinueStatement: StatementChecker._continue,
+    tree.ReturnStatement: StatementChecker._return,
+    tree.JumpStatement: StatementChecker._jump,
+    tree.LabelStatement: StatementChecker._mark,
+}
