@@ -8,6 +8,7 @@ from plcsim.machine.cache import CodeCache
 from plcsim.machine.engine import Code, compile_wasm
 from plcsim.machine.errors import FaultKind, Frame, MachineError, MachineFault, frames_of
 from plcsim.machine.machine import Extern, Instance, Machine
+from plcsim.machine.store import trace_inside
 
 __all__ = [
     "Code",
@@ -21,4 +22,5 @@ __all__ = [
     "MachineFault",
     "compile_wasm",
     "frames_of",
+    "trace_inside",
 ]

@@ -20,6 +20,8 @@ from plcsim.machine.api import (
 from plcsim.machine.errors import FaultKind, Frame, MachineError, MachineFault, note_frames
 
 if TYPE_CHECKING:
+    from types import TracebackType
+
     from plcsim.core.system_area import SystemArea
     from plcsim.machine.engine import Engine
 
@@ -151,6 +153,14 @@ class Store:
         left = c_uint64()
         library().wasmtime_context_get_fuel(self.context, byref(left))
         return left.value
+
+
+def trace_inside(error: BaseException) -> TracebackType | None:
+    """Return the part of a traceback that was inside of compiled code: functions it has called."""
+    trace = error.__traceback__
+    while trace is not None and trace.tb_frame.f_code is not Store.raise_fault.__code__:
+        trace = trace.tb_next
+    return None if trace is None else trace.tb_next
 
 
 def _entry() -> Any:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plcsim.network import Address, VirtualNetwork
-from plcsim.program.python.fault import describe, location_of
+from plcsim.program.fault import describe, location_of
 from plcsim.testing.errors import PlantError, PlcTestError
 from plcsim.testing.faults import Faults
 from plcsim.testing.forces import Forces

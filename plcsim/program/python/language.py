@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Final, NoReturn
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
+from plcsim.program.fault import describe, fault_of, location_of
 from plcsim.program.python.check import check_program
-from plcsim.program.python.fault import describe, fault_of, location_of
 from plcsim.program.python.program import Program
 from st_types.types.views import address_of, type_of
 

@@ -110,7 +110,8 @@ class _Compiler:
         names = [segment.name for segment in self._module.segments]
         holes = self._holes(encoded.starts)
         lines = self._lines(encoded.starts)
-        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines)
+        imports = list(self._module.imports.values())
+        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines, imports)
 
     def _holes(self, starts: Sequence[int]) -> Holes:
         holes = np.array([n for body in self._bodies for n in body.holes], np.int64)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.codegen.lines import LineTable
 
 
@@ -33,6 +34,7 @@ class ObjectCode:
         segments: names of the segments that it accesses.
         holes: where their addresses belong.
         lines: from instructions to lines.
+        imports: functions that it needs, those of the runtime not among them.
     """
 
     def __init__(
@@ -42,12 +44,14 @@ class ObjectCode:
         segments: Sequence[str],
         holes: Holes,
         lines: LineTable,
+        imports: Sequence[ir.Import] = (),
     ) -> None:
         self.name = name
         self.wasm = wasm
         self.segments = segments
         self.holes = holes
         self.lines = lines
+        self.imports = imports
 
     def place(self, addresses: Mapping[str, int]) -> bytes:
         """Return the module with its variables at these addresses, by segment.

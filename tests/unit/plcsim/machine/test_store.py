@@ -1,6 +1,7 @@
 import gc
 import os
 import signal
+import traceback
 from pathlib import Path
 
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from plcsim.core.errors import CycleTimeViolation
 from plcsim.core.memory import FIRST, PAGE, SYSTEM_AREA
 from plcsim.core.system_area import STALLED, STOPPED
-from plcsim.machine import FaultKind, Frame, MachineFault, frames_of
+from plcsim.machine import FaultKind, Frame, MachineFault, frames_of, trace_inside
 
 from .units import FAULTS, Rig
 
@@ -305,3 +306,16 @@ def test_a_thousand_faults_of_every_kind_leak_nothing(rig):
     gc.collect()
     assert resident() - before < 2048
     assert unit.function("fine")() == 42
+
+
+def test_a_traceback_has_a_part_inside_of_compiled_code(rig):
+    def fail():
+        raise KeyError("boom")
+
+    outer = rig.load(CALLER, {("host", "call"): rig.machine.host_function(fail)}).function("outer")
+    with pytest.raises(KeyError) as caught:
+        outer()
+    inside = trace_inside(caught.value)
+    assert "fail" in [frame.name for frame in traceback.extract_tb(inside)]
+    assert "test_a_traceback" not in str(traceback.extract_tb(inside))
+    assert trace_inside(KeyError()) is None

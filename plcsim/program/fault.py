@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import TracebackType
 
-_OWN = (Path(__file__).parents[3] / name for name in ("plcsim", "st_types", "crosnode"))
+_OWN = (Path(__file__).parents[2] / name for name in ("plcsim", "st_types", "crosnode"))
 _LIBRARIES = (
     *(sysconfig.get_path(name) for name in ("stdlib", "platstdlib")),
     *site.getsitepackages(),
@@ -42,17 +42,16 @@ def location_of(error: BaseException) -> str:
     """
     if isinstance(error, SyntaxError) and error.filename and not error.filename.startswith("<"):
         return f"{error.filename}:{error.lineno}"
-    return next((line for line, _ in reversed(list(_frames(error)))), "")
+    return next((line for line, _ in reversed(list(frames(error.__traceback__)))), "")
 
 
 def _calls(error: BaseException) -> Iterator[str]:
-    for line, function in _frames(error):
+    for line, function in frames(error.__traceback__):
         yield f"{line} in {function}"
 
 
-def _frames(error: BaseException) -> Iterator[tuple[str, str]]:
+def frames(trace: TracebackType | None) -> Iterator[tuple[str, str]]:
     """Iterate over "file:line" and function of the frames of programs, the outermost first."""
-    trace: TracebackType | None = error.__traceback__
     while trace is not None:
         code = trace.tb_frame.f_code
         path = code.co_filename

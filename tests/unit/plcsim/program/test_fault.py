@@ -9,7 +9,7 @@ import pytest
 import plcsim
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import PageFault
-from plcsim.program.python.fault import LONGEST_TEXT, describe, fault_of, location_of
+from plcsim.program.fault import LONGEST_TEXT, describe, fault_of, location_of
 from st_types import REAL, Struct, var
 from st_types.errors import ValueRangeError
 

@@ -1,0 +1,66 @@
+"""Linking: compiled modules get addresses for their variables and functions for their imports."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from plcsim.program.structured_text.codegen.mathematics import FUNCTIONS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from plcsim.machine import Extern, Instance, Machine
+    from plcsim.program.structured_text import ir
+    from plcsim.program.structured_text.codegen.lines import LineTable
+    from plcsim.program.structured_text.codegen.object_code import ObjectCode
+
+
+class Linker:
+    """Links the modules of one controller.
+
+    What a module imports may be a function of another module, called directly, or a block or
+    function in another language, called as a function of the host.
+
+    Args:
+        machine: what the modules run on.
+        provide: gives what a module imports; it may link other modules for that. What it raises is
+            raised by `link`.
+    """
+
+    def __init__(self, machine: Machine, provide: Callable[[ir.Import], Extern]) -> None:
+        self._machine = machine
+        self._provide = provide
+        self._mathematics: dict[str, Extern] = {}
+        self._lines: dict[str, LineTable] = {}
+
+    def link(self, code: ObjectCode, addresses: Mapping[str, int]) -> Instance:
+        """Return a module that is ready to run.
+
+        Args:
+            code: the module; one may be linked several times, with other addresses.
+            addresses: of its segments, by name.
+
+        Raises:
+            ValueError: another module has its name.
+        """
+        if self._lines.setdefault(code.name, code.lines) is not code.lines:
+            raise ValueError(f"two modules are called {code.name}")
+        compiled = self._machine.compile(code.place(addresses))
+        imports: dict[tuple[str, str], Extern | int] = {}
+        for wanted in code.imports:
+            imports[wanted.space, wanted.name] = self._provide(wanted)
+        return self._machine.instantiate(compiled, imports | self._mathematical())
+
+    def lines_of(self, module: str) -> LineTable | None:
+        """Return the lines of a linked module, None where there is no such module."""
+        return self._lines.get(module)
+
+    def _mathematical(self) -> dict[tuple[str, str], Extern | int]:
+        if not self._mathematics:
+            for name, function in FUNCTIONS.items():
+                parameters = "dd" if name in _OF_TWO else "d"
+                self._mathematics[name] = self._machine.host_function(function, parameters, "d")
+        return {("rt", name): extern for name, extern in self._mathematics.items()}
+
+
+_OF_TWO = ("pow", "fmod")
