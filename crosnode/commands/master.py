@@ -13,7 +13,13 @@ LONGEST_S: Final = 366 * 86_400
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command; it sets ``func``, which gives the exit status."""
     text = "ROS 1 master and parameter server, without ROS on the machine"
-    parser = subparsers.add_parser("master", help=text, description=f"{text}.")
+    parser = subparsers.add_parser(
+        "master",
+        help=text,
+        description=f"{text}.",
+        examples=(("plcsim master", "until Ctrl-C"), ("plcsim master --port 11411", "")),
+        epilog="Exit codes: 0 ended by Ctrl-C or --for, 1 cannot listen, 2 wrong usage.",
+    )
     parser.add_argument(
         "-p",
         "--port",

@@ -29,6 +29,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     _add(commands, "decode", "print a message as JSON", type=_ONE, hex=_HEX)
 
 
+_EXAMPLES = {
+    "show": (("plcsim ros show sensor_msgs/JointState", ""),),
+    "md5": (("plcsim ros md5 std_msgs/String std_srvs/Trigger", ""),),
+    "encode": (('plcsim ros encode std_msgs/String \'{"data": "hello"}\'', ""),),
+    "decode": (("plcsim ros decode std_msgs/String '05000000 68656c6c6f'", ""),),
+}
 _ONE = {
     "metavar": "TYPE",
     "help": "pkg/Name; for half of a service pkg/NameRequest or pkg/NameResponse",
@@ -47,7 +53,13 @@ def _add(
     text: str,
     **arguments: dict[str, Any],
 ) -> None:
-    parser = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+    parser = commands.add_parser(
+        name,
+        help=text,
+        description=f"{text[0].upper()}{text[1:]}.",
+        examples=_EXAMPLES[name],
+        epilog=EPILOG,
+    )
     parser.add_argument(
         "--path",
         metavar="DIR",

@@ -23,7 +23,8 @@ def _add_from_ros(commands: argparse._SubParsersAction[argparse.ArgumentParser])
         "from-ros",
         help="write the STRUCTs of ROS messages, services and actions",
         description="Write the STRUCTs of ROS messages, services and actions.",
-        epilog=f"Example: plcsim types from-ros sensor_msgs/JointState --array 6. {EPILOG}",
+        examples=(("plcsim types from-ros sensor_msgs/JointState --array 6", ""),),
+        epilog=EPILOG,
     )
     parser.add_argument(
         "types", nargs="+", metavar="PKG/TYPE", help="such as sensor_msgs/JointState"
@@ -52,7 +53,8 @@ def _add_to_ros(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "to-ros",
         help="write the ROS messages of a STRUCT",
         description="Write the ROS messages of a STRUCT.",
-        epilog=f"Example: plcsim types to-ros Robot my_project. {EPILOG}",
+        examples=(("plcsim types to-ros Robot my_project", ""),),
+        epilog=EPILOG,
     )
     parser.add_argument("type", metavar="TYPE", help="name of the STRUCT")
     parser.add_argument(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.exit_codes import epilog
+from plcsim.cli.project_argument import add_project
 from plcsim.core.duration import format_duration
 from plcsim.host.processors import missing_cpu
 from plcsim.project.assembly import load, still_controller
@@ -29,9 +30,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="check a project without running it",
         description="Load a project, lay out its memory, check what it maps and names, and show "
         "what would run. No unit of any program runs.",
-        epilog="Exit codes: 0 the project is right, 1 it is not.",
+        examples=(
+            ("plcsim check my_plc", ""),
+            ("plcsim check", "the project that this folder belongs to"),
+        ),
+        epilog=epilog(DONE="the project is right", FAILED="it is not"),
     )
-    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    add_project(parser)
     parser.set_defaults(func=check)
 
 

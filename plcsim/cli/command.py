@@ -2,32 +2,40 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import io
 import os
 import sys
 from importlib.metadata import version
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
-from plcsim.cli import check, doctor, new, report, run, st, types, watch
+from plcsim.cli import check, completion, doctor, new, report, run, st, types, watch
 from plcsim.cli.console import print_error
-from plcsim.cli.exit_codes import ExitCode
+from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.installed import COMMANDS, register_installed
+from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
 from st_types.errors import TypeSystemError
+
+if TYPE_CHECKING:
+    import argparse
 
 
 def build_parser() -> argparse.ArgumentParser:
     """Return the parser of all commands, those of other packages included."""
-    parser = argparse.ArgumentParser(
+    parser: argparse.ArgumentParser = CommandParser(
         prog="plcsim",
         description="Runs PLC programs on Linux the way a B&R controller runs them.",
-        epilog="Exit codes: 0 done, 1 configuration error, 2 wrong usage, 3 ended in SERVICE.",
+        examples=(
+            ("plcsim new my_plc", "a project that runs and tests itself"),
+            ("plcsim run my_plc", "run it until Ctrl-C"),
+            ("plcsim run --help", "what else a command can do"),
+        ),
+        epilog=epilog(**{code.name: "" for code in ExitCode}),
     )
     parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (run, check, doctor, new, report, watch, types, st):
+    for command in (new, check, run, watch, types, st, doctor, report, completion):
         command.register(subparsers)
     register_installed(COMMANDS, subparsers)
     return parser

@@ -11,10 +11,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from plcsim.cli.console import CommandConsole, print_error
+from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration, parse_duration_ns
 from plcsim.doctor.advice import advise
@@ -35,9 +36,6 @@ SHORTEST_TICK_NS = 100_000
 LONGEST_TICK_NS = 1_000_000_000
 FEWEST_CYCLES = 20
 
-STOPPED = 130
-"""Exit code after Ctrl-C, as a shell gives it for SIGINT."""
-
 _STYLES = {Verdict.HELD: "green", Verdict.MOSTLY: "yellow", Verdict.NOT_HELD: "bold red"}
 
 
@@ -50,7 +48,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "without and with real-time rights, and say in words whether the tick can be held: 99.9 "
         "percent of the cycles start less than 20 percent of the tick late, and no grid point is "
         "missed.",
-        epilog="Exit codes: 0 measured, whatever the verdict; 1 could not measure.",
+        examples=(
+            ("plcsim doctor", "can this host hold 1 ms?"),
+            ("plcsim doctor --tick 500us --seconds 60", "a longer look at a shorter tick"),
+            ("plcsim doctor --json host.json", "all figures for other programs"),
+        ),
+        epilog=epilog(
+            DONE="measured, whatever the verdict", FAILED="could not measure", INTERRUPTED=""
+        ),
     )
     parser.add_argument(
         "--tick", type=_tick_ns, default=1_000_000, metavar="TIME", help="default: 1ms"
@@ -86,7 +91,7 @@ def _seconds(text: str) -> int:
 def doctor(options: argparse.Namespace) -> int:
     """Measure, print facts, figures, verdicts and advice."""
     check_output("--json", options.json)
-    console = Console(highlight=False, soft_wrap=not sys.stdout.isatty())
+    console = CommandConsole()
     host, rights = read_host(), probe_rights()
     _print_host(console, host, rights)
     cycles = max(FEWEST_CYCLES, options.seconds * 1_000_000_000 // options.tick)
@@ -94,8 +99,8 @@ def doctor(options: argparse.Namespace) -> int:
         with tempfile.TemporaryDirectory(prefix="plcsim-doctor-") as folder:
             comparisons = _compare(Path(folder), options.tick, cycles, rights)
     except KeyboardInterrupt:
-        print("plcsim: stopped before the measurement was done", file=sys.stderr)
-        return STOPPED
+        print_error("stopped before the measurement was done")
+        return ExitCode.INTERRUPTED
     advice = advise(host, rights, comparisons)
     console.print(_figures_table(comparisons))
     _print_verdicts(console, comparisons, rights, advice)
@@ -123,7 +128,7 @@ def _measure(loop: Loop, order: Order) -> Measurement:
     return measure(loop, order)
 
 
-def _print_host(console: Console, host: Host, rights: Rights) -> None:
+def _print_host(console: CommandConsole, host: Host, rights: Rights) -> None:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), show_header=False)
     for name, value in _facts(host, rights):
         table.add_row(name, Text(value))
@@ -173,7 +178,7 @@ def _figures_table(comparisons: list[Comparison]) -> Table:
 
 
 def _print_verdicts(
-    console: Console, comparisons: list[Comparison], rights: Rights, advice: list[str]
+    console: CommandConsole, comparisons: list[Comparison], rights: Rights, advice: list[str]
 ) -> None:
     console.print()
     for comparison in comparisons:

@@ -1,4 +1,4 @@
-"""What the exit codes of ``plcsim`` mean; docs/commands.md lists them."""
+"""What the exit codes of ``plcsim`` mean; README.md lists them."""
 
 from __future__ import annotations
 

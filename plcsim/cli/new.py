@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import plcsim
+from plcsim.cli.exit_codes import epilog
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -26,6 +27,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="start a project",
         description="Make a folder NAME with a project that runs and tests itself, a copy of an "
         f"example. Examples: {examples}.",
+        examples=(
+            ("plcsim new my_plc", ""),
+            ("plcsim new my_plc --like tank", "tags over Modbus for an HMI, and a plant"),
+        ),
+        epilog=epilog(DONE="", FAILED="the folder is there already, or cannot be made"),
     )
     parser.add_argument("name", type=Path, metavar="NAME", help="folder to make")
     parser.add_argument(

@@ -16,6 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.rank_test import rank_test
 from plcsim.core.errors import ConfigurationError
 
@@ -34,9 +35,6 @@ as objects lie elsewhere in memory."""
 
 FEWEST_REPEATS = 5
 """With fewer a rank test could hardly ever be sure."""
-
-GOT_WORSE = 4
-"""Exit code."""
 
 Key = tuple[str, str]
 """Test (all of its repeats) and program."""
@@ -73,7 +71,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         description="Compare two reports of `pytest --plc-report DIR --plc-repeat 30`: did a "
         "program get slower from A to B? The unit is the calibration loop of each run, so the "
         "machines may differ in speed.",
-        epilog=f"Exit codes: 0 nothing got slower, 1 a report is wrong, {GOT_WORSE} something did.",
+        examples=(
+            ("pytest --plc-report before --plc-repeat 30", "on the old commit; after on the new"),
+            ("plcsim report compare before after", ""),
+        ),
+        epilog=epilog(
+            DONE="nothing got slower", FAILED="a report is wrong", SLOWER="something did"
+        ),
     )
     command.add_argument("before", type=Path, metavar="A", help="folder or report.json")
     command.add_argument("after", type=Path, metavar="B", help="folder or report.json")
@@ -102,7 +106,7 @@ def compare(options: argparse.Namespace) -> int:
     """Print the comparison and return the exit code."""
     found = comparisons(read_samples(options.before), read_samples(options.after), options.smallest)
     _print(found)
-    return GOT_WORSE if any(c.worse for c in found) else 0
+    return ExitCode.SLOWER if any(c.worse for c in found) else ExitCode.DONE
 
 
 def read_samples(path: Path) -> dict[Key, list[float]]:

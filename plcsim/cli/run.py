@@ -17,6 +17,7 @@ from plcsim.cli.console import CommandConsole, print_error
 from plcsim.cli.display import LiveTable, print_summary
 from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.output_file import check_output, write_output
+from plcsim.cli.project_argument import add_project
 from plcsim.cli.terminal import Terminal
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError
@@ -40,6 +41,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="run a project",
         description="Run a project until Ctrl-C, a limit, or a fault. Ctrl-C runs the EXITs; a "
         "second one ends a program that hangs.",
+        examples=(
+            ("plcsim run my_plc", "until Ctrl-C, with a live table"),
+            ("plcsim run", "the project that this folder belongs to"),
+            ("plcsim run my_plc --for 10s --report run.json", "ten seconds, and their figures"),
+            ("plcsim run my_plc --virtual --for 1h", "an hour on the virtual clock, in seconds"),
+        ),
         epilog=epilog(
             DONE="ran and stopped",
             FAILED="the project is wrong, or a service (Modbus, the embedded master) could not "
@@ -47,7 +54,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             SERVICE="",
         ),
     )
-    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    add_project(parser)
     parser.add_argument(
         "--for",
         dest="for_ns",

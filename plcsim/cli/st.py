@@ -6,10 +6,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.cli.exit_codes import epilog
+
 if TYPE_CHECKING:
     import argparse
 
-EPILOG = "Exit codes: 0 done, 1 errors were found, 2 wrong usage."
+EPILOG = epilog(DONE="", FAILED="errors were found", WRONG_USAGE="")
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -27,7 +29,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     text = "read files and report what is wrong in them"
     parser = commands.add_parser(
-        "check", help=text, description=f"{text[0].upper()}{text[1:]}.", epilog=EPILOG
+        "check",
+        help=text,
+        description=f"{text[0].upper()}{text[1:]}.",
+        examples=(
+            ("plcsim st check my_plc", "all .st files of a folder"),
+            ("plcsim st check --syntax Main.st", "without the declarations around it"),
+        ),
+        epilog=EPILOG,
     )
     parser.add_argument("--syntax", action="store_true", help="do not look at names and types")
     parser.add_argument(

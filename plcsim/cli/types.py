@@ -6,12 +6,21 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.cli.exit_codes import epilog
 from plcsim.cli.installed import TYPE_COMMANDS, register_installed
 
 if TYPE_CHECKING:
     import argparse
 
-EPILOG = "Exit codes: 0 done, 1 errors were found, 2 wrong usage."
+EPILOG = epilog(DONE="", FAILED="errors were found", WRONG_USAGE="")
+
+EXAMPLES = {
+    "check": (("plcsim types check Logical", "all files of an Automation Studio project"),),
+    "layout": (("plcsim types layout Motor_typ my_plc", "offsets of its members, in bytes"),),
+    "header": (("plcsim types header my_plc > my_plc.h", ""),),
+    "python": (("plcsim types python my_plc > my_plc.py", ""),),
+    "print": (("plcsim types print Types.typ", ""),),
+}
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -42,7 +51,9 @@ def _add(
     text: str,
     *arguments: str,
 ) -> argparse.ArgumentParser:
-    parser = commands.add_parser(name, help=text, description=_sentence(text), epilog=EPILOG)
+    parser = commands.add_parser(
+        name, help=text, description=_sentence(text), examples=EXAMPLES[name], epilog=EPILOG
+    )
     for argument in arguments:
         parser.add_argument(argument, metavar=argument.upper(), help="name, in any case")
     parser.add_argument(

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import sys
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.live import Live
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.exit_codes import epilog
+from plcsim.cli.project_argument import add_project_and_tags, project_and_tags
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.tag import Tag, leaves
 from plcsim.process.run_file import Run, find_runs
@@ -39,16 +40,22 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         description="Show values of a project that runs elsewhere, until Ctrl-C. A TAG is a "
         "program, a variable or a part of one; all are shown where none is given. The scan does "
         "not notice.",
+        examples=(
+            ("plcsim watch my_plc", "all variables, anew five times a second"),
+            ("plcsim watch my_plc tank.level control", "a tag, and all variables of a program"),
+            ("plcsim watch tank.level --once", "inside the project's folder; print it and end"),
+        ),
+        epilog=epilog(DONE="", FAILED="the project does not run, or has no such tag"),
     )
-    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
-    parser.add_argument("tags", nargs="*", metavar="TAG", help="such as tank.level")
+    add_project_and_tags(parser, "such as tank.level")
     parser.add_argument("--once", action="store_true", help="print the values once and end")
     parser.set_defaults(func=watch)
 
 
 def watch(options: argparse.Namespace) -> int:
     """Show the values."""
-    run, *others = find_runs(find_project(options.project).parent)
+    project, paths = project_and_tags(options)
+    run, *others = find_runs(find_project(project).parent)
     if others:
         pids = ", ".join(str(other.pid) for other in others)
         print(
@@ -59,7 +66,7 @@ def watch(options: argparse.Namespace) -> int:
     fd = run.open(run.image_fd)
     try:
         reader = _open(fd)
-        tags = list(_chosen(reader, options.tags))
+        tags = list(_chosen(reader, paths))
         console = CommandConsole()
         if options.once or not console.is_terminal:
             console.print(_table(reader, tags))

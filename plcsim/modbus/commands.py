@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.exit_codes import epilog
 from plcsim.cli.output_file import check_output, write_output
+from plcsim.cli.project_argument import add_project
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.export import FORMATS
 from plcsim.modbus.export.entry import Entry, Export
@@ -25,6 +27,16 @@ if TYPE_CHECKING:
     from plcsim.modbus.settings import ModbusSettings
 
 EXTENSION = "modbus"
+
+EXAMPLES = {
+    "check": (("plcsim tags check my_plc", ""),),
+    "list": (("plcsim tags list my_plc", ""), ("plcsim tags list", "inside the project's folder")),
+    "lock": (("plcsim tags lock my_plc", "addresses that will not change any more"),),
+    "export": (
+        ("plcsim tags export my_plc", "as CSV"),
+        ("plcsim tags export my_plc --format json -o tags.json", ""),
+    ),
+}
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -49,8 +61,14 @@ def _add(
     function: Callable[[argparse.Namespace], int],
     text: str,
 ) -> argparse.ArgumentParser:
-    parser = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-    parser.add_argument("project", type=Path, metavar="PROJECT", help="folder with plc.toml")
+    parser = commands.add_parser(
+        name,
+        help=text,
+        description=f"{text[0].upper()}{text[1:]}.",
+        examples=EXAMPLES[name],
+        epilog=epilog(DONE="", FAILED="the project or its map is wrong"),
+    )
+    add_project(parser)
     parser.set_defaults(func=function)
     return parser
 

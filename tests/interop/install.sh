@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 
 export DEBIAN_FRONTEND=noninteractive
 apt-get update -qq
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends netcat-openbsd gcc gcc-multilib >/dev/null
+apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends netcat-openbsd gcc gcc-multilib zsh fish >/dev/null
 for part in */install.sh; do
     if [ -x "$part" ]; then "$part"; fi
 done

@@ -5,10 +5,11 @@ import argparse
 import pytest
 
 from crosnode.commands.master import DEFAULT_PORT, register
+from plcsim.cli.parser import CommandParser
 
 
 def parse(*arguments: str) -> argparse.Namespace:
-    parser = argparse.ArgumentParser()
+    parser = CommandParser()
     register(parser.add_subparsers())
     return parser.parse_args(["master", *arguments])
 

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from crosnode.commands.ros import register
+from plcsim.cli.parser import CommandParser
 
 
 def parse(*arguments: str) -> argparse.Namespace:
-    parser = argparse.ArgumentParser()
+    parser = CommandParser()
     register(parser.add_subparsers())
     return parser.parse_args(["ros", *arguments])
 

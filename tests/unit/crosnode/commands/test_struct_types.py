@@ -9,12 +9,13 @@ import pytest
 
 from crosnode.commands.struct_types import register
 from plcsim.cli.installed import TYPE_COMMANDS
+from plcsim.cli.parser import CommandParser
 
 TOP = Path(__file__).parents[4]
 
 
 def parse(*arguments: str) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="plcsim types")
+    parser = CommandParser(prog="plcsim types")
     register(parser.add_subparsers(required=True))
     return parser.parse_args(arguments)
 

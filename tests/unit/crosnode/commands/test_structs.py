@@ -8,6 +8,7 @@ import pytest
 
 from crosnode.commands.struct_types import register
 from plcsim.cli import types
+from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
 from st_types.syntax.declarations import parse_text
 
@@ -15,7 +16,7 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 def parse(*arguments: str) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="plcsim types")
+    parser = CommandParser(prog="plcsim types")
     register(parser.add_subparsers(required=True))
     return parser.parse_args(arguments)
 
@@ -57,7 +58,7 @@ def test_from_ros_writes_files_that_check_and_go_back(
     names = ("ros_time.typ", "std_msgs_Header.typ", "std_msgs_Header.var", "cell_State.typ",
              "cell_State.var", "cell_Plain.typ")  # fmt: skip
     assert printed.split() == [str(out / name) for name in names]
-    parser = argparse.ArgumentParser()
+    parser = CommandParser()
     types.register(parser.add_subparsers(required=True))
     options = parser.parse_args(["types", "check", "--strict", str(out)])
     assert options.func(options) == 0

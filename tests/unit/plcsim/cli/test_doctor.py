@@ -1,11 +1,11 @@
 """``plcsim doctor`` from its arguments to its words."""
 
-import argparse
 import json
 
 import pytest
 
 from plcsim.cli import doctor
+from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.statistics import Summary
 from plcsim.doctor.loops import Measurement, Order
@@ -16,7 +16,7 @@ NONE = Rights((), ("SCHED_FIFO: Operation not permitted",))
 
 
 def parse(*arguments):
-    parser = argparse.ArgumentParser()
+    parser = CommandParser()
     doctor.register(parser.add_subparsers())
     return parser.parse_args(["doctor", *arguments])
 
@@ -115,7 +115,7 @@ def test_ctrl_c_ends_it_without_a_trace(host_gives, monkeypatch, capsys):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(doctor, "measure", interrupted)
-    assert run() == doctor.STOPPED
+    assert run() == 130
     assert "stopped" in capsys.readouterr().err
 
 

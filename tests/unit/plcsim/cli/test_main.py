@@ -40,7 +40,7 @@ def test_the_help_names_the_commands(capsys):
         main(["--help"])
     shown = capsys.readouterr().out
     assert all(f"    {name} " in shown for name in OWN)
-    assert "3 ended in SERVICE" in shown
+    assert "3 the controller ended in SERVICE" in " ".join(shown.split())
 
 
 def test_the_version(capsys):
@@ -50,7 +50,7 @@ def test_the_version(capsys):
     assert capsys.readouterr().out.startswith("plcsim 0.")
 
 
-@pytest.mark.parametrize("arguments", [[], ["fly"], ["run"], ["run", "x", "--nonsense"]])
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["run", "x", "y"], ["run", "x", "--nonsense"]])
 def test_wrong_usage_is_exit_code_2(arguments, capsys):
     with pytest.raises(SystemExit) as ended:
         main(arguments)

@@ -1,10 +1,10 @@
-import argparse
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from plcsim.cli import st
+from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
 
 Run = Callable[..., tuple[int, str]]
@@ -13,7 +13,7 @@ Run = Callable[..., tuple[int, str]]
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str]) -> Run:
     def call(*arguments: object) -> tuple[int, str]:
-        parser = argparse.ArgumentParser()
+        parser = CommandParser()
         st.register(parser.add_subparsers(required=True))
         options = parser.parse_args(["st", *map(str, arguments)])
         code = options.func(options)

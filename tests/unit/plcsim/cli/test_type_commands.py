@@ -7,6 +7,7 @@ import pytest
 
 from plcsim.cli import types
 from plcsim.cli.declaration_files import LIBRARY
+from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
 from st_types.syntax.declarations import parse_text
 
@@ -14,7 +15,7 @@ Run = Callable[..., tuple[int, str, str]]
 
 
 def parse(*arguments: str) -> argparse.Namespace:
-    parser = argparse.ArgumentParser()
+    parser = CommandParser()
     types.register(parser.add_subparsers(required=True))
     return parser.parse_args(["types", *arguments])
 

@@ -3,12 +3,13 @@ import argparse
 import pytest
 
 from plcsim.cli import types
+from plcsim.cli.parser import CommandParser
 from plcsim.cli.type_commands import COMMANDS
 
 
 @pytest.fixture
 def parser() -> argparse.ArgumentParser:
-    made = argparse.ArgumentParser(prog="plcsim")
+    made = CommandParser(prog="plcsim")
     types.register(made.add_subparsers(required=True))
     return made
 
