@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 
 import plcsim
 from plcsim.cli.exit_codes import epilog
+from plcsim.cli.new_files import GITIGNORE, PYTEST_INI, commented
 from plcsim.core.errors import ConfigurationError
+from plcsim.project.plc_toml import FILE_NAME
 
 if TYPE_CHECKING:
     import argparse
@@ -52,6 +54,20 @@ def _examples() -> dict[str, Path]:
     return {}
 
 
+def _make_its_own(target: Path, example: str) -> None:
+    """Add what a project of its own needs; a test file is called after the project.
+
+    So tests of several projects in one repository do not have the same name.
+    """
+    settings = target / FILE_NAME
+    settings.write_text(commented(settings.read_text("utf-8"), target.name), "utf-8")
+    (target / ".gitignore").write_text(GITIGNORE, "utf-8")
+    (target / "pytest.ini").write_text(PYTEST_INI, "utf-8")
+    tests = target / "tests" / f"test_{example}.py"
+    if tests.exists():
+        tests.rename(tests.with_name(f"test_{target.name.replace('-', '_').lower()}.py"))
+
+
 def new(options: argparse.Namespace) -> int:
     """Copy the example."""
     target: Path = options.name
@@ -70,6 +86,7 @@ def new(options: argparse.Namespace) -> int:
         raise ConfigurationError(f"{target}: there is no folder {target.parent}")
     try:
         shutil.copytree(example, target, ignore=shutil.ignore_patterns("__pycache__", ".*"))
+        _make_its_own(target, example.name)
     except OSError as err:
         raise ConfigurationError(f"{target}: cannot be made: {err}") from None
     print(f"Made {target} from the example {options.like}. Try:")

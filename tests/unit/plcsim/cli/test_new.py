@@ -30,9 +30,37 @@ def test_a_new_project_runs_and_tests_itself(empty_folder, capsys):
         "    python3 -m pytest my_plc/tests\n"
     )
     assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
-    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "my_plc/tests"]
-    done = subprocess.run(tests, capture_output=True, text=True, check=False)
+    done = pytest_of("my_plc/tests")
     assert done.returncode == 0, done.stdout
+
+
+def pytest_of(*arguments):
+    """The result of pytest in a process of its own."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("arguments", [[], ["first/tests", "second/tests"]])
+def test_two_projects_in_one_repository_are_tested_together(empty_folder, arguments):
+    for name in ("first", "second"):
+        main(["new", name])
+    done = pytest_of("-k", "lamp_is_off", *arguments)
+    assert "2 passed" in done.stdout, done.stdout
+
+
+def test_tests_of_the_same_name_do_not_matter_where_pytest_ini_is_heard(empty_folder):
+    for name in ("first", "second"):
+        main(["new", name])
+        (empty_folder / name / "tests" / "test_more.py").write_text("def test_more(plc): pass\n")
+    done = pytest_of("-k", "more", "first/tests", "second/tests")
+    assert "2 passed" in done.stdout, done.stdout
+
+
+def test_a_new_project_is_a_repository_of_its_own(empty_folder):
+    main(["new", "My-plc"])
+    assert (empty_folder / "My-plc" / "tests" / "test_my_plc.py").is_file()
+    assert "__pycache__/" in (empty_folder / "My-plc" / ".gitignore").read_text().splitlines()
+    assert '# name = "My-plc"' in (empty_folder / "My-plc" / "plc.toml").read_text()
 
 
 def test_what_to_try_can_be_typed_as_it_is(empty_folder, capsys, monkeypatch):
