@@ -65,11 +65,16 @@ class ExternStructure(ctypes.Structure):
 
 
 class _Value(ctypes.Union):
-    _fields_ = (("i32", ctypes.c_int32), ("function", FunctionHandle), ("v128", c_uint64 * 2))
+    _fields_ = (
+        ("i32", ctypes.c_int32),
+        ("i64", c_uint64),
+        ("function", FunctionHandle),
+        ("v128", c_uint64 * 2),
+    )
 
 
 class ValueStructure(ctypes.Structure):
-    """wasmtime_val_t; kind 0 is i32, kind 5 a reference to a function."""
+    """wasmtime_val_t; kind 0 is i32, 1 i64, 5 a reference to a function."""
 
     _fields_ = (("kind", c_uint8), ("of", _Value))
 

@@ -108,7 +108,15 @@ class Instance:
         return prepare(self._store, handle, params, results)
 
     def value(self, name: str) -> int:
-        """Return the value of an exported global variable of type i32, unsigned.
+        """Return the value of an exported global variable of type i32 or i64, unsigned.
+
+        Raises:
+            MachineError: there is no such variable.
+        """
+        return self.variable(name)()
+
+    def variable(self, name: str) -> Callable[[], int]:
+        """Return what reads an exported global variable, as `value` does.
 
         Raises:
             MachineError: there is no such variable.
@@ -116,10 +124,15 @@ class Instance:
         extern = self.extern(name)
         if extern.type.kind != GLOBAL:
             raise MachineError(f"{name!r} is not a global variable")
-        value = ValueStructure()
-        library().wasmtime_global_get(self._store.context, byref(extern.structure.of), byref(value))
-        number: int = value.of.i32
-        return number & 0xFFFF_FFFF
+        value, handle, store = ValueStructure(), extern.structure.of, self._store
+        get = library().wasmtime_global_get
+
+        def read() -> int:
+            get(store.context, byref(handle), byref(value))
+            number: int = value.of.i64 if value.kind else value.of.i32 & 0xFFFF_FFFF
+            return number
+
+        return read
 
 
 class Machine:

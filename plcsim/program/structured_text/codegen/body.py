@@ -56,8 +56,14 @@ class Body:
         code: the instructions so far.
         holes: three numbers for each hole in ``code`` that takes an address: its position, the
             segment, the bytes to add to the segment's address.
+        line: that the next instruction belongs to.
         lines: (position in ``code``, line), ascending, where the line changes.
         traps: (position in ``code``, reason) of instructions that are there to end the program.
+        conditions: line of each IF and BR_IF that stands for a condition of the source, and the
+            line of the statement that is all that follows from it, 0 where there is more; by
+            position.
+        cases: line of the selector, by the position at which a case of a Switch begins.
+        polls: end of each poll of the budget, by its position.
         copies: variables that locals hold here.
         accesses: of the loops around this point, by their identity.
         depth: blocks of WebAssembly around this point.
@@ -67,13 +73,14 @@ class Body:
     """
 
     __slots__ = (
-        "_line",
         "_locals",
         "_parameters",
         "_scratch",
         "accesses",
         "breaks",
+        "cases",
         "code",
+        "conditions",
         "continues",
         "copies",
         "depth",
@@ -81,8 +88,10 @@ class Body:
         "function",
         "holes",
         "indices",
+        "line",
         "lines",
         "options",
+        "polls",
         "segments",
         "statements",
         "this",
@@ -104,15 +113,18 @@ class Body:
         self.statements = statements
         self.code = bytearray()
         self.holes: list[int] = []
-        self.lines: list[tuple[int, int]] = []
+        self.lines = [(0, function.line)]
         self.traps: list[tuple[int, str]] = []
+        self.conditions: dict[int, tuple[int, int]] = {}
+        self.cases: dict[int, int] = {}
+        self.polls: dict[int, int] = {}
         self.accesses: dict[int, Accesses] = {}
         self.depth = 0
         self.breaks: dict[int, Label] = {}
         self.continues: dict[int, Label] = {}
         self.this = function.kind == "block"
         self.copies = Copies(self._local_for_copy, this=self.this)
-        self._line = 0
+        self.line = function.line
         self._parameters = len(function.parameters)
         self._locals = bytearray(VALUE_TYPES[kind] for kind in function.locals)
         self._scratch: dict[tuple[int, int], int] = {}
@@ -148,9 +160,13 @@ class Body:
 
     def mark(self, line: int) -> None:
         """Say what line the next instruction belongs to."""
-        if line != self._line:
-            self._line = line
+        if line != self.line:
+            self.line = line
             self.lines.append((len(self.code), line))
+
+    def condition(self, leaves: int = 0) -> None:
+        """Say that the IF or BR_IF that follows decides what the source says; see `conditions`."""
+        self.conditions[len(self.code)] = self.line, leaves
 
     def trap_if(self, reason: str) -> None:
         """End the program where the value on the stack is not 0.

@@ -19,6 +19,8 @@ def branch(body: Body, node: ir.Break | ir.Continue, opcode: bytes = BR) -> None
     labels = body.breaks if type(node) is ir.Break else body.continues
     label = labels[node.label]
     label.arrive(body.copies.fork())
+    if opcode is BR_IF:
+        body.condition(node.line)
     body.branch(opcode, label.depth)
     if opcode is BR:
         body.copies.known = None
@@ -44,7 +46,6 @@ def if_(body: Body, node: ir.If) -> None:
     if leaves is None:
         _two_ways(body, arm, node)
     else:
-        body.mark(leaves.line)
         branch(body, leaves, BR_IF)
 
 
@@ -55,6 +56,7 @@ def _only_branch(arm: ir.Arm) -> ir.Break | ir.Continue | None:
 
 def _two_ways(body: Body, arm: ir.Arm, node: ir.If) -> None:
     start = body.copies.fork()
+    body.condition()
     body.open(IF)
     body.statements(body, arm.body)
     then, body.copies.known = body.copies.known, start
@@ -73,6 +75,7 @@ def _chain(body: Body, node: ir.If) -> None:
         depth = body.open(BLOCK)
         emit(body, arm.condition)
         body.code += I32_EQZ
+        body.condition()
         body.branch(BR_IF, depth)
         start = body.copies.fork()
         body.statements(body, arm.body)

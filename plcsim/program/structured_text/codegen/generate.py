@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from plcsim.machine.encoder import ModuleWriter, Signature
-from plcsim.machine.opcodes import UNREACHABLE
+from plcsim.machine.encoder import ModuleWriter, Signature, sleb
+from plcsim.machine.opcodes import I64, I64_CONST, UNREACHABLE
 from plcsim.program.structured_text.codegen.accesses import Effects
 from plcsim.program.structured_text.codegen.body import Body, ModuleContext
+from plcsim.program.structured_text.codegen.instrument import Instrument
 from plcsim.program.structured_text.codegen.lines import FunctionLines, LineTable, pack
 from plcsim.program.structured_text.codegen.loops import poll
 from plcsim.program.structured_text.codegen.object_code import Holes, ObjectCode
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
 from plcsim.program.structured_text.codegen.options import CodegenOptions
+from plcsim.program.structured_text.codegen.profile import Profile
 from plcsim.program.structured_text.codegen.runtime import MATHEMATICS, helper
 from plcsim.program.structured_text.codegen.statements import statements
 from plcsim.program.structured_text.ir import RUNTIME
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text import ir
 
 PROGRAM_OPTIONS = CodegenOptions()
+
+COUNTER: Final = "counter {}"
+"""Name under which a counter is exported, from 1; 0 is what they have cost themselves."""
 
 HELPER_OPTIONS = CodegenOptions(budget=False, copies=False)
 """Helpers end by themselves, and keep nothing but locals."""
@@ -71,6 +76,7 @@ class _Compiler:
         segments = {id(segment): number for number, segment in enumerate(module.segments)}
         self._context = ModuleContext(self._indices, segments, Effects(module))
         self._bodies: list[Body] = []
+        self._instrument = Instrument() if options.counters else None
         self._import()
         for function in module.functions:
             self._indices.announce(function)
@@ -88,7 +94,6 @@ class _Compiler:
     def compile(self, function: ir.Function) -> None:
         """Compile a function; where it calls, it polls the budget, so that calls end as well."""
         body = Body(function, self._context, self._options, statements)
-        body.mark(function.line)
         if function.kind != "unit" and self._context.effects.calls_of(function.name):
             poll(body)
         self._write(body)
@@ -99,6 +104,8 @@ class _Compiler:
         statements(body, body.function.body)
         if body.function.result is not None:
             body.code += UNREACHABLE  # every path has returned, or goes on for ever
+        if self._instrument:
+            self._instrument.add(body, self._file_of(body.function))
         self._writer.body(self._indices[body.function.name], body.code, body.locals)
         self._bodies.append(body)
 
@@ -106,12 +113,30 @@ class _Compiler:
         """Compile the helpers that were called, and put everything together."""
         for function in self._indices.helpers:
             self._write(Body(function, self._context, HELPER_OPTIONS, statements))
+        profile = self._profile()
         encoded = self._writer.encode()
         names = [segment.name for segment in self._module.segments]
         holes = self._holes(encoded.starts)
         lines = self._lines(encoded.starts)
         imports = list(self._module.imports.values())
-        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines, imports)
+        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines, imports, profile)
+
+    def _file_of(self, function: ir.Function) -> int:
+        """Return the number of a function's file; each helper is a file of its own."""
+        if function.kind != "helper" or function not in self._indices.helpers:
+            return function.file
+        return len(self._module.files) + self._indices.helpers.index(function)
+
+    def _profile(self) -> Profile | None:
+        """Define the counters, and return what they mean."""
+        if not self._instrument:
+            return None
+        for number in range(self._instrument.counters + 1):
+            variable = self._writer.global_(I64, I64_CONST + sleb(0))
+            self._writer.export_global(COUNTER.format(number), variable)
+        files = [*self._module.files, *(one.name for one in self._indices.helpers)]
+        counted = self._instrument
+        return Profile(files, counted.counters, counted.costs, counted.arcs)
 
     def _holes(self, starts: Sequence[int]) -> Holes:
         holes = np.array([n for body in self._bodies for n in body.holes], np.int64)

@@ -55,8 +55,10 @@ _IS_SPENT: Final = I32_CONST + sleb(_BUDGET) + I32_LOAD + NO_OFFSET + I32_CONST 
 def poll(body: Body) -> None:
     """Append the end of the program where the watchdog asks for it (see `core.system_area`)."""
     if body.options.budget:
+        start = len(body.code)
         body.code += _IS_SPENT
         body.trap_if("budget")
+        body.polls[start] = len(body.code)
 
 
 def loop(body: Body, node: ir.Loop) -> None:
@@ -148,6 +150,7 @@ def _turned(body: Body, node: ir.Loop, test: ir.Arm) -> None:
     emit(body, test.condition)
     exit_ = body.breaks[node.label]
     exit_.arrive(body.copies.fork())
+    body.condition()
     body.branch(BR_IF, exit_.depth)
     head = _open_head(body, node)
     bottom = body.continues[node.label] = Label(body.open(BLOCK))
@@ -177,6 +180,7 @@ def _repeat_unless(body: Body, node: ir.Loop, test: ir.Arm, head: Label) -> None
     body.mark(test.line)
     emit(body, test.condition)
     body.code += I32_EQZ
+    body.condition()
     body.branch(BR_IF, head.depth)
     body.breaks[node.label].arrive(body.copies.known)
     body.copies.known = None

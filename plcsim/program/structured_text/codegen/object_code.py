@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.codegen.lines import LineTable
+    from plcsim.program.structured_text.codegen.profile import Profile
 
 
 Holes = npt.NDArray[np.int64]
@@ -35,6 +36,7 @@ class ObjectCode:
         holes: where their addresses belong.
         lines: from instructions to lines.
         imports: functions that it needs, those of the runtime not among them.
+        profile: what its counters mean; None where it has none.
     """
 
     def __init__(
@@ -45,6 +47,7 @@ class ObjectCode:
         holes: Holes,
         lines: LineTable,
         imports: Sequence[ir.Import] = (),
+        profile: Profile | None = None,
     ) -> None:
         self.name = name
         self.wasm = wasm
@@ -52,6 +55,7 @@ class ObjectCode:
         self.holes = holes
         self.lines = lines
         self.imports = imports
+        self.profile = profile
 
     def place(self, addresses: Mapping[str, int]) -> bytes:
         """Return the module with its variables at these addresses, by segment.

@@ -10,8 +10,10 @@ class CodegenOptions(NamedTuple):
 
     Attributes:
         budget: every loop, and every function that calls, ends where the watchdog asks for it.
+        counters: costs by line and coverage are counted (`instrument`); half as fast.
         copies: variables are kept in locals (`copies`); without, every access goes to memory.
     """
 
     budget: bool = True
+    counters: bool = False
     copies: bool = True

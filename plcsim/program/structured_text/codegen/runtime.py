@@ -35,7 +35,9 @@ def helper(name: str) -> ir.Function:
     """
     signature = SIGNATURES[name]
     locals_, body = _BODIES[name]
-    return ir.Function(name, "helper", signature.parameters, signature.result, locals_, body)
+    return ir.Function(
+        name, "helper", signature.parameters, signature.result, locals_, body, line=0
+    )
 
 
 # A shorthand for trees; locals are named by their types.

@@ -54,15 +54,18 @@ def switch(body: Body, node: ir.Switch) -> None:
         for low, high in case.ranges
     )
     emit(body, node.selector)
+    selector_line = body.line
     _choose(body, ranges, other)
     start = body.copies.fork()
     for case in node.cases:
         body.close()
+        body.cases[len(body.code)] = selector_line
         body.mark(case.line)
         body.copies.known = None if start is None else start.copy()
         body.statements(body, case.body)
         leave(body, end)
     body.close()
+    body.cases[len(body.code)] = selector_line
     body.copies.known = start
     body.statements(body, node.other)
     end.arrive(body.copies.known)

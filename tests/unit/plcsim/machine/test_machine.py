@@ -159,6 +159,18 @@ def test_a_function_in_python_has_the_type_it_was_given(rig):
         rig.load('(import "host" "f" (func (param i64)))', {("host", "f"): extern})
 
 
+def test_global_variables_are_read_as_they_change(rig):
+    unit = rig.load(
+        """(global $n (export "n") (mut i64) (i64.const -2))
+        (func (export "step") (global.set $n (i64.add (global.get $n) (i64.const 1))))"""
+    )
+    read, step = unit.variable("n"), unit.function("step")
+    assert read() == 2**64 - 2
+    for _ in range(3):
+        step()
+    assert read() == unit.value("n") == 1
+
+
 def test_exports_are_asked_for_by_name_and_type(rig):
     unit = rig.load('(func (export "f") (param i32)) (global (export "g") i32 (i32.const -1))')
     assert "f" in unit

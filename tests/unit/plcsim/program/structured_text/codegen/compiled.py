@@ -1,9 +1,11 @@
 """Runs compiled modules on a machine, with nothing else of a controller."""
 
+import numpy as np
+
 from plcsim.core.memory import FIRST, PAGE, Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.generate import PROGRAM_OPTIONS, generate
+from plcsim.program.structured_text.codegen.generate import COUNTER, PROGRAM_OPTIONS, generate
 from plcsim.program.structured_text.codegen.runtime import MATHEMATICS
 
 PAGES = 2
@@ -70,6 +72,11 @@ class Compiled:
         before = self.machine.fuel
         self.run(name, *arguments)
         return before - self.machine.fuel
+
+    def counts(self):
+        """Values of all counters that were compiled in."""
+        names = [COUNTER.format(1 + n) for n in range(self.code.profile.counters)]
+        return np.array([self.instance.value(name) for name in names], np.int64)
 
     def close(self):
         self.machine.close()

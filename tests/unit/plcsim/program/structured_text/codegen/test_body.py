@@ -35,7 +35,7 @@ def test_only_a_change_of_line_is_marked(body_of):
     for line in (3, 3, 4):
         body.mark(line)
         body.code += b"\x01"
-    assert body.lines == [(0, 3), (2, 4)]
+    assert body.lines == [(0, 1), (0, 3), (2, 4)]
 
 
 def test_branches_count_the_blocks_between(body_of):
