@@ -94,7 +94,7 @@ def _open(fd: int) -> ImageReader:
 
 def _chosen(reader: ImageReader, paths: Sequence[str]) -> Iterator[Tag]:
     """Iterate over the tags to show: those named, or all below a STRUCT or a program."""
-    for path in paths or [v.program for v in reader.directory.variables]:
+    for path in paths or [area.path for area in reader.directory.areas]:
         tag = reader.directory.find(path)
         for leaf in leaves(path, tag.data_type, tag.address):
             whole = isinstance(tag.data_type, StructType | ArrayType)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.clock import MonotonicClock
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.clock import Clock
     from plcsim.core.context import Context
+    from plcsim.core.control import Request
 
 VIOLATIONS_KEPT = 100
 """Records of violations kept; all are counted."""
@@ -72,6 +74,8 @@ class Controller:
         areas: all variables of the controller: those of each program as one tag.
         owners: which class owns which of them.
         forces: the forced ones.
+        requests: acts asked for and not yet carried out, in order.
+        origin_ns: when the controller was made; times in the logbook count from there.
         state: BOOT, RUN, SERVICE or STOPPED.
         fault: what led to SERVICE, None otherwise.
         stop_requested: `stop` was called since the last `boot`.
@@ -110,7 +114,9 @@ class Controller:
         self.areas = tuple(task.variables for task in self.tasks)
         self.tags = TagTable(self.memory, self.areas)
         self._heartbeat = heartbeat or _Nobody()
-        self._origin_ns = self.clock.now_ns()
+        self.origin_ns = self.clock.now_ns()
+        self.requests: deque[Request] = deque()
+        self._violation_followers: list[Callable[[Violation], None]] = []
         self.stop_requested = False
         self._started = False
 
@@ -207,9 +213,18 @@ class Controller:
         self._heartbeat.changed(self.state)
         self.log(Severity.INFORMATION, "system", f"{self.state.name}: {event.value}")
 
+    def request(self, request: Request) -> None:
+        """Ask for an act, which whoever runs the controller carries out after this cycle."""
+        self.requests.append(request)
+        self.scan.pause()
+
+    def follow_violations(self, told: Callable[[Violation], None]) -> None:
+        """Have ``told`` called with every violation from now on."""
+        self._violation_followers.append(told)
+
     def log(self, severity: Severity, source: str, text: str) -> None:
         """Write an entry of the logbook at the present time."""
-        self.logbook.write(self.clock.now_ns() - self._origin_ns, severity, source, text)
+        self.logbook.write(self.clock.now_ns() - self.origin_ns, severity, source, text)
 
     # what the scan tells (plcsim.core.scan.Supervisor)
 
@@ -228,6 +243,8 @@ class Controller:
     def violated(self, violation: Violation, policy: Policy) -> None:
         """Log a violation and do what the policy says; after a fault no program runs any more."""
         self.violations = [*self.violations[1 - VIOLATIONS_KEPT :], violation]
+        for told in self._violation_followers:
+            told(violation)
         severity = Severity.ERROR if policy is Policy.SERVICE else Severity.WARNING
         self.log(severity, f"task class {violation.task_class}", describe_violation(violation))
         if policy is Policy.SERVICE:

@@ -48,7 +48,7 @@ class ProcessImage:
     def held(self) -> int:
         """Return the classes that are preempted in the middle of a cycle, as bits of owners."""
         in_cycle = self._scan.in_cycle if self._scan is not None else []
-        return bits_of(in_cycle[:-1])
+        return bits_of(in_cycle[:-1]) if len(in_cycle) > 1 else 0
 
     def latch(self, task_class: TaskClass) -> None:
         """Let the inputs of a class be set.

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 LENGTH = 512
 """Entries kept; the oldest is dropped and counted."""
@@ -48,11 +48,19 @@ class Logbook:
     def __init__(self, length: int = LENGTH) -> None:
         self._entries: deque[Entry] = deque(maxlen=length)
         self._written = 0
+        self._followers: list[Callable[[Entry], None]] = []
+
+    def follow(self, written: Callable[[Entry], None]) -> None:
+        """Have ``written`` called with every entry from now on."""
+        self._followers.append(written)
 
     def write(self, time_ns: int, severity: Severity, source: str, text: str) -> None:
         """Add an entry; a full ring drops its oldest."""
-        self._entries.append(Entry(time_ns, severity, source, text))
+        entry = Entry(time_ns, severity, source, text)
+        self._entries.append(entry)
         self._written += 1
+        for written in self._followers:
+            written(entry)
 
     @property
     def dropped(self) -> int:

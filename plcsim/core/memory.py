@@ -96,12 +96,12 @@ class Memory:
         return self._limit
 
     def allocate(self, size: int, alignment: int = 4) -> int:
-        """Reserve ``size`` zeroed bytes and return their address.
+        """Reserve ``size`` zeroed bytes and return their address, a multiple of 4 at least.
 
         Raises:
             ConfigurationError: the memory is full.
         """
-        address = align_up(self._top, alignment)
+        address = align_up(self._top, max(alignment, 4))
         if address + size > FIRST + self.size:
             raise ConfigurationError(
                 f"the PLC memory of {self.size} bytes is full: {size} more bytes do not fit."

@@ -57,6 +57,16 @@ class Owners:
             return self._bits[found]
         return SHARED
 
+    def of_range(self, address: int, size: int) -> int:
+        """Return the owners of a range, as bits."""
+        found = bisect_right(self._starts, address) - 1
+        if found >= 0 and address + size <= self._ends[found]:
+            return self._bits[found]
+        owners = 0
+        for owner, _, _ in self.cut(address, size):
+            owners |= owner
+        return owners
+
     def cut(self, address: int, size: int) -> list[tuple[int, int, int]]:
         """Return (owner, address, size) of the parts of a range, each of one owner."""
         edges = {address, address + size}

@@ -43,14 +43,26 @@ def find_tag(path: str, programs: Mapping[str, Tag]) -> Tag:
     Raises:
         TagError: there is no such tag; the message offers names that are near.
     """
+    try:
+        return locate(path, programs)
+    except KeyError as err:
+        raise TagError(f"{err.args[0]}{_nearest(path, programs)}") from None
+
+
+def locate(path: str, programs: Mapping[str, Tag]) -> Tag:
+    """Return the tag ``path``; arguments as for `find_tag`.
+
+    Raises:
+        KeyError: there is no such tag; the argument says what is wrong.
+    """
     name, _, rest = path.partition(".")
     program = programs.get(name.upper())
     if program is None:
-        raise TagError(f"no program {name!r} for tag {path!r}{_nearest(path, programs)}")
+        raise KeyError(f"no program {name!r} for tag {path!r}")
     try:
         data_type, offset = find(program.data_type, rest)
     except KeyError as err:
-        raise TagError(f"no tag {path!r}: {err.args[0]}{_nearest(path, programs)}") from None
+        raise KeyError(f"no tag {path!r}: {err.args[0]}") from None
     return Tag(path, data_type, program.address + offset)
 
 
@@ -78,6 +90,13 @@ class TagTable:
             TagError: there is no such tag; the message offers names that are near.
         """
         return find_tag(path, self._programs)
+
+    def get(self, path: str) -> Tag | None:
+        """Return the tag ``path``, None where there is none; quick in both cases."""
+        try:
+            return locate(path, self._programs)
+        except KeyError:
+            return None
 
     def read(self, tag: Tag) -> object:
         """Return the plain value of a tag (see `st_types.types.values.decode`)."""

@@ -1,26 +1,49 @@
-"""The process image between processes: snapshots out, commands in, and nobody waits for the scan.
+"""The process image between processes: snapshots and streams out, commands in.
 
-`ImageWriter` lives in the scan process, `ImageReader` in a service process (or in the same process,
-in virtual time). Between them lies one file mapping: a directory of the programs' variables, two
-banks that hold the last two snapshots, and one ring of commands for each service.
+Nobody waits for the scan, and the scan for nobody. `ImageWriter` lives in the scan process,
+`ImageReader` in a service process (or in the same process, in virtual time). Between them lies one
+file mapping: a directory of the variables, two banks that hold the last two snapshots, the list of
+forced tags, a stream of what happens, and for each service a ring of commands and a stream of the
+samples it asked for.
 """
 
-from plcsim.shared_image.command import Command, Mask, Scatter, Store
+from plcsim.shared_image.command import (
+    Answer,
+    Cancel,
+    Command,
+    Control,
+    Force,
+    Mask,
+    Outcome,
+    Release,
+    Sample,
+    Scatter,
+    Store,
+    Write,
+)
 from plcsim.shared_image.directory import Directory
 from plcsim.shared_image.errors import CommandRefused, ImageError, ImageNotReady
 from plcsim.shared_image.reader import ImageReader, ScanWatch
 from plcsim.shared_image.writer import ImageWriter
 
 __all__ = [
+    "Answer",
+    "Cancel",
     "Command",
     "CommandRefused",
+    "Control",
     "Directory",
+    "Force",
     "ImageError",
     "ImageNotReady",
     "ImageReader",
     "ImageWriter",
     "Mask",
+    "Outcome",
+    "Release",
+    "Sample",
     "ScanWatch",
     "Scatter",
     "Store",
+    "Write",
 ]

@@ -1,25 +1,79 @@
-"""A command: stores into PLC memory that are applied together in one LATCH, or not at all."""
+"""Commands: what services ask of the scan, as records of a ring.
+
+A record is answered in place: the scan writes its outcome into the head and, where stores were
+applied, what the variables held before into the place of the data. So a service can tell what
+became of each command, and an audit log what it changed.
+"""
 
 from __future__ import annotations
 
 import struct
+from enum import Enum
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
+from plcsim.core.control import Action
 from st_types.types.layout import align_up
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-HEAD = struct.Struct("<II")
-"""Bytes of the record, itself and padding included; number of operations, 0 for filling."""
+HEAD: Final = struct.Struct("<IBBHq")
+"""Bytes of the record, itself and padding included; kind, 0 for filling; outcome; number of
+operations; when it was applied, nanoseconds since the start on the controller's clock."""
 
-_OPERATION = struct.Struct("<IHH")
-_MASK = struct.Struct("<HH")
-_STORE, _MASKED, _SCATTERED = 0, 1, 2
+OUTCOME_AT: Final = 5
+_TIME = struct.Struct("<q")
+_TIME_AT = 8
 
-MAX_OPERATIONS = 2048
+OPERATION: Final = struct.Struct("<IHH")
+MASKS: Final = struct.Struct("<HH")
+_FORCE = struct.Struct("<HH")
+_CONTROL = struct.Struct("<q")
+_SAMPLE = struct.Struct("<IIq")
+_CANCEL = struct.Struct("<I")
+_SPAN = struct.Struct("<II")
+STORE, MASK, SCATTER = 0, 1, 2
+
+MAX_OPERATIONS: Final = 2048
 """Of one command; a Modbus request writes 1,968 coils at most."""
+
+
+class Outcome(Enum):
+    """What has become of a command."""
+
+    WAITING = 0
+    APPLIED = 1  # the latest snapshot shows it
+    NO_COMMAND = 2
+    NO_SUCH_ADDRESS = 3
+    NO_SUCH_TAG = 4
+    NOT_FORCED = 5
+    OVERLAPS = 6
+    TOO_MANY = 7
+    NOT_HERE = 8
+
+    @property
+    def is_refused(self) -> bool:
+        """True where nothing of the command was applied, and nothing will be."""
+        return self not in (Outcome.WAITING, Outcome.APPLIED)
+
+    @property
+    def text(self) -> str:
+        """The outcome in words."""
+        return _TEXTS[self]
+
+
+_TEXTS: Final = {
+    Outcome.WAITING: "it waits",
+    Outcome.APPLIED: "it is applied",
+    Outcome.NO_COMMAND: "it makes no sense",
+    Outcome.NO_SUCH_ADDRESS: "there is no such address",
+    Outcome.NO_SUCH_TAG: "there is no such tag",
+    Outcome.NOT_FORCED: "it is not forced",
+    Outcome.OVERLAPS: "a part of it is forced, or it is a part of a forced tag",
+    Outcome.TOO_MANY: "there are too many",
+    Outcome.NOT_HERE: "only the virtual clock can do that",
+}
 
 
 class Store(NamedTuple):
@@ -55,15 +109,110 @@ class Scatter(NamedTuple):
 
 
 Operation = Store | Mask | Scatter
-Command = tuple[Operation, ...]
 
 
-def merged(stores: Iterable[Operation]) -> Command:
+class Write(NamedTuple):
+    """Stores that are applied together in one LATCH, or not at all."""
+
+    operations: Sequence[Operation]
+
+
+class Force(NamedTuple):
+    """Force a tag to the value with these bytes."""
+
+    path: str
+    data: bytes
+
+
+class Release(NamedTuple):
+    """Let a forced tag go; "" for all."""
+
+    path: str
+
+
+class Control(NamedTuple):
+    """Ask the controller for an act; see `plcsim.core.control.Request`."""
+
+    action: Action
+    argument: int = 0
+
+
+class Sample(NamedTuple):
+    """Sample variables from now on into the stream beside the ring.
+
+    Attributes:
+        number: above 0, given by the service, which finds its samples by it; a second request of
+            a number replaces the first.
+        task_class: sampled in PUBLISH of this class, 0 for every class.
+        period_ns: at most so often; 0 for every cycle.
+        spans: (PLC address, bytes) of the variables, which lie one after another in a sample.
+    """
+
+    number: int
+    task_class: int
+    period_ns: int
+    spans: Sequence[tuple[int, int]]
+
+
+class Cancel(NamedTuple):
+    """End a `Sample`; 0 for all of the service."""
+
+    number: int
+
+
+class Answer(NamedTuple):
+    """What has become of a command.
+
+    Attributes:
+        outcome: of the command.
+        applied_ns: when, since the start on the controller's clock; 0 where it was not.
+        before: the command with what the variables held before in the place of the data; a `Mask`
+            has the word in the place of its AND mask.
+    """
+
+    outcome: Outcome
+    applied_ns: int
+    before: Command
+
+
+Command = Write | Force | Release | Control | Sample | Cancel
+_KINDS: Final[dict[type, int]] = {
+    Write: 1,
+    Force: 2,
+    Release: 3,
+    Control: 4,
+    Sample: 5,
+    Cancel: 6,
+}
+WRITE, _FORCED, _RELEASED, _CONTROLLED, _SAMPLED, _CANCELLED = _KINDS.values()
+
+
+def outcome_of(record: memoryview) -> Outcome:
+    """Return what has become of a record of the ring."""
+    return Outcome(record[OUTCOME_AT])
+
+
+def note_time(record: memoryview, time_ns: int) -> None:
+    """Note in a record of the ring when it was applied."""
+    _TIME.pack_into(record, _TIME_AT, time_ns)
+
+
+def answer_of(record: bytes) -> Answer:
+    """Return the answer in a record.
+
+    Raises:
+        ValueError: the record makes no sense.
+    """
+    (applied_ns,) = _TIME.unpack_from(record, _TIME_AT)
+    return Answer(Outcome(record[OUTCOME_AT]), applied_ns, decode_command(record))
+
+
+def merged(stores: Iterable[Operation]) -> tuple[Operation, ...]:
     """Return the same operations with those that can be done together made one."""
     return _scattered(_joined(stores))
 
 
-def _scattered(operations: list[Operation]) -> Command:
+def _scattered(operations: list[Operation]) -> tuple[Operation, ...]:
     """Make one of stores of single bytes that follow each other."""
     result: list[Operation] = []
     for is_byte, run in groupby(operations, lambda o: isinstance(o, Store) and len(o.data) == 1):
@@ -95,21 +244,45 @@ def _joined(stores: Iterable[Operation]) -> list[Operation]:
 
 def encode_command(command: Command) -> bytes:
     """Return the record of a command, a multiple of 8 bytes long."""
-    parts = [b""]
-    for operation in command:
+    match command:
+        case Write(operations):
+            return _record(WRITE, _operations(operations), len(operations))
+        case Force(path, data):
+            name = path.encode()
+            return _record(_FORCED, _FORCE.pack(len(name), len(data)) + name + data)
+        case Release(path):
+            name = path.encode()
+            return _record(_RELEASED, _FORCE.pack(len(name), 0) + name)
+        case Control(action, argument):
+            return _record(_CONTROLLED, _CONTROL.pack(argument), action.value)
+        case Sample(number, task_class, period_ns, spans):
+            head = _SAMPLE.pack(number, task_class, period_ns)
+            body = head + b"".join(_SPAN.pack(*span) for span in spans)
+            return _record(_SAMPLED, body, len(spans))
+        case Cancel(number):
+            return _record(_CANCELLED, _CANCEL.pack(number))
+
+
+def _record(kind: int, body: bytes, count: int = 0) -> bytes:
+    size = align_up(HEAD.size + len(body), 8)
+    head = HEAD.pack(size, kind, Outcome.WAITING.value, count, 0)
+    return head + body.ljust(size - HEAD.size, b"\0")
+
+
+def _operations(operations: Iterable[Operation]) -> bytes:
+    parts: list[bytes] = []
+    for operation in operations:
         match operation:
             case Store(address, data):
-                parts.append(_OPERATION.pack(address, len(data), _STORE) + data)
+                parts += OPERATION.pack(address, len(data), STORE), data
             case Mask(address, and_mask, or_mask):
-                masks = _MASK.pack(and_mask, or_mask)
-                parts.append(_OPERATION.pack(address, len(masks), _MASKED) + masks)
+                masks = MASKS.pack(and_mask, or_mask)
+                parts += OPERATION.pack(address, len(masks), MASK), masks
             case Scatter(addresses, data):
                 places = struct.pack(f"<{len(addresses)}I", *addresses)
                 size = len(places) + len(data)
-                parts += _OPERATION.pack(0, size, _SCATTERED), places, data
-    body = b"".join(parts)
-    size = align_up(HEAD.size + len(body), 8)
-    return HEAD.pack(size, len(command)) + body.ljust(size - HEAD.size, b"\0")
+                parts += OPERATION.pack(0, size, SCATTER), places, data
+    return b"".join(parts)
 
 
 def decode_command(record: bytes) -> Command:
@@ -118,29 +291,59 @@ def decode_command(record: bytes) -> Command:
     Raises:
         ValueError: the record makes no sense.
     """
-    size, count = HEAD.unpack_from(record)
+    size, kind, _, count, _ = HEAD.unpack_from(record)
     if size != len(record) or count > MAX_OPERATIONS:
         raise ValueError(f"record of {size} bytes with {count} operations")
+    try:
+        return _decode(kind, count, record)
+    except (struct.error, UnicodeDecodeError) as err:
+        raise ValueError(f"record of kind {kind}: {err}") from None
+
+
+def _decode(kind: int, count: int, record: bytes) -> Command:
+    if kind == WRITE:
+        return Write(_decode_operations(record, count))
+    if kind in (_FORCED, _RELEASED):
+        length, size = _FORCE.unpack_from(record, HEAD.size)
+        at = HEAD.size + _FORCE.size
+        path, data = record[at : at + length], record[at + length : at + length + size]
+        if len(path) != length or len(data) != size:
+            raise ValueError("record ends inside a tag")
+        return Force(path.decode(), data) if kind == _FORCED else Release(path.decode())
+    if kind == _CONTROLLED:
+        return Control(Action(count), *_CONTROL.unpack_from(record, HEAD.size))
+    if kind == _SAMPLED:
+        number, task_class, period_ns = _SAMPLE.unpack_from(record, HEAD.size)
+        if not number or period_ns < 0:
+            raise ValueError(f"samples with number {number} every {period_ns} ns")
+        at = HEAD.size + _SAMPLE.size
+        spans = tuple(_SPAN.unpack_from(record, at + i * _SPAN.size) for i in range(count))
+        return Sample(number, task_class, period_ns, spans)
+    if kind == _CANCELLED:
+        return Cancel(*_CANCEL.unpack_from(record, HEAD.size))
+    raise ValueError(f"record of kind {kind}")
+
+
+def _decode_operations(record: bytes, count: int) -> tuple[Operation, ...]:
     at = HEAD.size
     operations: list[Operation] = []
     for _ in range(count):
-        if at + _OPERATION.size > size:
-            raise ValueError("record ends inside an operation")
-        address, length, kind = _OPERATION.unpack_from(record, at)
-        at += _OPERATION.size
-        operations.append(_operation(address, kind, record[at : at + length], length))
+        address, length, kind = OPERATION.unpack_from(record, at)
+        at += OPERATION.size
+        data = record[at : at + length]
+        if len(data) != length:
+            raise ValueError("record ends inside its data")
+        operations.append(_operation(address, kind, data))
         at += length
     return tuple(operations)
 
 
-def _operation(address: int, kind: int, data: bytes, length: int) -> Operation:
-    if len(data) != length:
-        raise ValueError("record ends inside its data")
-    if kind == _STORE:
+def _operation(address: int, kind: int, data: bytes) -> Operation:
+    if kind == STORE:
         return Store(address, data)
-    if kind == _MASKED and length == _MASK.size:
-        return Mask(address, *_MASK.unpack(data))
-    if kind == _SCATTERED and length % 5 == 0:
-        count = length // 5
+    if kind == MASK and len(data) == MASKS.size:
+        return Mask(address, *MASKS.unpack(data))
+    if kind == SCATTER and len(data) % 5 == 0:
+        count = len(data) // 5
         return Scatter(struct.unpack_from(f"<{count}I", data), data[4 * count :])
-    raise ValueError(f"operation of kind {kind} with {length} bytes")
+    raise ValueError(f"operation of kind {kind} with {len(data)} bytes")

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import hashlib
 import json
+from bisect import bisect_right
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.tag import Tag, find_tag
@@ -33,31 +36,24 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Variables:
-    """The variables of one program: its name in plc.toml, PLC address, type."""
-
-    program: str
-    address: int
-    data_type: DataType[Any]
-
-
-@dataclass(frozen=True)
 class Directory:
     """What the image holds.
 
     Attributes:
         project: name of the project.
         cycle_ns: the shortest cycle time.
-        variables: of each program.
+        areas: all variables of each program as one tag, named by the program.
         spans: (PLC address, bytes) of what a snapshot holds, one after another.
         services: what each service was given by its extension, by table of plc.toml.
+        streams: bytes of the stream beside each ring, those of guests included.
     """
 
     project: str
     cycle_ns: int
-    variables: Sequence[Variables]
+    areas: Sequence[Tag]
     spans: Sequence[tuple[int, int]]
     services: Mapping[str, Any] = field(default_factory=dict)
+    streams: Sequence[int] = ()
 
     @property
     def bank_size(self) -> int:
@@ -70,10 +66,7 @@ class Directory:
         Raises:
             TagError: there is no such tag; the message offers names that are near.
         """
-        programs = {
-            v.program.upper(): Tag(v.program, v.data_type, v.address) for v in self.variables
-        }
-        return find_tag(path, programs)
+        return find_tag(path, {area.path.upper(): area for area in self.areas})
 
     def place_of(self, address: int, size: int) -> int:
         """Return where the bytes of a variable lie in a snapshot.
@@ -81,23 +74,30 @@ class Directory:
         Raises:
             ImageError: the snapshot does not hold them.
         """
-        start = 0
-        for first, length in self.spans:
-            if first <= address and address + size <= first + length:
-                return start + address - first
-            start += length
+        firsts, places = self._index
+        found = bisect_right(firsts, address) - 1
+        if found >= 0:
+            first, length, place = places[found]
+            if address + size <= first + length:
+                return place + address - first
         raise ImageError(f"the image does not hold address 16#{address:08X}")
+
+    @cached_property
+    def _index(self) -> tuple[list[int], list[tuple[int, int, int]]]:
+        """The spans by address, each with its place in a snapshot."""
+        places = accumulate((size for _, size in self.spans), initial=0)
+        rows = sorted((*span, place) for span, place in zip(self.spans, places, strict=False))
+        return [first for first, _, _ in rows], rows
 
     def to_bytes(self) -> bytes:
         """Return the directory as JSON."""
         text = {
             "project": self.project,
             "cycle_ns": self.cycle_ns,
-            "variables": [
-                [v.program, v.address, describe_type(v.data_type)] for v in self.variables
-            ],
+            "areas": [[a.path, describe_type(a.data_type), a.address] for a in self.areas],
             "spans": list(self.spans),
             "services": self.services,
+            "streams": list(self.streams),
         }
         return json.dumps(text, separators=(",", ":")).encode()
 
@@ -108,9 +108,10 @@ def directory_from(data: bytes) -> Directory:
     return Directory(
         text["project"],
         text["cycle_ns"],
-        [Variables(name, address, type_from(kind)) for name, address, kind in text["variables"]],
+        [Tag(path, type_from(kind), address) for path, kind, address in text["areas"]],
         [(address, size) for address, size in text["spans"]],
         text["services"],
+        text["streams"],
     )
 
 

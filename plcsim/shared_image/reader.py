@@ -1,15 +1,28 @@
-"""A service's side of the shared image: consistent copies out, commands in."""
+"""A service's side of the shared image: consistent copies and streams out, commands in."""
 
 from __future__ import annotations
 
 import mmap
 import os
+from typing import TYPE_CHECKING
 
 from plcsim.shared_image import layout
-from plcsim.shared_image.command import MAX_OPERATIONS, Command, encode_command, merged
+from plcsim.shared_image.command import (
+    MAX_OPERATIONS,
+    Command,
+    Outcome,
+    Sample,
+    Write,
+    encode_command,
+)
 from plcsim.shared_image.directory import directory_from, hash_of
 from plcsim.shared_image.errors import CommandRefused, ImageError, ImageNotReady
+from plcsim.shared_image.force_list import ForcedTag, read_forces
 from plcsim.shared_image.ring import Producer
+from plcsim.shared_image.stream import StreamReader
+
+if TYPE_CHECKING:
+    from plcsim.shared_image.command import Answer
 
 ATTEMPTS = 1000
 """To copy a snapshot. A copy fails only where the scan has published twice meanwhile."""
@@ -24,6 +37,7 @@ class ImageReader:
     Args:
         fd: the shared memory file.
         service: the table of plc.toml whose ring commands go into; "" for a reader only.
+        ring: number of a ring that the caller has taken (see `plcsim.shared_image.guest`).
 
     Attributes:
         directory: what the image holds.
@@ -33,11 +47,11 @@ class ImageReader:
         ImageError: the file is not an image of this version of plcsim.
     """
 
-    def __init__(self, fd: int, service: str = "") -> None:
+    def __init__(self, fd: int, service: str = "", *, ring: int | None = None) -> None:
         size = os.fstat(fd).st_size
         if size < layout.HEADER_SIZE:
             raise ImageNotReady("the scan process has not made the image yet")
-        view = memoryview(mmap.mmap(fd, size))
+        self._view = view = memoryview(mmap.mmap(fd, size))
         self._cells = view[: layout.HEADER_SIZE].cast("Q")
         if self._cells[layout.CELL_MAGIC] == 0:
             raise ImageNotReady("the scan process has not made the image yet")
@@ -48,15 +62,17 @@ class ImageReader:
         self._hash = hash_of(data)
         self._check_layout()
         self.directory = directory_from(data)
-        bank_size = self._cells[layout.CELL_BANK_SIZE]
-        regions = layout.regions(length, bank_size, self._cells[layout.CELL_RINGS])
-        self._banks = [view[at : at + bank_size] for at in regions.banks]
-        self._producer: Producer | None = None
+        bank_size = self.directory.bank_size
+        self._regions = layout.regions(length, bank_size, self.directory.streams)
+        self._banks = [view[at : at + bank_size] for at in self._regions.banks]
         if service:
-            number = list(self.directory.services).index(service)
-            at = regions.rings[number]
-            ring = view[at : at + layout.RING_SIZE]
-            self._producer = Producer(self._cells, ring, layout.ring_cells(number))
+            ring = list(self.directory.services).index(service)
+        self._number = ring
+        self._producer: Producer | None = None
+        if ring is not None:
+            at = self._regions.rings[ring]
+            place = view[at : at + layout.RING_SIZE]
+            self._producer = Producer(self._cells, place, layout.ring_cells(ring))
 
     def _check_layout(self) -> None:
         if self._cells[layout.CELL_HASH] != self._hash:
@@ -91,6 +107,40 @@ class ImageReader:
                 return number, data
         raise ImageError("the scan publishes faster than snapshots can be copied")
 
+    def forces(self) -> list[ForcedTag]:
+        """Return the forced tags, in the order in which they were forced.
+
+        Raises:
+            ImageError: the scan process has died while it wrote the list.
+        """
+        region = self._view[self._regions.forces :][: layout.FORCES_SIZE]
+        return read_forces(self._cells, region)
+
+    def events(self, *, from_oldest: bool = False) -> StreamReader:
+        """Return a reader of what happens: entries of the logbook and violations.
+
+        Args:
+            from_oldest: begin with what is still there, not with what comes next.
+        """
+        region = self._view[self._regions.events :][: layout.EVENTS_SIZE]
+        return StreamReader(self._cells, region, layout.EVENT_CELLS, from_oldest=from_oldest)
+
+    def samples(self) -> StreamReader:
+        """Return a reader of the samples that this service asks for from now on.
+
+        Raises:
+            ImageError: it has no stream.
+        """
+        size = 0 if self._number is None else self.directory.streams[self._number]
+        if self._number is None or not size:
+            raise ImageError("this reader has no stream of samples")
+        region = self._view[self._regions.streams[self._number] :][:size]
+        return StreamReader(self._cells, region, layout.stream_cells(self._number))
+
+    def samples_of(self, ring: int) -> int:
+        """Return how many requests for samples of a ring are served."""
+        return self._cells[layout.ring_cells(ring).samples]
+
     def send(self, command: Command) -> int:
         """Queue a command, to be applied whole in one LATCH; return its ticket.
 
@@ -101,14 +151,25 @@ class ImageReader:
         self._check_layout()
         if self._producer is None:
             raise CommandRefused("this reader has no ring")
-        command = merged(command)
-        if len(command) > MAX_OPERATIONS:
-            raise CommandRefused(f"a command of {len(command)} operations is too long")
+        count = 0
+        if isinstance(command, Write):
+            count = len(command.operations)
+        elif isinstance(command, Sample):
+            count = len(command.spans)
+        if count > MAX_OPERATIONS:
+            raise CommandRefused(f"a command of {count} operations is too long")
         return self._producer.put(encode_command(command))
 
-    def is_acknowledged(self, ticket: int) -> bool:
-        """Return True once the command is applied and the latest snapshot shows it."""
-        return self._producer is not None and self._producer.is_acknowledged(ticket)
+    def outcome(self, ticket: int) -> Outcome:
+        """Return what has become of a command so far; APPLIED once the latest snapshot shows it."""
+        return Outcome.WAITING if self._producer is None else self._producer.outcome(ticket)
+
+    def take_answer(self, ticket: int) -> Answer | None:
+        """Return the answer of a command, once; None while it waits.
+
+        Only the last few thousand answers that nobody took are kept.
+        """
+        return None if self._producer is None else self._producer.take_answer(ticket)
 
 
 class ScanWatch:

@@ -2,22 +2,35 @@
 
 Positions are counted in bytes and never wrap; a record lies in one piece, so the last bytes before
 the end of the ring may be filling. HEAD moves after the record is complete: a producer that dies in
-the middle of one leaves nothing behind. TAIL moves when the scan has applied a record *and*
-published a snapshot that shows it: that is the acknowledgement.
+the middle of one leaves nothing behind. The scan answers each record in its place, in any order;
+TAIL moves past those that are answered, in order. The answer of a record can be read until the
+producer needs the place again, so it takes note of it before.
 """
 
 from __future__ import annotations
 
+import struct
+from collections import OrderedDict, deque
 from typing import TYPE_CHECKING
 
-from plcsim.shared_image.command import HEAD
+from plcsim.shared_image.command import HEAD, OUTCOME_AT, Outcome, answer_of, outcome_of
 from plcsim.shared_image.errors import CommandRefused
 from plcsim.shared_image.layout import RING_SIZE
 
 if TYPE_CHECKING:
+    from plcsim.shared_image.command import Answer, Command
     from plcsim.shared_image.layout import RingCells
+    from plcsim.shared_image.stores import Plan
 
 LARGEST_RECORD = RING_SIZE // 2
+
+_FIELDS = struct.Struct("<IBxH")
+"""The first bytes of `HEAD`; filling may be too short for all of it."""
+
+_APPLIED = Outcome.APPLIED.value
+
+ANSWERS_KEPT = 4096
+"""Answers that nobody has asked for; the oldest are forgotten."""
 
 
 class Producer:
@@ -33,9 +46,11 @@ class Producer:
         self._cells = cells
         self._ring = ring
         self._at = at
+        self._open: OrderedDict[int, int] = OrderedDict()
+        self._answers: OrderedDict[int, bytes] = OrderedDict()
 
     def put(self, record: bytes) -> int:
-        """Queue a record and return its ticket for `is_acknowledged`.
+        """Queue a record and return its ticket.
 
         Raises:
             CommandRefused: there is no room, or the record is too large for any ring.
@@ -46,27 +61,92 @@ class Producer:
         head = self._cells[self._at.head]
         rest = RING_SIZE - head % RING_SIZE
         filling = rest if rest < size else 0
-        if head + filling + size - self._cells[self._at.tail] > RING_SIZE:
+        end = head + filling + size
+        if end - self._cells[self._at.tail] > RING_SIZE:
             raise CommandRefused("the ring of commands is full")
+        if end > RING_SIZE:
+            self._save_answers(end - RING_SIZE)
         if filling:
-            self._store(head, HEAD.pack(filling, 0))
+            self._store(head, HEAD.pack(filling, 0, 0, 0, 0)[:filling])
             head += filling
         self._store(head, record)
-        self._cells[self._at.head] = head + size
-        return head + size
+        self._open[head] = size
+        self._cells[self._at.head] = end
+        return head
 
     def _store(self, position: int, data: bytes) -> None:
         start = position % RING_SIZE
         self._ring[start : start + len(data)] = data
 
-    def is_acknowledged(self, ticket: int) -> bool:
-        """Return True once the command is applied and a snapshot shows it."""
-        return self._cells[self._at.tail] >= ticket
+    def _save_answers(self, below: int) -> None:
+        """Take note of the answers that lie where the next record shall."""
+        while self._open and next(iter(self._open)) < below:
+            position, size = self._open.popitem(last=False)
+            self._answers[position] = self._record(position, size)
+            if len(self._answers) > ANSWERS_KEPT:
+                self._answers.popitem(last=False)
+
+    def _record(self, position: int, size: int) -> bytes:
+        start = position % RING_SIZE
+        return bytes(self._ring[start : start + size])
+
+    def outcome(self, ticket: int) -> Outcome:
+        """Return what has become of a record so far."""
+        if ticket in self._open:
+            start = ticket % RING_SIZE
+            return outcome_of(self._ring[start : start + HEAD.size])
+        saved = self._answers.get(ticket)
+        return Outcome.APPLIED if saved is None else answer_of(saved).outcome
+
+    def take_answer(self, ticket: int) -> Answer | None:
+        """Return the answer of a record, once; None while it waits, or where it is forgotten."""
+        if ticket in self._answers:
+            return answer_of(self._answers.pop(ticket))
+        if ticket not in self._open or self.outcome(ticket) is Outcome.WAITING:
+            return None
+        return answer_of(self._record(ticket, self._open.pop(ticket)))
 
     @property
     def refused(self) -> int:
-        """Records that the scan found to make no sense; above 0 means a fault of plcsim."""
+        """Records that the scan could make nothing of; above 0 means a fault of plcsim."""
         return self._cells[self._at.refused]
+
+
+class Taken:
+    """A record that the scan has taken.
+
+    Attributes:
+        kind: of the command, 0 for filling.
+        count: of its operations.
+        place: the record in the ring, where its answer goes to.
+        end: position behind it.
+        is_answered: its place may be used again.
+        owners: of what it writes, as bits; noted by whoever took it, like the next two.
+        plan: of a `Write`.
+        command: another command.
+    """
+
+    __slots__ = ("command", "count", "end", "is_answered", "kind", "owners", "place", "plan")
+
+    def __init__(self, kind: int, count: int, place: memoryview[int], end: int) -> None:
+        self.kind = kind
+        self.count = count
+        self.place = place
+        self.end = end
+        self.is_answered = not kind
+        self.owners = 0
+        self.plan: Plan | None = None
+        self.command: Command | None = None
+
+    def answer(self, outcome: Outcome) -> None:
+        """Answer the record; what else is noted in it must be there already."""
+        self.place[OUTCOME_AT] = outcome.value
+        self.is_answered = True
+
+    def applied(self) -> None:
+        """Answer the record by `Outcome.APPLIED`."""
+        self.place[OUTCOME_AT] = _APPLIED
+        self.is_answered = True
 
 
 class Consumer:
@@ -76,35 +156,56 @@ class Consumer:
         self._cells = cells
         self._ring = ring
         self._at = at
-        self.position = cells[at.tail]
+        self._position = cells[at.tail]
+        self._taken: deque[Taken] = deque()
 
-    def peek(self) -> bytes | None:
-        """Return the next record without taking it, None where there is none."""
+    @property
+    def is_empty(self) -> bool:
+        """True where there is no record to take."""
+        return self._cells[self._at.head] == self._position
+
+    @property
+    def is_open(self) -> bool:
+        """True until all that was taken is answered and acknowledged."""
+        return bool(self._taken)
+
+    def take(self) -> Taken | None:
+        """Take the next record, None where there is none."""
         while True:
-            available = self._cells[self._at.head] - self.position
-            if available <= 0:
+            available = self._cells[self._at.head] - self._position
+            if available == 0:
                 return None
-            if available > RING_SIZE or available % 8:
-                self._drop_all()
-                return None
-            start = self.position % RING_SIZE
-            size, count = HEAD.unpack_from(self._ring, start)
-            if size < HEAD.size or size % 8 or size > min(available, RING_SIZE - start):
-                self._drop_all()
-                return None
-            if count:
-                return bytes(self._ring[start : start + size])
-            self.position += size
+            if not 0 < available <= RING_SIZE or available % 8:
+                break
+            start = self._position % RING_SIZE
+            size, kind, count = _FIELDS.unpack_from(self._ring, start)
+            end = start + size
+            least = HEAD.size if kind else 8
+            if size < least or size % 8 or size > available or end > RING_SIZE:
+                break
+            self._position += size
+            taken = Taken(kind, count, self._ring[start:end], self._position)
+            self._taken.append(taken)
+            if kind:
+                return taken
+        self._drop_all()
+        return None
 
     def _drop_all(self) -> None:
         """Forget what is queued: without a length there is no next record to be found."""
-        self.position = self._cells[self._at.head] & ~7
-        self.refuse()
-
-    def refuse(self) -> None:
-        """Count a record that makes no sense."""
+        self._position = self._cells[self._at.head] & ~7
+        self._taken.append(Taken(0, 0, self._ring[:0], self._position))
         self._cells[self._at.refused] += 1
 
-    def acknowledge(self, position: int) -> None:
-        """Say that everything before ``position`` is applied and shown."""
-        self._cells[self._at.tail] = position
+    def serving(self, samples: int) -> None:
+        """Show how many requests for samples are served."""
+        self._cells[self._at.samples] = samples
+
+    def acknowledge(self) -> bool:
+        """Let the producer use the places of what is answered again; return whether any was."""
+        taken, tail = self._taken, 0
+        while taken and taken[0].is_answered:
+            tail = taken.popleft().end
+        if tail:
+            self._cells[self._at.tail] = tail
+        return bool(tail)

@@ -117,6 +117,8 @@ def _checked(point: Point, value: float) -> bytes:
         point.maximum is not None and value > point.maximum
     ):
         raise IllegalValue(f"{point.tag}: {value} is outside its limits")
+    if point.values and value not in point.values:
+        raise IllegalValue(f"{point.tag}: {value} is none of its values")
     return _stored(point, value)
 
 

@@ -122,6 +122,7 @@ class Point:
         minimum: of a written value, in engineering units; None for what the variable can hold.
         maximum: likewise.
         partial: a write to some of its registers is allowed.
+        values: of an enumeration, the only ones that may be written; () for any.
     """
 
     tag: str
@@ -140,6 +141,7 @@ class Point:
     minimum: float | None = None
     maximum: float | None = None
     partial: bool = False
+    values: tuple[int, ...] = ()
 
     @property
     def is_writable(self) -> bool:
@@ -153,8 +155,8 @@ class Point:
 
     @property
     def is_limited(self) -> bool:
-        """True where the row narrows what may be written."""
-        return self.minimum is not None or self.maximum is not None
+        """True where not every value that the registers hold may be written."""
+        return self.minimum is not None or self.maximum is not None or bool(self.values)
 
     @property
     def is_plain(self) -> bool:
@@ -166,3 +168,8 @@ class Point:
     def to_json(self) -> dict[str, Any]:
         """Return the point as JSON's types."""
         return asdict(self)
+
+
+def point_from(values: dict[str, Any]) -> Point:
+    """Return the point of `Point.to_json`."""
+    return Point(**{**values, "values": tuple(values["values"])})

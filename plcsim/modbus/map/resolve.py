@@ -109,6 +109,7 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
         minimum=low,
         maximum=high,
         partial=row.partial,
+        values=_values(tag.data_type),
     )
     _check_place(row, point)
     return point
@@ -158,6 +159,12 @@ def _range_of(data_type: DataType[Any], code: str) -> tuple[int, int]:
         case EnumerationType(values=values):
             return min(values.values()), max(values.values())
     return INTEGER_RANGES[code]
+
+
+def _values(data_type: DataType[Any]) -> tuple[int, ...]:
+    """Return the values of an enumeration, () for any other type."""
+    resolved = resolve_alias(data_type)
+    return tuple(resolved.values.values()) if isinstance(resolved, EnumerationType) else ()
 
 
 def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | None]:

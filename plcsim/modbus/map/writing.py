@@ -2,15 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.modbus.map.conversion import from_registers, wire_order
 from plcsim.modbus.map.errors import IllegalAddress
 from plcsim.modbus.map.point import Area, Point
-from plcsim.shared_image.command import Command, Mask, Store
+from plcsim.shared_image.command import Mask, Store, merged
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+
+    from plcsim.shared_image.command import Operation
+
+
+class MapWrite(NamedTuple):
+    """A request, turned into stores.
+
+    Attributes:
+        operations: what is stored; adjoining stores are one.
+        points: the tags that are written, each once.
+    """
+
+    operations: Sequence[Operation]
+    points: Sequence[Point]
 
 
 class Writes:
@@ -29,20 +43,22 @@ class Writes:
             for address in range(point.offset, point.offset + point.registers):
                 used.setdefault(address, []).append(point)
 
-    def coils(self, address: int, bits: Sequence[bool]) -> Command:
-        """Return the command that writes coils.
+    def coils(self, address: int, bits: Sequence[bool]) -> MapWrite:
+        """Return what writes coils.
 
         Raises:
             IllegalAddress: one of them has no tag, or cannot be written.
         """
-        operations: list[Store | Mask] = []
+        operations: list[Operation] = []
+        points: list[Point] = []
         for coil, bit in enumerate(bits, address):
             for point in _writable(self._coils, coil):
+                points.append(point)
                 operations.append(Store(point.address, b"\1" if bit else b"\0"))
-        return tuple(operations)
+        return MapWrite(merged(operations), points)
 
-    def registers(self, address: int, data: bytes) -> Command:
-        """Return the command that writes holding registers.
+    def registers(self, address: int, data: bytes) -> MapWrite:
+        """Return what writes holding registers.
 
         Args:
             address: of the first register.
@@ -53,24 +69,25 @@ class Writes:
                 not all registers are written.
             IllegalValue: a tag cannot take its value.
         """
-        operations: list[Store | Mask] = []
+        operations: list[Operation] = []
         end = address + len(data) // 2
-        done: set[int] = set()
+        points: dict[int, Point] = {}
         for register in range(address, end):
             for point in _writable(self._registers, register):
-                if id(point) not in done:
-                    done.add(id(point))
+                if id(point) not in points:
+                    points[id(point)] = point
                     operations.extend(_stores(point, address, end, data))
-        return tuple(operations)
+        return MapWrite(merged(operations), list(points.values()))
 
-    def mask(self, address: int, and_mask: int, or_mask: int) -> Command:
-        """Return the command of function 22; the scan itself reads and changes the register.
+    def mask(self, address: int, and_mask: int, or_mask: int) -> MapWrite:
+        """Return what function 22 does; the scan itself reads and changes the register.
 
         Raises:
             IllegalAddress: the register holds neither bits nor a word of its own.
         """
-        operations: list[Store | Mask] = []
-        for point in _writable(self._registers, address):
+        operations: list[Operation] = []
+        points = _writable(self._registers, address)
+        for point in points:
             if point.bit >= 0:
                 if not and_mask >> point.bit & 1:
                     operations.append(Store(point.address, bytes([or_mask >> point.bit & 1])))
@@ -85,7 +102,7 @@ class Writes:
                     _swapped(or_mask) if swapped else or_mask,
                 )
             )
-        return tuple(operations)
+        return MapWrite(merged(operations), points)
 
 
 def _writable(used: dict[int, list[Point]], address: int) -> list[Point]:

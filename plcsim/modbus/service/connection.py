@@ -15,11 +15,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from plcsim.modbus.service.errors import Code, ModbusException
 from plcsim.modbus.service.handler import Handler, Waiting
 from plcsim.modbus.service.pdu import LONGEST_PDU, WRITE_FUNCTIONS, encode_exception
+from plcsim.shared_image import Outcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.modbus.service.device import Device
+    from plcsim.modbus.service.device import Device, PendingWrite
 
 _HEADER: Final = struct.Struct(">HHHB")
 WRITES_IN_FLIGHT: Final = 16
@@ -27,14 +28,6 @@ WRITES_IN_FLIGHT: Final = 16
 
 FULL_BUFFER: Final = 4096
 """Bytes that wait to be executed; above, no more should be read from the socket."""
-
-
-class WriteRecord(NamedTuple):
-    """A write that was answered, for the audit log; result 0 is success."""
-
-    unit: int
-    pdu: bytes
-    result: int
 
 
 @dataclass(frozen=True)
@@ -52,13 +45,12 @@ class _Frame(NamedTuple):
 
 
 class _Write(NamedTuple):
+    """A write that is not answered yet; one that was refused has its answer, and no write."""
+
     frame: _Frame
-    waiting: Waiting
+    write: PendingWrite | None
+    answer: Callable[[], bytes]
     until_ns: int
-
-
-def _ignore(_record: WriteRecord) -> None:
-    """Keep no audit log."""
 
 
 class Connection:
@@ -68,7 +60,7 @@ class Connection:
         handler: executes requests.
         device: tells when writes are done.
         limits: settings.
-        audit: told of every answered write.
+        now_ns: the present time.
 
     Attributes:
         fault: why the connection must be closed, "" while it is well.
@@ -76,21 +68,13 @@ class Connection:
         requests: how many came.
     """
 
-    def __init__(
-        self,
-        handler: Handler,
-        device: Device,
-        limits: Limits,
-        now_ns: int,
-        audit: Callable[[WriteRecord], None] = _ignore,
-    ) -> None:
+    def __init__(self, handler: Handler, device: Device, limits: Limits, now_ns: int) -> None:
         self.fault = ""
         self.last_request_ns = now_ns
         self.requests = 0
         self._handler = handler
         self._device = device
         self._limits = limits
-        self._audit = audit
         self._buffer = bytearray()
         self._writes: deque[_Write] = deque()
         self._blocked = False
@@ -102,7 +86,7 @@ class Connection:
 
     @property
     def is_waiting(self) -> bool:
-        """True while writes wait for the scan; `step` is to be called when it acknowledges."""
+        """True while writes wait for the scan; `step` is to be called when it has answered some."""
         return bool(self._writes)
 
     @property
@@ -161,47 +145,43 @@ class Connection:
     def _start(self, frame: _Frame, now_ns: int) -> bytes:
         result: bytes | Waiting
         if self._limits.unit_ids and frame.unit not in self._limits.unit_ids:
-            result = encode_exception(frame.pdu[0], Code.GATEWAY_TARGET_FAILED)
+            result = self._handler.refuse(frame.pdu, frame.unit, Code.GATEWAY_TARGET_FAILED)
         else:
-            result = self._handler.handle(frame.pdu)
+            result = self._handler.handle(frame.pdu, frame.unit)
         if isinstance(result, Waiting):
-            self._writes.append(_Write(frame, result, now_ns + self._limits.write_timeout_ns))
+            until_ns = now_ns + self._limits.write_timeout_ns
+            self._writes.append(_Write(frame, result.write, result.answer, until_ns))
             return b""
-        if frame.pdu[0] not in WRITE_FUNCTIONS:
-            return _framed(frame, result)
-        self._audit(WriteRecord(frame.unit, frame.pdu, result[1]))
         if not self._writes:
             return _framed(frame, result)
         # a refused write is answered after those before it
-        self._writes.append(_Write(frame, Waiting(0, lambda: result), now_ns))
+        self._writes.append(_Write(frame, None, lambda: result, now_ns))
         return b""
 
     def _finish_writes(self, now_ns: int) -> bytes:
         """Return the answers of the writes that are done, in order."""
         out = []
         while self._writes:
-            frame, waiting, until_ns = self._writes[0]
-            if not self._device.is_written(waiting.ticket):
-                if self._device.is_alive and now_ns < until_ns:
-                    break
-                alive = self._device.is_alive
-                code = Code.SERVER_DEVICE_BUSY if alive else Code.SERVER_DEVICE_FAILURE
-                answer = encode_exception(frame.pdu[0], code)
-            else:
-                answer = _answered(frame, waiting)
+            one = self._writes[0]
+            is_waiting = one.write is not None and one.write.outcome is Outcome.WAITING
+            if is_waiting and self._device.is_alive and now_ns < one.until_ns:
+                break
             self._writes.popleft()
-            if waiting.ticket:
-                is_error = answer[0] & 0x80
-                self._audit(WriteRecord(frame.unit, frame.pdu, answer[1] if is_error else 0))
-            out.append(_framed(frame, answer))
+            out.append(_framed(one.frame, self._answer(one)))
         return b"".join(out)
 
-
-def _answered(frame: _Frame, waiting: Waiting) -> bytes:
-    try:
-        return waiting.answer()
-    except ModbusException as err:
-        return encode_exception(frame.pdu[0], err.code)
+    def _answer(self, one: _Write) -> bytes:
+        """Return the answer of a write; one that was not taken in time may still be applied."""
+        outcome = Outcome.APPLIED if one.write is None else one.write.outcome
+        code = Code.SERVER_DEVICE_FAILURE
+        if outcome is Outcome.APPLIED:
+            try:
+                return one.answer()
+            except ModbusException as err:
+                code = err.code
+        elif outcome is Outcome.WAITING and self._device.is_alive:
+            code = Code.SERVER_DEVICE_BUSY
+        return encode_exception(one.frame.pdu[0], code)
 
 
 def _framed(frame: _Frame, pdu: bytes) -> bytes:

@@ -2,24 +2,88 @@
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from plcsim.core.system import State
+from plcsim.modbus.map.changes import changes
 from plcsim.modbus.map.errors import IllegalAddress, IllegalValue
 from plcsim.modbus.map.reading import Reads
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
 from plcsim.modbus.service.errors import Code, ModbusException
-from plcsim.shared_image import CommandRefused, ImageError, ImageNotReady, ScanWatch
+from plcsim.shared_image import (
+    CommandRefused,
+    ImageError,
+    ImageNotReady,
+    Outcome,
+    ScanWatch,
+    Write,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from plcsim.modbus.map.changes import Change
     from plcsim.modbus.map.point import Area, Point
-    from plcsim.shared_image import Command, Directory
+    from plcsim.modbus.map.writing import MapWrite
+    from plcsim.shared_image import Answer, Command, Directory
 
 STANDS_STILL: Final = "the scan stands still"
+
+
+class Origin(NamedTuple):
+    """Where a request came from.
+
+    Attributes:
+        peer: address and port.
+        role: of its certificate, "" for none.
+        unit: asked for.
+        function: the code of the request.
+    """
+
+    peer: str
+    role: str
+    unit: int
+    function: int
+
+
+@dataclass
+class PendingWrite:
+    """A write on its way through the scan.
+
+    Attributes:
+        ticket: of the shared image.
+        origin: where it came from.
+        write: what is stored where.
+        outcome: what has become of it, as far as `Device.collect` knows.
+    """
+
+    ticket: int
+    origin: Origin
+    write: MapWrite
+    outcome: Outcome = Outcome.WAITING
+
+
+class Audit(Protocol):
+    """Who is told of every write (`plcsim.modbus.service.audit`)."""
+
+    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+        """Note a write that the scan has applied."""
+
+    def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
+        """Note a write that was refused; nothing of it was or will be applied."""
+
+
+class _NoAudit:
+    """Keeps no log."""
+
+    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+        pass
+
+    def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
+        pass
 
 
 class Image(Protocol):
@@ -37,8 +101,8 @@ class Image(Protocol):
     def send(self, command: Command) -> int:
         """Queue a command, return its ticket."""
 
-    def is_acknowledged(self, ticket: int) -> bool:
-        """Return True once the latest snapshot shows the command."""
+    def take_answer(self, ticket: int) -> Answer | None:
+        """Return the answer of the command, once; None while it waits."""
 
 
 def no_status() -> ControllerStatus:
@@ -99,9 +163,11 @@ class Device:
     strict_holes: bool = False
     identity: Identity = field(default_factory=Identity)
     status: Callable[[], ControllerStatus] = no_status
+    audit: Audit = field(default_factory=_NoAudit)
     is_alive: bool = True
 
     def __post_init__(self) -> None:
+        self._pending: deque[PendingWrite] = deque()
         directory = self.image.directory
         self.reads = Reads(self.points, directory.place_of, strict_holes=self.strict_holes)
         self.writes = Writes(self.points)
@@ -135,11 +201,12 @@ class Device:
         except IllegalAddress as err:
             raise ModbusException(Code.ILLEGAL_DATA_ADDRESS, str(err)) from None
 
-    def write(self, make: Callable[[Writes], Command]) -> int:
-        """Queue a write, whole; return its ticket.
+    def write(self, make: Callable[[Writes], MapWrite], origin: Origin) -> PendingWrite:
+        """Queue a write, whole.
 
         Args:
-            make: turns the request into a command by the map.
+            make: turns the request into stores by the map.
+            origin: where the request came from.
 
         Raises:
             ModbusException: with the code for what is wrong; nothing is written.
@@ -147,7 +214,8 @@ class Device:
         if not self.is_alive:
             raise ModbusException(Code.SERVER_DEVICE_FAILURE, STANDS_STILL)
         try:
-            return self.image.send(make(self.writes))
+            write = make(self.writes)
+            ticket = self.image.send(Write(write.operations))
         except IllegalAddress as err:
             raise ModbusException(Code.ILLEGAL_DATA_ADDRESS, str(err)) from None
         except IllegalValue as err:
@@ -156,7 +224,25 @@ class Device:
             raise ModbusException(Code.SERVER_DEVICE_BUSY, str(err)) from None
         except ImageError as err:
             raise ModbusException(Code.SERVER_DEVICE_FAILURE, str(err)) from None
+        pending = PendingWrite(ticket, origin, write)
+        self._pending.append(pending)
+        return pending
 
-    def is_written(self, ticket: int) -> bool:
-        """Return True once the program has the write and the latest snapshot shows it."""
-        return self.image.is_acknowledged(ticket)
+    def collect(self) -> None:
+        """Look which writes the scan has answered, and log those that it has applied.
+
+        Whether their peer is still there makes no difference. To be called when the scan says that
+        it has answered some, and now and then.
+        """
+        waiting: deque[PendingWrite] = deque()
+        for pending in self._pending:
+            answer = self.image.take_answer(pending.ticket)
+            if answer is None:
+                waiting.append(pending)
+                continue
+            pending.outcome = answer.outcome
+            write = pending.write
+            if answer.outcome is Outcome.APPLIED and isinstance(answer.before, Write):
+                changed = changes(write.points, write.operations, answer.before.operations)
+                self.audit.applied(pending.origin, changed)
+        self._pending = waiting

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from plcsim.modbus.map.point import Area
 from plcsim.modbus.service import pdu as codec
+from plcsim.modbus.service.device import Origin
 from plcsim.modbus.service.errors import Code, ModbusException
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.modbus.map.writing import Writes
-    from plcsim.modbus.service.device import Device
-    from plcsim.shared_image import Command
+    from plcsim.modbus.map.writing import MapWrite, Writes
+    from plcsim.modbus.service.device import Device, PendingWrite
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Waiting:
     ``answer`` may raise ModbusException: the read of function 23 comes after its write.
     """
 
-    ticket: int
+    write: PendingWrite
     answer: Callable[[], bytes]
 
 
@@ -41,33 +41,54 @@ class Rights:
 
 
 class Handler:
-    """Executes the requests of one peer on a device."""
+    """Executes the requests of one peer on a device.
 
-    def __init__(self, device: Device, rights: Rights) -> None:
+    Args:
+        device: that is read and written.
+        rights: of the peer.
+        peer: address and port, for the audit log.
+        role: likewise.
+    """
+
+    def __init__(self, device: Device, rights: Rights, peer: str = "", role: str = "") -> None:
         self._device = device
         self._rights = rights
+        self._peer = peer
+        self._role = role
 
-    def handle(self, pdu: bytes) -> bytes | Waiting:
+    def handle(self, pdu: bytes, unit: int) -> bytes | Waiting:
         """Return the answer to a request, an exception response where it is refused."""
         if not self._rights.allow(pdu[0]):
-            return codec.encode_exception(pdu[0], Code.ILLEGAL_FUNCTION)
+            return self.refuse(pdu, unit, Code.ILLEGAL_FUNCTION)
         try:
-            return self._execute(codec.decode_request(pdu), pdu)
+            return self._execute(codec.decode_request(pdu), pdu, unit)
         except ModbusException as err:
-            return codec.encode_exception(pdu[0], err.code)
+            return self.refuse(pdu, unit, err.code)
 
-    def _execute(self, request: codec.Request, pdu: bytes) -> bytes | Waiting:
+    def refuse(self, pdu: bytes, unit: int, code: Code) -> bytes:
+        """Return an exception response; a write that is refused is noted."""
+        if pdu[0] in codec.WRITE_FUNCTIONS:
+            self._device.audit.refused(self._origin(pdu, unit), pdu, code)
+        return codec.encode_exception(pdu[0], code)
+
+    def _origin(self, pdu: bytes, unit: int) -> Origin:
+        return Origin(self._peer, self._role, unit, pdu[0])
+
+    def _execute(self, request: codec.Request, pdu: bytes, unit: int) -> bytes | Waiting:
+        origin = self._origin(pdu, unit)
         match request:
             case codec.Read(function, area, address, quantity):
                 return codec.encode_read(function, self._device.read(area, address, quantity))
             case codec.WriteCoils(_, address, bits):
-                return self._write(request, lambda writes: writes.coils(address, bits))
+                return self._write(request, origin, lambda writes: writes.coils(address, bits))
             case codec.WriteRegisters(_, address, data):
-                return self._write(request, lambda writes: writes.registers(address, data))
+                return self._write(request, origin, lambda writes: writes.registers(address, data))
             case codec.MaskWrite(_, address, and_mask, or_mask):
-                return self._write(request, lambda writes: writes.mask(address, and_mask, or_mask))
+                return self._write(
+                    request, origin, lambda writes: writes.mask(address, and_mask, or_mask)
+                )
             case codec.ReadWrite():
-                return self._read_write(request)
+                return self._read_write(request, origin)
             case codec.ReturnQueryData():
                 return pdu
             case codec.ReportServerId():
@@ -78,18 +99,19 @@ class Handler:
     def _write(
         self,
         request: codec.WriteCoils | codec.WriteRegisters | codec.MaskWrite,
-        make: Callable[[Writes], Command],
+        origin: Origin,
+        make: Callable[[Writes], MapWrite],
     ) -> Waiting:
-        return Waiting(self._device.write(make), lambda: codec.encode_write(request))
+        return Waiting(self._device.write(make, origin), lambda: codec.encode_write(request))
 
-    def _read_write(self, request: codec.ReadWrite) -> Waiting:
+    def _read_write(self, request: codec.ReadWrite, origin: Origin) -> Waiting:
         """Refuse before writing what could not be read afterwards."""
         device, area = self._device, Area.HOLDING_REGISTERS
         device.check_read(area, request.read_address, request.read_quantity)
-        ticket = device.write(lambda writes: writes.registers(request.address, request.data))
+        write = device.write(lambda writes: writes.registers(request.address, request.data), origin)
 
         def answer() -> bytes:
             data = device.read(area, request.read_address, request.read_quantity)
             return codec.encode_read(request.function, data)
 
-        return Waiting(ticket, answer)
+        return Waiting(write, answer)

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING
 
 from plcsim.host import descriptors
-from plcsim.modbus.map.point import Point
+from plcsim.modbus.map.point import point_from
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.service.audit import AuditLog
 from plcsim.modbus.service.device import Device, Identity
@@ -46,18 +46,19 @@ def _loop_factory() -> Callable[[], asyncio.AbstractEventLoop] | None:
 async def _serve(service: Service) -> None:
     image, given = service.image, service.given
     settings = settings_from(given["settings"])
-    device = Device(
-        image,
-        [Point(**point) for point in given["points"]],
-        settings.strict_holes,
-        Identity(revision=version("plcsim"), project=image.directory.project),
-        _status_reader(service.page, given["first_class"], image.layout_hash),
-    )
     descriptors.allow(settings.connections + descriptors.SPARE)
     stopped = asyncio.Event()
     asyncio.get_running_loop().add_reader(service.stop_fd, stopped.set)
     with AuditLog(settings.audit) as audit:
-        server = Server(device, settings, audit)
+        device = Device(
+            image,
+            [point_from(point) for point in given["points"]],
+            settings.strict_holes,
+            Identity(revision=version("plcsim"), project=image.directory.project),
+            _status_reader(service.page, given["first_class"], image.layout_hash),
+            audit,
+        )
+        server = Server(device, settings)
         await server.start(service.wake_fd)
         service.serving(
             f"serving {len(device.points)} tags on {place(settings.host, server.port)}"

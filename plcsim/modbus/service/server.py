@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.ports import remedy
-from plcsim.modbus.service.connection import Connection, Limits, WriteRecord
+from plcsim.modbus.service.connection import Connection, Limits
 from plcsim.modbus.service.handler import Handler, Rights
 from plcsim.modbus.service.listener import Listener, place
 from plcsim.modbus.service.tls import rights_of, role_of
@@ -22,7 +22,6 @@ from plcsim.modbus.service.tls import rights_of, role_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.modbus.service.audit import AuditLog
     from plcsim.modbus.service.device import Device
     from plcsim.modbus.settings import ModbusSettings
 
@@ -39,7 +38,6 @@ class Server:
     Args:
         device: what is served.
         settings: of [modbus].
-        audit: notes every write.
         now_ns: the clock of all timeouts.
 
     Attributes:
@@ -52,7 +50,6 @@ class Server:
         self,
         device: Device,
         settings: ModbusSettings,
-        audit: AuditLog,
         now_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
         self.device = device
@@ -65,7 +62,6 @@ class Server:
         timeout_ns = max(settings.write_timeout_ns, 3 * device.image.directory.cycle_ns)
         self.limits = Limits(frozenset(settings.unit_ids), timeout_ns)
         self.peers: set[_Peer] = set()
-        self._audit = audit
         self._networks = [ipaddress.ip_network(network) for network in settings.allow]
         self._listener: Listener | None = None
         self._ticker: asyncio.TimerHandle | None = None
@@ -103,6 +99,7 @@ class Server:
         self._pump_waiting()
 
     def _pump_waiting(self) -> None:
+        self.device.collect()
         for peer in [peer for peer in self.peers if peer.connection.is_waiting]:
             peer.pump()
 
@@ -124,6 +121,7 @@ class Server:
             self._listener.close()
         for peer in list(self.peers):
             peer.abort()
+        self.device.collect()
         await asyncio.sleep(0)
 
     def admits(self, host: str) -> bool:
@@ -150,10 +148,6 @@ class Server:
         roles = self.settings.tls.roles if self.settings.tls else {}
         rights = rights_of(role, roles)
         return replace(rights, may_write=rights.may_write and not self.settings.read_only)
-
-    def audited(self, peer: str, role: str, record: WriteRecord) -> None:
-        """Note a write."""
-        self._audit.write(peer, role, record)
 
     def _report(self, _loop: object, context: dict[str, Any]) -> None:
         """Take what asyncio would log, such as a failed handshake, without filling a disk."""
@@ -187,13 +181,8 @@ class _Peer(asyncio.Protocol):
         self._transport.set_write_buffer_limits(HIGH_WATER)
         server = self._server
         role = _role(transport) if server.settings.tls and server.settings.tls.roles else ""
-        self.connection = Connection(
-            Handler(server.device, server.rights_of(role)),
-            server.device,
-            server.limits,
-            server.now_ns(),
-            lambda record: server.audited(self.name, role, record),
-        )
+        handler = Handler(server.device, server.rights_of(role), self.name, role)
+        self.connection = Connection(handler, server.device, server.limits, server.now_ns())
         server.peers.add(self)
 
     def connection_lost(self, _exc: Exception | None) -> None:

@@ -171,6 +171,7 @@ class Modbus:
         answer = bytearray()
 
         def is_answered() -> bool:
+            device.collect()
             answer.extend(connection.step(plc.clock.now_ns()))
             return bool(answer or connection.fault)
 

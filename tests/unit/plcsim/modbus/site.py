@@ -2,15 +2,17 @@
 
 import os
 import struct
+from collections.abc import Sequence
 from pathlib import Path
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
 from plcsim.core.system import State
+from plcsim.modbus.map.changes import Change
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
 from plcsim.modbus.service.connection import Connection, Limits
-from plcsim.modbus.service.device import Device
+from plcsim.modbus.service.device import Audit, Device, Origin
 from plcsim.modbus.service.handler import Handler, Rights
 from plcsim.network import VirtualNetwork
 from plcsim.program.python.language import PythonCode
@@ -56,8 +58,28 @@ class Site(Program):
             self.echo = 999  # the program makes something else of it
 
 
+class Log:
+    """An audit log that remembers."""
+
+    def __init__(self) -> None:
+        self.applied_tags: list[Change] = []
+        self.refused_codes: list[tuple[str, int]] = []
+
+    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+        self.applied_tags += changed
+
+    def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
+        self.refused_codes.append((pdu.hex(), exception))
+
+
 class World:
-    def __init__(self, *, strict_holes: bool = False, limits: Limits | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        strict_holes: bool = False,
+        limits: Limits | None = None,
+        audit: Audit | None = None,
+    ) -> None:
         self.clock = VirtualClock()
         network = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
         setup = Setup([TaskClassSetup(1, MS, [ProgramSetup("p", PythonCode(Site))])])
@@ -67,10 +89,15 @@ class World:
         self._limits = limits or Limits()
         fd = make_file()
         ImageWriter(fd, self.plc, project="virtual", services={"modbus": None})
-        self.device = Device(ImageReader(fd, "modbus"), points, strict_holes)
+        self.device = Device(ImageReader(fd, "modbus"), points, strict_holes, audit=audit or Log())
         os.close(fd)
         self.plc.boot()
         self.plc.run(cycles=1)
+
+    def run_a_cycle(self) -> None:
+        """Let the scan do a cycle, and look what it has answered."""
+        self.plc.run(cycles=1)
+        self.device.collect()
 
     def connect(self, rights: Rights | None = None) -> Connection:
         handler = Handler(self.device, rights or Rights())
@@ -83,6 +110,7 @@ class World:
         while connection.is_waiting or connection.has_more:
             if connection.is_waiting and self.plc.run(cycles=1) is not State.RUN:
                 self.device.is_alive = False
+            self.device.collect()
             answers.append(connection.step(self.clock.now_ns()))
         return b"".join(answers)
 

@@ -1,5 +1,6 @@
 import os
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 
@@ -8,7 +9,7 @@ from plcsim.core.clock import VirtualClock
 from plcsim.network import VirtualNetwork
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
-from plcsim.shared_image import ImageReader, ImageWriter
+from plcsim.shared_image import ImageReader, ImageWriter, Outcome, Store, Write
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, REAL, STRING, UDINT, UINT, var
 
@@ -40,14 +41,33 @@ class Slow(Program):
 class World:
     """A controller on the virtual clock, its image, and both ends of it."""
 
-    def __init__(self, setup: Setup, services: dict[str, object]) -> None:
+    def __init__(
+        self,
+        setup: Setup,
+        services: dict[str, object],
+        exports: tuple[str, ...] = (),
+        streams: dict[str, int] | None = None,
+    ) -> None:
         self.clock = VirtualClock()
         network = VirtualNetwork(self.clock.now_ns).host("192.168.0.10")
         self.controller = make_controller(setup, network=network, clock=self.clock)
         self.fd = make_file()
-        self.writer = ImageWriter(self.fd, self.controller, project="test", services=services)
+        self.writer = ImageWriter(
+            self.fd,
+            self.controller,
+            project="test",
+            services=services,
+            exports=[self.controller.tags.find(path) for path in exports],
+            streams=streams,
+        )
         self.reader = ImageReader(self.fd, next(iter(services), ""))
         self.controller.boot()
+
+    def write(self, path: str, data: bytes) -> int:
+        return self.reader.send(Write((Store(self.address(path), data),)))
+
+    def is_applied(self, ticket: int) -> bool:
+        return self.reader.outcome(ticket) is Outcome.APPLIED
 
     def address(self, path: str) -> int:
         return self.controller.tags.find(path).address
@@ -68,9 +88,11 @@ Make = Callable[..., World]
 def make() -> Iterator[Make]:
     worlds: list[World] = []
 
-    def build(*classes: TaskClassSetup, services: tuple[str, ...] = ("modbus",)) -> World:
+    def build(
+        *classes: TaskClassSetup, services: tuple[str, ...] = ("modbus",), **options: Any
+    ) -> World:
         chosen = classes or (TaskClassSetup(1, MS, [ProgramSetup("fast", PythonCode(Fast))]),)
-        worlds.append(World(Setup(chosen), dict.fromkeys(services)))
+        worlds.append(World(Setup(chosen), dict.fromkeys(services), **options))
         return worlds[-1]
 
     yield build

@@ -1,13 +1,26 @@
+from collections.abc import Sequence
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plcsim.core.control import Action
 from plcsim.shared_image.command import (
+    HEAD,
+    Answer,
+    Cancel,
     Command,
+    Control,
+    Force,
     Mask,
     Operation,
+    Outcome,
+    Release,
+    Sample,
     Scatter,
     Store,
+    Write,
+    answer_of,
     decode_command,
     encode_command,
     merged,
@@ -25,27 +38,65 @@ operations = (
 )
 
 
-@given(st.lists(operations, max_size=20))
-def test_a_command_survives_its_record(command: list[Operation]) -> None:
-    record = encode_command(tuple(command))
+texts = st.text(max_size=30)
+numbers = st.integers(0, 2**16 - 1)
+commands = st.one_of(
+    st.lists(operations, max_size=20).map(lambda found: Write(tuple(found))),
+    st.builds(Force, texts, st.binary(max_size=40)),
+    st.builds(Release, texts),
+    st.builds(Control, st.sampled_from(Action), st.integers(-(2**63), 2**63 - 1)),
+    st.builds(
+        Sample,
+        st.integers(1, 2**32 - 1),
+        st.integers(0, 8),
+        st.integers(0, 2**63 - 1),
+        st.lists(st.tuples(addresses, addresses), max_size=20).map(tuple),
+    ),
+    st.builds(Cancel, st.integers(0, 2**32 - 1)),
+)
+
+
+@given(commands)
+def test_a_command_survives_its_record(command: Command) -> None:
+    record = encode_command(command)
     assert len(record) % 8 == 0
-    assert decode_command(record) == tuple(command)
+    assert decode_command(record) == command
+    assert answer_of(record) == Answer(Outcome.WAITING, 0, command)
 
 
-@given(st.binary(min_size=8, max_size=200))
+@given(st.binary(min_size=16, max_size=200))
 def test_any_bytes_are_a_command_or_a_value_error(record: bytes) -> None:
     try:
         command = decode_command(record)
     except ValueError:
         return
-    assert encode_command(command)[8:] == record[8 : len(encode_command(command))] or command == ()
+    assert decode_command(encode_command(command)) == command
+
+
+@given(st.binary(max_size=120), st.integers(1, 6), numbers)
+def test_any_body_of_any_kind_is_a_command_or_a_value_error(
+    body: bytes, kind: int, count: int
+) -> None:
+    size = 16 + -(-len(body) // 8) * 8
+    record = HEAD.pack(size, kind, 0, count, 0) + body.ljust(size - 16, b"\0")
+    try:
+        command = decode_command(record)
+    except ValueError:
+        return
+    assert decode_command(encode_command(command)) == command
+
+
+def test_an_outcome_says_whether_and_why_a_command_was_refused() -> None:
+    refused = [outcome for outcome in Outcome if outcome.is_refused]
+    assert len(refused) == len(Outcome) - 2
+    assert len({outcome.text for outcome in Outcome}) == len(Outcome)
 
 
 @given(st.lists(st.builds(Store, st.integers(0, 64), st.binary(min_size=1, max_size=8))))
 def test_merging_does_not_change_what_is_stored(stores: list[Store]) -> None:
-    def image(command: Command) -> bytearray:
+    def image(operations: Sequence[Operation]) -> bytearray:
         memory = bytearray(80)
-        for operation in command:
+        for operation in operations:
             if isinstance(operation, Scatter):
                 for address, value in zip(operation.addresses, operation.data, strict=True):
                     memory[address] = value

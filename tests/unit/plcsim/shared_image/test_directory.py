@@ -5,10 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.core.errors import TagError
+from plcsim.core.tag import Tag
 from plcsim.library.standard import TON
 from plcsim.shared_image.directory import (
     Directory,
-    Variables,
     describe_type,
     directory_from,
     hash_of,
@@ -74,7 +74,7 @@ def test_a_described_type_is_laid_out_the_same(data_type: DataType[object]) -> N
 
 def directory() -> Directory:
     kind = type_of(Everything)
-    return Directory("p", 5, [Variables("prog", 4096, kind)], [(4096, kind.size)], {"modbus": [1]})
+    return Directory("p", 5, [Tag("prog", kind, 4096)], [(4096, kind.size)], {"modbus": [1]}, [64])
 
 
 def test_a_directory_survives_its_bytes() -> None:
@@ -84,6 +84,7 @@ def test_a_directory_survives_its_bytes() -> None:
         one, two = before.find(path), after.find(path)
         assert (one.address, one.data_type.size) == (two.address, two.data_type.size)
     assert after.services == {"modbus": [1]}
+    assert after.streams == [64]
     assert after.to_bytes() == before.to_bytes()
 
 
@@ -112,9 +113,9 @@ def test_names_near_an_unknown_tag_are_offered_as_the_scan_process_offers_them()
 
 
 def test_the_place_of_a_variable_is_its_offset_in_the_snapshot() -> None:
-    two = Directory("p", 5, [], [(4096, 8), (8192, 16)])
-    assert two.place_of(4100, 4) == 4
-    assert two.place_of(8192, 16) == 8
+    two = Directory("p", 5, [], [(8192, 16), (4096, 8)])
+    assert two.place_of(4100, 4) == 20
+    assert two.place_of(8192, 16) == 0
     with pytest.raises(ImageError, match="16#00001008"):
         two.place_of(4104, 1)
     with pytest.raises(ImageError):

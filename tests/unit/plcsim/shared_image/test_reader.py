@@ -10,8 +10,9 @@ from plcsim.shared_image import (
     ImageError,
     ImageNotReady,
     ImageReader,
+    Mask,
     ScanWatch,
-    Store,
+    Write,
     layout,
 )
 from plcsim.shared_image.layout import make_file
@@ -60,13 +61,13 @@ def test_a_changed_layout_stops_reading_and_writing(world: World) -> None:
     with pytest.raises(ImageError, match="layout"):
         world.reader.copy(0, 4)
     with pytest.raises(ImageError, match="layout"):
-        world.reader.send((Store(world.address("fast.word"), b"\1\0"),))
+        world.write("fast.word", b"\1\0")
 
 
 def test_a_command_of_too_many_operations_is_refused(world: World) -> None:
     address = world.address("fast.word")
     with pytest.raises(CommandRefused, match="too long"):
-        world.reader.send(tuple(Store(address, b"\1\0") for _ in range(3000)))
+        world.reader.send(Write(tuple(Mask(address, 0, 1) for _ in range(3000))))
 
 
 def test_a_scan_that_stands_still_is_seen() -> None:

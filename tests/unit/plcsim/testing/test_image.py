@@ -9,7 +9,7 @@ from plcsim.core.controller import Controller
 from plcsim.project import assembly, extension
 from plcsim.project.assembly import Application
 from plcsim.project.extension import Attachment, Extension
-from plcsim.shared_image import writer
+from plcsim.shared_image import snapshot
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
@@ -88,9 +88,9 @@ def test_what_is_forced_is_what_extensions_see(open_with, installed):
     assert installed["steps"].seen == [70, 70]
 
 
-@pytest.mark.parametrize("limit", [writer.WHOLE_PROGRAMS, 0])
+@pytest.mark.parametrize("limit", [snapshot.WHOLE, 0])
 def test_one_with_a_service_is_attached_as_in_a_run(open_with, monkeypatch, limit):
-    monkeypatch.setattr(writer, "WHOLE_PROGRAMS", limit)
+    monkeypatch.setattr(snapshot, "WHOLE", limit)
     plc = open_with({"serves": "c"})
     image = plc.image.reader("serves")
     plc.cycles(2)

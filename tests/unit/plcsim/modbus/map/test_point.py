@@ -4,6 +4,7 @@ from dataclasses import replace
 import pytest
 
 from plcsim.modbus.map import Area, Point
+from plcsim.modbus.map.point import point_from
 
 WORD = Point("p.a", "hr", 0, 1, -1, "H", "ABCD", "rw", 4096, "H", 2)
 
@@ -46,9 +47,10 @@ def test_a_plain_point_holds_the_bytes_of_its_variable(
 def test_limits_and_access() -> None:
     assert not WORD.is_limited
     assert replace(WORD, minimum=0.0).is_limited
+    assert replace(WORD, values=(0, 1)).is_limited
     assert [replace(WORD, access=a).is_writable for a in ("ro", "rw", "wo")] == [False, True, True]
 
 
 def test_a_point_survives_json() -> None:
-    point = replace(WORD, maximum=9.5, scale=0.1)
-    assert Point(**json.loads(json.dumps(point.to_json()))) == point
+    point = replace(WORD, maximum=9.5, scale=0.1, values=(1, 5))
+    assert point_from(json.loads(json.dumps(point.to_json()))) == point

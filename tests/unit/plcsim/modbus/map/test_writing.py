@@ -8,8 +8,7 @@ from plcsim.modbus.map import Area, IllegalAddress, IllegalValue
 from plcsim.modbus.map.reading import Reads
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
-from plcsim.shared_image import Mask, Store
-from plcsim.shared_image.command import merged
+from plcsim.shared_image import Mask, Scatter, Store
 
 from ..plants import controller, points
 
@@ -28,7 +27,7 @@ def writes_of(*lines: str, order: str = "ABCD") -> Writes:
 def test_registers_become_stores_of_whole_variables() -> None:
     writes = writes_of("p.number,hr,0", "p.big,hr,1,,,,CDAB", "p.text,hr,3,,,2")
     data = bytes.fromhex("fb2e cdef89ab 68690000")
-    assert writes.registers(0, data) == (
+    assert writes.registers(0, data).operations == (
         Store(address("p.number"), struct.pack("<h", -1234)),
         Store(address("p.big"), struct.pack("<I", 0x89ABCDEF)),
         Store(address("p.text"), b"hi".ljust(10, b"\0")),
@@ -37,9 +36,11 @@ def test_registers_become_stores_of_whole_variables() -> None:
 
 def test_an_array_is_one_store() -> None:
     writes = writes_of(*(f"p.words[{i}],hr,{i}" for i in range(1, 124)))
-    assert len(merged(writes.registers(1, bytes(246)))) == 1
+    assert len(writes.registers(1, bytes(246)).operations) == 1
     coils = writes_of(*(f"p.bits[{i}],co,{i}" for i in range(32)))
-    assert merged(coils.coils(0, [True, False] * 16)) == (Store(address("p.bits"), b"\1\0" * 16),)
+    assert coils.coils(0, [True, False] * 16).operations == (
+        Store(address("p.bits"), b"\1\0" * 16),
+    )
 
 
 @pytest.mark.parametrize(
@@ -65,7 +66,7 @@ def test_what_cannot_be_written_whole_is_refused(lines: list[str], first: int, d
 
 def test_one_value_out_of_range_refuses_the_whole_write() -> None:
     writes = writes_of("p.number,hr,0", "p.percent,hr,1")
-    assert len(writes.registers(0, bytes.fromhex("00010064"))) == 2
+    assert len(writes.registers(0, bytes.fromhex("00010064")).operations) == 2
     with pytest.raises(IllegalValue, match="percent"):
         writes.registers(0, bytes.fromhex("00010065"))
 
@@ -76,9 +77,13 @@ def test_a_partial_tag_takes_a_register_in_every_order(order: str, register: int
     row = "p.vast,hr,0,,,,,,,,,,,1"
     writes = writes_of(row, order=order)
     PLC.tags.write(PLC.tags.find("p.vast"), 0)
-    for operation in writes.registers(register, b"\x12\x34"):
-        assert isinstance(operation, Store)
-        PLC.memory.write(*operation)
+    for operation in writes.registers(register, b"\x12\x34").operations:
+        if isinstance(operation, Scatter):
+            for place, value in zip(operation.addresses, operation.data, strict=True):
+                PLC.memory.write(place, bytes([value]))
+        else:
+            assert isinstance(operation, Store)
+            PLC.memory.write(*operation)
     reads = Reads(points(PLC, row, order=order), lambda a, _: a)
 
     class Memory:
@@ -92,16 +97,15 @@ def test_a_partial_tag_takes_a_register_in_every_order(order: str, register: int
 
 
 def test_bits_of_a_register_are_stored_one_by_one() -> None:
-    writes = writes_of("p.flag,hr,0,0", "p.other,hr,0,15")
-    assert writes.registers(0, b"\x80\x00") == (
-        Store(address("p.flag"), b"\0"),
-        Store(address("p.other"), b"\1"),
-    )
+    writes = writes_of("p.flag,hr,0,0", "p.bits[5],hr,0,15")
+    write = writes.registers(0, b"\x80\x00")
+    assert write.operations == (Scatter((address("p.flag"), address("p.bits[5]")), b"\0\1"),)
+    assert [point.tag for point in write.points] == ["p.flag", "p.bits[5]"]
 
 
 def test_coils_refuse_holes_and_what_is_read_only() -> None:
     writes = writes_of("p.flag,co,0", "p.other,co,1,,,,,ro", "p.bits[0],di,4")
-    assert writes.coils(0, [False]) == (Store(address("p.flag"), b"\0"),)
+    assert writes.coils(0, [False]).operations == (Store(address("p.flag"), b"\0"),)
     for first, bits in ((0, [True, True]), (2, [True]), (4, [True])):
         with pytest.raises(IllegalAddress):
             writes.coils(first, bits)
@@ -111,7 +115,7 @@ def test_coils_refuse_holes_and_what_is_read_only() -> None:
 def test_a_mask_follows_the_specification(word: int, and_mask: int, or_mask: int) -> None:
     expected = (word & and_mask) | (or_mask & ~and_mask & 0xFFFF)
     for order, swap in (("ABCD", False), ("BADC", True)):
-        (mask,) = writes_of("p.word,hr,0", order=order).mask(0, and_mask, or_mask)
+        (mask,) = writes_of("p.word,hr,0", order=order).mask(0, and_mask, or_mask).operations
         assert isinstance(mask, Mask)
         stored = int.from_bytes(word.to_bytes(2, "big"), "little" if swap else "big")
         result = mask.applied_to(stored)
@@ -120,9 +124,9 @@ def test_a_mask_follows_the_specification(word: int, and_mask: int, or_mask: int
 
 def test_a_mask_on_bits_touches_only_the_bits_it_names() -> None:
     writes = writes_of("p.flag,hr,0,0", "p.other,hr,0,1")
-    assert writes.mask(0, 0xFFFE, 0x0001) == (Store(address("p.flag"), b"\1"),)
-    assert writes.mask(0, 0xFFFD, 0x0000) == (Store(address("p.other"), b"\0"),)
-    assert writes.mask(0, 0xFFFF, 0xFFFF) == ()
+    assert writes.mask(0, 0xFFFE, 0x0001).operations == (Store(address("p.flag"), b"\1"),)
+    assert writes.mask(0, 0xFFFD, 0x0000).operations == (Store(address("p.other"), b"\0"),)
+    assert writes.mask(0, 0xFFFF, 0xFFFF).operations == ()
 
 
 @pytest.mark.parametrize(
@@ -137,14 +141,27 @@ def test_a_mask_needs_a_plain_word(row: str) -> None:
 
 def test_two_tags_at_one_address_are_both_written() -> None:
     writes = writes_of("p.number,hr,0", "p.count,hr,0,,,,,,,,,,1")
-    assert [o.address for o in writes.registers(0, b"\0\1")] == [
-        address("p.number"),
-        address("p.count"),
-    ]
+    write = writes.registers(0, b"\0\1")
+    assert [point.tag for point in write.points] == ["p.number", "p.count"]
+    assert address("p.count") == address("p.number") + 2  # so both are one store
+    assert write.operations == (Store(address("p.number"), b"\1\0\1\0"),)
 
 
 def test_an_enumeration_in_one_register_is_written_whole() -> None:
     writes = writes_of("p.mode,hr,0,,uint16")
-    assert writes.registers(0, b"\0\5") == (Store(address("p.mode"), struct.pack("<i", 5)),)
+    assert writes.registers(0, b"\0\5").operations == (
+        Store(address("p.mode"), struct.pack("<i", 5)),
+    )
     with pytest.raises(IllegalAddress):
         writes.mask(0, 0, 1)
+
+
+@pytest.mark.parametrize("columns", ["uint16", "", "int32", "float32"])
+def test_a_value_that_is_none_of_an_enumerations_is_refused(columns: str) -> None:
+    writes = writes_of(f"p.mode,hr,0,,{columns}")
+    code = {"uint16": ">H", "": ">i", "int32": ">i", "float32": ">f"}[columns]
+    (store,) = writes.registers(0, struct.pack(code, 5)).operations
+    assert store == Store(address("p.mode"), struct.pack("<i", 5))
+    for value in (9, 1, 2):
+        with pytest.raises(IllegalValue, match=r"p\.mode: .* is none of its values"):
+            writes.registers(0, struct.pack(code, value))

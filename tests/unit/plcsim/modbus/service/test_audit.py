@@ -1,56 +1,128 @@
+"""The audit log: what was applied, whoever asked; what was refused, apart and bounded."""
+
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from plcsim.modbus.map.changes import Change
 from plcsim.modbus.service import audit
-from plcsim.modbus.service.audit import AuditLog
-from plcsim.modbus.service.connection import WriteRecord
+from plcsim.modbus.service.audit import BURST, FILES, FILES_OF_REFUSED, HOSTS, AuditLog
+from plcsim.modbus.service.device import Origin
 
-RECORD = WriteRecord(1, bytes.fromhex("060004002a"), 0)
+ORIGIN = Origin("10.0.0.7:4711", "operator", 1, 6)
+CHANGE = Change("control.setpoint", 5.5, 5.0)
 
 
-def test_a_write_is_a_line(tmp_path: Path) -> None:
+def lines_of(file: Path) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in file.read_text().splitlines()]
+
+
+def test_a_write_is_a_line_with_each_tag_its_value_and_the_one_before(tmp_path: Path) -> None:
     file = tmp_path / "deep" / "audit.jsonl"
     with AuditLog(str(file)) as log:
-        log.write("10.0.0.7:4711", "operator", RECORD)
-        log.write("10.0.0.7:4711", "operator", RECORD._replace(result=3))
-    lines = [json.loads(line) for line in file.read_text().splitlines()]
-    assert [line["exception"] for line in lines] == [0, 3]
-    assert lines[0]["time"].endswith("+00:00")
-    del lines[0]["time"]
-    assert lines[0] == {
+        log.applied(ORIGIN, [CHANGE, Change("control.on", False, True)])
+    (line,) = lines_of(file)
+    assert line.pop("time").endswith("+00:00")
+    assert line == {
         "peer": "10.0.0.7:4711",
         "role": "operator",
         "unit": 1,
         "function": 6,
-        "pdu": "060004002a",
-        "exception": 0,
+        "tags": [
+            {"tag": "control.setpoint", "value": 5.5, "before": 5.0},
+            {"tag": "control.on", "value": False, "before": True},
+        ],
     }
 
 
-def test_a_full_file_is_kept_and_a_new_one_started(tmp_path: Path) -> None:
+def test_tags_that_had_the_value_already_are_counted(tmp_path: Path) -> None:
+    file = tmp_path / "audit.jsonl"
+    with AuditLog(str(file)) as log:
+        log.applied(ORIGIN, [CHANGE, *(Change(f"p.{n}", 1, 1) for n in range(7))])
+        log.applied(ORIGIN, [Change("p.a", 1, 1)])
+    one, two = lines_of(file)
+    assert (len(one["tags"]), one["unchanged"]) == (1, 7)
+    assert (two["tags"], two["unchanged"]) == ([], 1)
+
+
+def test_what_json_does_not_know_is_text(tmp_path: Path) -> None:
+    file = tmp_path / "audit.jsonl"
+    with AuditLog(str(file)) as log:
+        log.applied(ORIGIN, [Change("p.real", 0.5, float("nan"))])
+    assert lines_of(file)[0]["tags"][0]["before"] == "nan"
+
+
+def test_a_full_file_is_kept_and_so_are_older_ones(tmp_path: Path) -> None:
     file = tmp_path / "audit.jsonl"
     with AuditLog(str(file), largest=1000) as log:
-        for _ in range(50):
-            log.write("p", "", RECORD)
-    assert file.stat().st_size <= 1000
-    assert (tmp_path / "audit.jsonl.1").stat().st_size <= 1000
-    assert len(list(tmp_path.iterdir())) == 2
+        for number in range(200):
+            log.applied(ORIGIN, [Change("p.a", number + 1, number)])
+    files = [file, *(tmp_path / f"audit.jsonl.{n}" for n in range(1, FILES))]
+    assert set(tmp_path.iterdir()) == set(files)
+    assert all(each.stat().st_size <= 1000 for each in files)
+    values = [line["tags"][0]["value"] for each in reversed(files) for line in lines_of(each)]
+    assert values == list(range(201 - len(values), 201))
+
+
+def test_refused_writes_stand_apart_with_what_was_asked(tmp_path: Path) -> None:
+    file = tmp_path / "audit.jsonl"
+    with AuditLog(str(file)) as log:
+        log.refused(ORIGIN, bytes.fromhex("060004002a"), 3)
+    assert file.read_text() == ""
+    (line,) = lines_of(tmp_path / "audit-refused.jsonl")
+    assert (line["pdu"], line["exception"], line["peer"]) == ("060004002a", 3, "10.0.0.7:4711")
+
+
+def test_no_number_of_refused_writes_pushes_out_a_line_of_an_applied_one(tmp_path: Path) -> None:
+    now_ns = 0
+    file = tmp_path / "audit.jsonl"
+    with AuditLog(str(file), largest=1000, now_ns=lambda: now_ns) as log:
+        log.applied(ORIGIN, [CHANGE])
+        for number in range(5000):
+            now_ns += 100_000_000
+            log.refused(Origin(f"10.0.0.7:{number}", "", 1, 6), b"\6\0\0\0\1", 3)
+        log.applied(ORIGIN, [CHANGE])
+    assert len(lines_of(file)) == 2
+    assert len(list(tmp_path.iterdir())) == 1 + FILES_OF_REFUSED
+
+
+def test_of_one_host_only_so_many_are_noted_and_the_others_counted(tmp_path: Path) -> None:
+    now_ns = 0
+    with AuditLog(str(tmp_path / "a.jsonl"), now_ns=lambda: now_ns) as log:
+        for _ in range(BURST + 500):
+            log.refused(ORIGIN, b"\6", 3)
+        log.refused(ORIGIN._replace(peer="10.0.0.8:1"), b"\6", 3)
+        now_ns = 3 * audit.PAUSE_NS
+        for _ in range(5):
+            log.refused(ORIGIN, b"\6", 3)
+    lines = lines_of(tmp_path / "a-refused.jsonl")
+    assert [line["peer"] for line in lines].count("10.0.0.8:1") == 1
+    assert len(lines) == BURST + 1 + 3
+    assert [line["held_back"] for line in lines if "held_back" in line] == [500]
+
+
+def test_the_hosts_that_are_remembered_are_bounded(tmp_path: Path) -> None:
+    with AuditLog(str(tmp_path / "a.jsonl"), largest=1000) as log:
+        for number in range(3 * HOSTS):
+            log.refused(ORIGIN._replace(peer=f"[fe80::{number:x}]:1"), b"\6", 3)
+        assert len(log._hosts) == HOSTS
 
 
 def test_a_later_log_is_appended(tmp_path: Path) -> None:
     file = tmp_path / "audit.jsonl"
     for _ in range(2):
         with AuditLog(str(file)) as log:
-            log.write("p", "", RECORD)
-    assert len(file.read_text().splitlines()) == 2
+            log.applied(ORIGIN, [CHANGE])
+    assert len(lines_of(file)) == 2
 
 
 def test_without_a_file_nothing_is_written() -> None:
     with AuditLog("") as log:
-        log.write("p", "", RECORD)
+        log.applied(ORIGIN, [CHANGE])
+        log.refused(ORIGIN, b"\6", 3)
 
 
 def test_a_file_that_cannot_be_written_is_named_once(
@@ -58,15 +130,15 @@ def test_a_file_that_cannot_be_written_is_named_once(
 ) -> None:
     (tmp_path / "plain").touch()
     with AuditLog(str(tmp_path / "plain" / "audit.jsonl")) as log:
-        log.write("p", "", RECORD)
-        log.write("p", "", RECORD)
+        log.applied(ORIGIN, [CHANGE])
+        log.applied(ORIGIN, [CHANGE])
     assert capsys.readouterr().err.count("cannot be written") == 1
 
 
 def test_a_full_disk_does_not_stop_the_service(capsys: pytest.CaptureFixture[str]) -> None:
     with AuditLog("/dev/full") as log:
-        log.write("p", "", RECORD)
-        log.write("p", "", RECORD)
+        log.applied(ORIGIN, [CHANGE])
+        log.applied(ORIGIN, [CHANGE])
     assert capsys.readouterr().err.count("No space left") == 1
 
 
@@ -77,12 +149,11 @@ def test_after_the_disk_was_full_the_log_goes_on_and_says_what_is_missing(
     file.symlink_to("/dev/full")
     with AuditLog(str(file)) as log:
         for _ in range(3):
-            log.write("p", "", RECORD)
+            log.applied(ORIGIN, [CHANGE])
         file.unlink()
         for _ in range(2):
-            log.write("p", "", RECORD)
-        lines = [json.loads(line) for line in file.read_text().splitlines()]
-        assert [line.get("lost") for line in lines] == [3, None]
+            log.applied(ORIGIN, [CHANGE])
+        assert [line.get("lost") for line in lines_of(file)] == [3, None]
     assert capsys.readouterr().err.count("cannot be written") == 1
 
 
@@ -90,10 +161,9 @@ def test_half_a_line_is_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     file = tmp_path / "audit.jsonl"
     write = os.write
     with AuditLog(str(file)) as log:
-        log.write("p", "", RECORD)
+        log.applied(ORIGIN, [CHANGE])
         monkeypatch.setattr(audit.os, "write", lambda fd, data: write(fd, data[:20]))
-        log.write("p", "", RECORD)
+        log.applied(ORIGIN, [CHANGE])
         monkeypatch.setattr(audit.os, "write", write)
-        log.write("p", "", RECORD)
-    lines = [json.loads(line) for line in file.read_text().splitlines()]
-    assert [line.get("lost") for line in lines] == [None, 1]
+        log.applied(ORIGIN, [CHANGE])
+    assert [line.get("lost") for line in lines_of(file)] == [None, 1]

@@ -7,13 +7,10 @@ from hypothesis import strategies as st
 from plcsim.modbus.service.connection import (
     FULL_BUFFER,
     WRITES_IN_FLIGHT,
-    Connection,
     Limits,
-    WriteRecord,
 )
-from plcsim.modbus.service.handler import Handler, Rights
 
-from ..site import MS, World, frame, frames
+from ..site import MS, Log, World, frame, frames
 
 WORLD = World()
 READ = bytes.fromhex("03 0000 0001")
@@ -127,7 +124,7 @@ def test_writes_wait_for_the_scan_together_and_a_read_waits_for_them() -> None:
     assert peer.step(0) == b""
     assert peer.is_waiting
     assert not peer.has_more
-    world.plc.run(cycles=1)
+    world.run_a_cycle()
     assert peer.has_more is False
     answers = frames(peer.step(0))
     assert [f[0] for f in answers] == [1, 2, 3]
@@ -140,9 +137,9 @@ def test_only_so_many_writes_are_in_flight() -> None:
     peer.receive(b"".join(frame(write(i), i) for i in range(WRITES_IN_FLIGHT + 3)))
     peer.step(0)
     assert len(peer._writes) == WRITES_IN_FLIGHT
-    world.plc.run(cycles=1)
+    world.run_a_cycle()
     assert len(frames(peer.step(0))) == WRITES_IN_FLIGHT
-    world.plc.run(cycles=1)
+    world.run_a_cycle()
     assert len(frames(peer.step(0))) == 3
 
 
@@ -184,7 +181,7 @@ def test_a_full_ring_is_busy() -> None:
         peer.receive(b"".join(frame(write(i), i) for i in range(16)))
         answers += peer.step(0)
     for _ in range(250):
-        world.plc.run(cycles=1)
+        world.run_a_cycle()
         for peer in peers:
             answers += peer.step(0)
     codes = {pdu.hex() for _, _, pdu in frames(answers) if pdu[0] & 0x80}
@@ -199,18 +196,36 @@ def test_units_that_are_not_served_get_the_gateway_code() -> None:
     assert WORLD.ask(READ, unit=99)[:4] == "0302"
 
 
-def test_every_write_is_audited_with_its_result() -> None:
-    world = World()
-    records: list[WriteRecord] = []
-    plain = world.connect()
-    peer = Connection(plain._handler, world.device, Limits(), 0, records.append)
+def test_every_write_is_audited_once() -> None:
+    log = Log()
+    world = World(audit=log)
     pdus = [write(1), READ, write(101, 4), bytes.fromhex("17 0000 0001 0000 0001 02 0009")]
-    world.exchange(peer, b"".join(frame(pdu) for pdu in pdus))
-    assert sorted((r.pdu.hex(), r.result) for r in records) == [
-        ("0600000001", 0),
-        ("0600040065", 3),
-        ("170000000100000001020009", 0),
-    ]  # fmt: skip
+    world.exchange(world.connect(), b"".join(frame(pdu) for pdu in pdus))
+    assert log.applied_tags == [("p.words[1]", 1, 0), ("p.words[1]", 9, 1)]
+    assert log.refused_codes == [("0600040065", 3)]
+
+
+def test_a_write_whose_peer_has_gone_is_audited_all_the_same() -> None:
+    log = Log()
+    world = World(audit=log)
+    peer = world.connect()
+    peer.receive(frame(write(5)))
+    peer.step(0)
+    del peer
+    world.run_a_cycle()
+    assert log.applied_tags == [("p.words[1]", 5, 0)]
+
+
+def test_a_write_that_was_answered_busy_is_audited_when_it_is_applied() -> None:
+    log = Log()
+    world = World(audit=log, limits=Limits(write_timeout_ns=MS))
+    peer = world.connect()
+    peer.receive(frame(write(5)))
+    assert peer.step(0) == b""
+    assert frames(peer.step(2 * MS))[0][2].hex() == "8606"
+    assert log.applied_tags == []
+    world.run_a_cycle()
+    assert log.applied_tags == [("p.words[1]", 5, 0)]
 
 
 def test_the_last_request_is_remembered_but_not_half_of_one() -> None:
@@ -223,17 +238,16 @@ def test_the_last_request_is_remembered_but_not_half_of_one() -> None:
 
 
 def test_a_write_to_a_unit_that_is_not_served_is_audited_and_answered_in_its_turn() -> None:
-    world = World(limits=Limits(unit_ids=frozenset({1})))
-    records: list[WriteRecord] = []
-    handler = Handler(world.device, Rights())
-    limits = Limits(unit_ids=frozenset({1}))
-    peer = Connection(handler, world.device, limits, 0, records.append)
+    log = Log()
+    world = World(audit=log, limits=Limits(unit_ids=frozenset({1})))
+    peer = world.connect()
     peer.receive(frame(write(1), 1) + frame(write(2), 2, unit=9) + frame(write(3), 3))
     assert peer.step(0) == b""
-    world.plc.run(cycles=1)
+    world.run_a_cycle()
     answers = frames(peer.step(0))
     assert [(t, pdu.hex()[:4]) for t, _, pdu in answers] == [(1, "0600"), (2, "860b"), (3, "0600")]
-    assert sorted((r.unit, r.result) for r in records) == [(1, 0), (1, 0), (9, 11)]
+    assert log.applied_tags == [("p.words[1]", 1, 0), ("p.words[1]", 3, 1)]
+    assert log.refused_codes == [("0600000002", 11)]
 
 
 def test_a_write_takes_the_cycles_it_needs() -> None:

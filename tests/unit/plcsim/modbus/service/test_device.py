@@ -1,14 +1,28 @@
+from collections.abc import Sequence
+
 import pytest
 
 from plcsim.modbus.map import Area, IllegalAddress, IllegalValue, Point
+from plcsim.modbus.map.changes import Change
 from plcsim.modbus.map.status_block import FIRST, ControllerStatus
-from plcsim.modbus.service.device import Device, Identity, no_status
+from plcsim.modbus.service.device import Device, Identity, Origin, no_status
 from plcsim.modbus.service.errors import Code, ModbusException
-from plcsim.shared_image import CommandRefused, Directory, ImageError, ImageNotReady
+from plcsim.shared_image import (
+    Answer,
+    CommandRefused,
+    Directory,
+    ImageError,
+    ImageNotReady,
+    Outcome,
+    Store,
+    Write,
+)
 from plcsim.shared_image.command import Command
 
 HR = Area.HOLDING_REGISTERS
 POINT = Point("p.a", "hr", 0, 1, -1, "H", "ABCD", "rw", 4096, "H", 2)
+
+ORIGIN = Origin("127.0.0.1:9", "", 1, 6)
 
 
 class Image:
@@ -19,6 +33,7 @@ class Image:
 
     def __init__(self, error: Exception | None = None) -> None:
         self._error = error
+        self.answers: dict[int, Answer] = {}
 
     def copy(self, start: int, end: int) -> tuple[int, bytes]:
         if self._error:
@@ -28,16 +43,17 @@ class Image:
     def send(self, command: Command) -> int:
         if self._error:
             raise self._error
-        return len(command)
+        self.command = command
+        return 7
 
-    def is_acknowledged(self, ticket: int) -> bool:
-        return ticket > 0
+    def take_answer(self, ticket: int) -> Answer | None:
+        return self.answers.pop(ticket, None)
 
 
 def code_of(device: Device, *, write: bool = False, address: int = 0) -> Code:
     def ask() -> object:
         if write:
-            return device.write(lambda writes: writes.registers(address, b"\0\1"))
+            return device.write(lambda writes: writes.registers(address, b"\0\1"), ORIGIN)
         return device.read(HR, address, 1)
 
     with pytest.raises(ModbusException) as caught:
@@ -45,10 +61,44 @@ def code_of(device: Device, *, write: bool = False, address: int = 0) -> Code:
     return caught.value.code
 
 
-def test_a_register_is_read_and_written() -> None:
+class Log:
+    """An audit log that remembers."""
+
+    def __init__(self) -> None:
+        self.lines: list[tuple[Origin, list[Change]]] = []
+
+    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+        self.lines.append((origin, list(changed)))
+
+    def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
+        raise AssertionError("nobody was refused")
+
+
+def test_a_write_is_logged_when_the_scan_has_applied_it() -> None:
+    image, log = Image(), Log()
+    device = Device(image, [POINT], audit=log)
+    write = device.write(lambda writes: writes.registers(0, b"\0\1"), ORIGIN)
+    device.collect()
+    assert (write.outcome, log.lines) == (Outcome.WAITING, [])
+    image.answers[7] = Answer(Outcome.APPLIED, 5, Write((Store(POINT.address, b"\x09\0"),)))
+    device.collect()
+    device.collect()
+    assert write.outcome is Outcome.APPLIED
+    assert log.lines == [(ORIGIN, [Change("p.a", 1, 9)])]
+
+
+def test_a_write_that_the_scan_refused_is_not_logged_as_applied() -> None:
+    image, log = Image(), Log()
+    device = Device(image, [POINT], audit=log)
+    write = device.write(lambda writes: writes.registers(0, b"\0\1"), ORIGIN)
+    image.answers[7] = Answer(Outcome.NO_SUCH_ADDRESS, 0, Write(()))
+    device.collect()
+    assert (write.outcome, log.lines) == (Outcome.NO_SUCH_ADDRESS, [])
+
+
+def test_a_register_is_read() -> None:
     device = Device(Image(), [POINT])
     assert device.read(HR, 0, 1) == b"\x12\x34"
-    assert device.is_written(device.write(lambda writes: writes.registers(0, b"\0\1")))
 
 
 @pytest.mark.parametrize(

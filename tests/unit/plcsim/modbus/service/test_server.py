@@ -60,8 +60,8 @@ def serve(
     """Run a client against a server in one event loop."""
 
     async def run() -> Server:
-        with AuditLog(audit) as log:
-            server = Server(world.device, settings, log)
+        with AuditLog(audit) as world.device.audit:
+            server = Server(world.device, settings)
             await server.start()
             try:
                 await asyncio.wait_for(client(server), 20)
@@ -98,8 +98,24 @@ def test_writes_are_answered_and_audited(world: World, tmp_path: Path) -> None:
     audit = tmp_path / "audit.jsonl"
     serve(world, client, audit=str(audit))
     line = json.loads(audit.read_text())
-    assert line["pdu"] == "06000a0007"
+    assert line["tags"] == [{"tag": "p.words[3]", "value": 7, "before": 0}]
     assert line["peer"].startswith("127.0.0.1:")
+
+
+def test_a_write_whose_peer_resets_its_connection_is_audited(world: World, tmp_path: Path) -> None:
+    async def client(server: Server) -> None:
+        for number in range(1, 21):
+            with socket.create_connection(("127.0.0.1", server.port)) as peer:
+                linger = struct.pack("ii", 1, 0)
+                peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+                peer.sendall(frame(b"\x06\0\x0a" + struct.pack(">H", number)))
+            while world.tag("p.words[3]") != number:
+                await asyncio.sleep(0.001)
+
+    audit = tmp_path / "audit.jsonl"
+    serve(world, client, audit=str(audit))
+    lines = [json.loads(line) for line in audit.read_text().splitlines()]
+    assert [line["tags"][0]["value"] for line in lines] == list(range(1, 21))
 
 
 def test_a_peer_that_sends_no_more_still_gets_all_its_answers(world: World) -> None:
@@ -168,7 +184,7 @@ def test_only_the_allowed_networks_are_served(
 
 
 def test_an_ipv4_peer_of_an_ipv6_socket_is_known_by_its_ipv4_address(world: World) -> None:
-    server = Server(world.device, replace(SETTINGS, allow=("10.0.0.0/8",)), AuditLog(""))
+    server = Server(world.device, replace(SETTINGS, allow=("10.0.0.0/8",)))
     assert server.admits("::ffff:10.1.2.3")
     assert server.admits("10.1.2.3")
     assert not server.admits("::ffff:11.1.2.3")
@@ -248,7 +264,7 @@ def test_a_port_in_use_is_a_configuration_error(world: World) -> None:
         taken = replace(SETTINGS, port=server.port)
         text = f"modbus: cannot listen on 127.0.0.1:{server.port}: Address already in use$"
         with pytest.raises(ConfigurationError, match=text):
-            await Server(world.device, taken, AuditLog("")).start()
+            await Server(world.device, taken).start()
 
     serve(world, client)
 
@@ -261,7 +277,7 @@ def test_a_port_that_needs_rights_gets_the_remedy(
 
     async def start() -> None:
         low = replace(SETTINGS, port=502)
-        await Server(world.device, low, AuditLog("")).start()
+        await Server(world.device, low).start()
 
     monkeypatch.setattr(socket, "create_server", denied)
     with pytest.raises(ConfigurationError, match=r"127.0.0.1:502: 502 needs root.*port = 1502"):

@@ -7,7 +7,6 @@ import pytest
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.service import listener, tls
-from plcsim.modbus.service.audit import AuditLog
 from plcsim.modbus.service.server import Server
 from plcsim.modbus.service.tls import ROLE_OID, rights_of, role_of, server_context
 from plcsim.modbus.settings import ModbusSettings, TlsSettings
@@ -111,7 +110,7 @@ def answers(settings: TlsSettings, context: ssl.SSLContext, *pdus: str) -> list[
 
     async def run() -> list[str]:
         modbus = ModbusSettings(port=0, tls=settings)
-        server = Server(world.device, modbus, AuditLog(""))
+        server = Server(world.device, modbus)
         await server.start()
         try:
             reader, writer = await asyncio.open_connection("127.0.0.1", server.port, ssl=context)
@@ -195,7 +194,7 @@ def test_a_handshake_that_never_ends_takes_a_place_for_a_while_only(
     modbus = ModbusSettings(port=0, tls=settings_of(authority, {}), connections=3)
 
     async def run() -> None:
-        server = Server(world.device, modbus, AuditLog(""))
+        server = Server(world.device, modbus)
         await server.start()
         silent = [await asyncio.open_connection("127.0.0.1", server.port) for _ in range(3)]
         with pytest.raises((ssl.SSLError, ConnectionError)):  # the places are taken
@@ -222,7 +221,7 @@ def test_a_peer_outside_the_allowed_networks_gets_no_handshake(authority: Author
     modbus = ModbusSettings(port=0, tls=settings_of(authority, {}), allow=("10.0.0.0/8",))
 
     async def run() -> None:
-        server = Server(world.device, modbus, AuditLog(""))
+        server = Server(world.device, modbus)
         await server.start()
         reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
         assert await asyncio.wait_for(reader.read(), 5) == b""

@@ -1,0 +1,44 @@
+"""What an operator may ask of a controller: stop, pause, go on, single cycles, restart, speed.
+
+A request is made at any time of the scan and carried out between two cycles, by whoever runs the
+controller (`plcsim.process.operation`).
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+
+class Action(Enum):
+    """The acts; the controller's own words for them."""
+
+    STOP = 1
+    PAUSE = 2
+    CONTINUE = 3
+    CYCLES = 4
+    WARM_RESTART = 5
+    COLD_RESTART = 6
+    SPEED = 7
+
+
+AS_FAST_AS_POSSIBLE = 0
+"""The speed of a virtual clock that waits for nothing."""
+
+REAL_TIME = 1_000_000
+"""The speed of a virtual clock that runs as time does; 10 times this is ten times as fast."""
+
+
+class Request(NamedTuple):
+    """One request.
+
+    Attributes:
+        action: the act.
+        argument: of CYCLES, how many cycles of the class with the lowest number; of SPEED, in
+            millionths of `REAL_TIME`.
+        source: who asks, for the logbook.
+    """
+
+    action: Action
+    argument: int = 0
+    source: str = ""

@@ -1,0 +1,82 @@
+"""What a write has changed, tag by tag, from the bytes stored and those that were there before."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.shared_image.command import Mask, Scatter, Store
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from plcsim.modbus.map.point import Point
+    from plcsim.shared_image.command import Operation
+
+_ENCODING = "latin-1"
+
+
+class Change(NamedTuple):
+    """A tag that was written.
+
+    Attributes:
+        tag: path of the variable.
+        value: of the variable, not scaled; of a part of one its bytes in memory, as "16#...".
+        before: likewise.
+    """
+
+    tag: str
+    value: bool | float | str
+    before: bool | float | str
+
+
+def changes(
+    points: Iterable[Point], stored: Sequence[Operation], before: Sequence[Operation]
+) -> list[Change]:
+    """Return a change for each point, in order; a tag at several addresses is told once.
+
+    Args:
+        points: that the request named.
+        stored: its operations.
+        before: the same with what was there before (see `plcsim.shared_image.Answer`).
+    """
+    new, old = _bytes_of(stored, before)
+    found = {
+        point.address: Change(point.tag, _value(point, new), _value(point, old))
+        for point in points
+        if any(address in new for address in range(point.address, point.address + point.size))
+    }
+    return list(found.values())
+
+
+def _bytes_of(
+    stored: Sequence[Operation], before: Sequence[Operation]
+) -> tuple[dict[int, int], dict[int, int]]:
+    """Return the bytes by address: as stored, and as they were before the first store of each."""
+    new: dict[int, int] = {}
+    old: dict[int, int] = {}
+    for operation, earlier in zip(stored, before, strict=True):
+        match operation, earlier:
+            case Store(address, data), Store(_, was):
+                addresses: Sequence[int] = range(address, address + len(data))
+            case Scatter(addresses, data), Scatter(_, was):
+                pass
+            case Mask(address), Mask(_, word):
+                addresses, was = range(address, address + 2), word.to_bytes(2, "little")
+                data = operation.applied_to(word).to_bytes(2, "little")
+        new.update(zip(addresses, data, strict=True))
+        for place, value in zip(addresses, was, strict=True):
+            old.setdefault(place, value)
+    return new, old
+
+
+def _value(point: Point, found: dict[int, int]) -> bool | float | str:
+    places = range(point.address, point.address + point.size)
+    data = bytes(found[place] for place in places if place in found)
+    if len(data) < point.size:
+        return f"16#{data.hex().upper()}"
+    if point.kind == "s":
+        return data.partition(b"\0")[0].decode(_ENCODING)
+    value: bool | float
+    (value,) = struct.unpack("<" + point.code, data)
+    return value

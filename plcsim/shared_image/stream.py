@@ -1,0 +1,169 @@
+"""A stream: records in order, out of the scan to any number of readers, none of whom it waits for.
+
+The scan writes into a ring of bytes over the oldest records; a reader that is too slow loses those,
+and counts them by the gap in their numbers. Positions are counted in bytes and never wrap. Before
+the scan overwrites a record it moves TAIL past it; HEAD moves when a record is complete. So a
+reader copies what lies between the two and keeps what TAIL has not passed meanwhile.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from plcsim.shared_image.layout import StreamCells
+
+_HEAD = struct.Struct("<IIQq")
+"""Bytes of the record, itself and padding included; kind and bytes of padding; number; time."""
+
+_SIZE = struct.Struct("<I")
+"""The first field; 0 for what fills the end of the ring."""
+
+_KIND_BITS = 28
+_KIND = (1 << _KIND_BITS) - 1
+
+
+class Record(NamedTuple):
+    """One record of a stream.
+
+    Attributes:
+        kind: what it is, above 0.
+        number: 0 for the first of the stream.
+        time_ns: on the controller's clock, since its start.
+        data: as written.
+    """
+
+    kind: int
+    number: int
+    time_ns: int
+    data: bytes
+
+
+class StreamWriter:
+    """The scan's end.
+
+    Args:
+        cells: the header, as 64-bit numbers.
+        ring: the bytes of the stream, a multiple of 8.
+        at: which cells belong to it.
+    """
+
+    def __init__(self, cells: memoryview[int], ring: memoryview[int], at: StreamCells) -> None:
+        self._cells = cells
+        self._ring = ring
+        self._at = at
+        self._size = len(ring)
+        self._head = cells[at.head]
+        self._tail = cells[at.tail]
+        self._records = cells[at.records]
+
+    def write(self, kind: int, time_ns: int, data: bytes) -> None:
+        """Add a record; one that is longer than half the stream is lost, and counted."""
+        padding = -len(data) % 8
+        size = _HEAD.size + len(data) + padding
+        if 2 * size > self._size:
+            self._cells[self._at.too_long] += 1
+            return
+        start = self._make_room(size)
+        _HEAD.pack_into(
+            self._ring, start, size, padding << _KIND_BITS | kind, self._records, time_ns
+        )
+        self._ring[start + _HEAD.size : start + size - padding] = data
+        self._records += 1
+        self._head += size
+        self._cells[self._at.records] = self._records
+        self._cells[self._at.head] = self._head
+
+    def _make_room(self, size: int) -> int:
+        """Let go of the oldest records that lie where the next one shall; return its place."""
+        start = self._head % self._size
+        filling = self._size - start if start + size > self._size else 0
+        oldest = self._head + filling + size - self._size
+        if self._tail < oldest:
+            while self._tail < oldest:
+                place = self._tail % self._size
+                self._tail += _SIZE.unpack_from(self._ring, place)[0] or self._size - place
+            self._cells[self._at.tail] = self._tail
+        if filling:
+            _SIZE.pack_into(self._ring, start, 0)
+            self._head += filling
+            start = 0
+        return start
+
+
+class StreamReader:
+    """One reader's end; other arguments as for `StreamWriter`.
+
+    Args:
+        from_oldest: begin with what is still there; what is not counts as lost.
+    """
+
+    def __init__(
+        self,
+        cells: memoryview[int],
+        ring: memoryview[int],
+        at: StreamCells,
+        *,
+        from_oldest: bool = False,
+    ) -> None:
+        self._cells = cells
+        self._ring = ring
+        self._at = at
+        self._size = len(ring)
+        self._gaps = 0
+        self._too_long = 0 if from_oldest else cells[at.too_long]
+        # the head first: a record that is written meanwhile is read, and no gap
+        self._position = 0 if from_oldest else cells[at.head]
+        self._expected = 0 if from_oldest else cells[at.records]
+
+    @property
+    def lost(self) -> int:
+        """Records so far that were overwritten before they were read, or were too long."""
+        return self._gaps + self._cells[self._at.too_long] - self._too_long
+
+    def read(self, most: int = 1000) -> list[Record]:
+        """Return the records that are new, the oldest first.
+
+        Args:
+            most: records at once.
+        """
+        records: list[Record] = []
+        while len(records) < most:
+            part = self._read_part(most - len(records))
+            if not part:
+                break
+            records += part
+        return records
+
+    def _read_part(self, most: int) -> list[Record]:
+        """Return new records that lie in one piece; none where there are none."""
+        cells, at = self._cells, self._at
+        while True:
+            position = max(self._position, cells[at.tail])
+            head = cells[at.head]
+            if position >= head:
+                return []
+            start = position % self._size
+            data = bytes(self._ring[start : min(self._size, start + head - position)])
+            passed = max(0, cells[at.tail] - position)  # what was overwritten while we copied
+            found = self._parse(data, position, passed, most)
+            if found:
+                return found
+
+    def _parse(self, data: bytes, position: int, at: int, most: int) -> list[Record]:
+        """Return the records in ``data`` from ``at`` on, and go on behind them."""
+        found: list[Record] = []
+        while at < len(data) and len(found) < most:
+            (size,) = _SIZE.unpack_from(data, at)
+            if not size:
+                at = len(data)
+                break
+            size, kind, number, time_ns = _HEAD.unpack_from(data, at)
+            end = at + size - (kind >> _KIND_BITS)
+            found.append(Record(kind & _KIND, number, time_ns, data[at + _HEAD.size : end]))
+            self._gaps += max(0, number - self._expected)
+            self._expected = number + 1
+            at += size
+        self._position = position + at
+        return found
