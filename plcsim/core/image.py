@@ -29,11 +29,14 @@ class ProcessImage:
     Attributes:
         inputs: called in LATCH with the task class; here a plant model sets inputs.
         watchers: called in PUBLISH with the task class; here a recorder reads tags.
+        exchanges: called between two cycles, now and then while the controller is paused; here
+            commands of other processes are taken, and shown what they did.
     """
 
     def __init__(self, forces: Forces) -> None:
         self.inputs: list[Callable[[TaskClass], None]] = []
         self.watchers: list[Callable[[TaskClass], None]] = []
+        self.exchanges: list[Callable[[], None]] = []
         self._forces = forces
         self._scan: Scan | None = None
 

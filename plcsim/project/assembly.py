@@ -158,6 +158,7 @@ def assemble(
             controller,
             project=application.name,
             services={name: attached[name].for_service for name in services_of(given)},
+            streams={name: attachment.stream_size for name, attachment in attached.items()},
             exports=[tag for attachment in attached.values() for tag in attachment.exports],
             wake_fds=image.wake_fds,
         )

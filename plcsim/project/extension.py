@@ -31,10 +31,13 @@ class Attachment(NamedTuple):
     Attributes:
         for_service: what its service process is told, of JSON's types.
         exports: tags that a snapshot of the shared image must hold.
+        stream_size: bytes of the stream that carries samples to its service, 0 where it asks for
+            none; a second of samples should fit.
     """
 
     for_service: Any = None
     exports: Sequence[Tag] = ()
+    stream_size: int = 0
 
 
 class Extension(Protocol):

@@ -109,12 +109,13 @@ def read_project(path: Path) -> Project:
         classes = _task_classes(top.table("task_class"), plc.tick_ns)
     with findings.gathered():
         libraries = top.table("library").tables()
-    for name, extension in extensions().items():
+    for name in extensions():
+        if name not in top:
+            continue  # an extension that is not used is not imported
         with findings.gathered():
-            if name in top:
-                table = top.table(name)
-                settings[name] = extension.read(table)
-                table.finish()
+            table = top.table(name)
+            settings[name] = extensions()[name].read(table)
+            table.finish()
     name = plc.name or file.parent.resolve().name
     project = Project(file.parent, name, plc, classes, libraries, settings)
     with findings.gathered():

@@ -97,6 +97,7 @@ class ImageWriter:
         controller.forces.follow(self._show_forces)
         controller.image.inputs.append(self.latch)
         controller.image.watchers.append(self.publish)
+        controller.image.exchanges.append(self.exchange)
 
     def _lay_out(self, fd: int, wake_fds: Sequence[int]) -> None:
         directory = self.directory.to_bytes()
