@@ -62,7 +62,7 @@ class PackagePath:
                 folder / kind.value / f"{base}.{kind.value}",
                 folder / f"{base}.{kind.value}",
             ):
-                if file.is_file():
+                if _is_file(file):
                     return _read_text(file)
         return None
 
@@ -88,30 +88,58 @@ def _read_text(file: Path) -> str:
 
 
 def _find_packages(path: Path, depth: int) -> Iterator[tuple[str, Path]]:
-    """Yield name and folder of packages at ``path`` and below; no packages inside packages."""
+    """Yield name and folder of packages at ``path`` and below; no packages inside packages.
+
+    What may not be looked into holds nothing for us, as for ROS.
+    """
     if name := _package_name(path):
         yield name, path
-    elif depth and path.is_dir():
+    elif depth:
         for folder in sorted(_subfolders(path)):
             yield from _find_packages(folder, depth - 1)
 
 
 def _subfolders(path: Path) -> list[Path]:
     try:
-        return [p for p in path.iterdir() if p.is_dir() and not p.name.startswith(".")]
+        return [p for p in path.iterdir() if not p.name.startswith(".") and _is_folder(p)]
     except OSError:
-        return []  # a folder we may not read holds nothing for us
+        return []
 
 
 def _package_name(folder: Path) -> str | None:
     for manifest in ("package.xml", "manifest.xml"):
         file = folder / manifest
-        if file.is_file():
-            match = re.search(r"<name>\s*([A-Za-z]\w*)\s*</name>", _read_text(file), re.A)
-            return match[1] if match else folder.name
-    holds = any((folder / kind.value).is_dir() for kind in DefinitionKind)
-    return folder.name if holds or any(_flat_files(folder)) else None
+        if _is_file(file):
+            return _name_in(file) or folder.name
+    holds = any(_is_folder(folder / kind.value) for kind in DefinitionKind)
+    return folder.name if holds or _has_flat_files(folder) else None
 
 
-def _flat_files(folder: Path) -> Iterator[Path]:
-    return (file for kind in DefinitionKind for file in folder.glob(f"*.{kind.value}"))
+def _name_in(manifest: Path) -> str | None:
+    try:
+        match = re.search(r"<name>\s*([A-Za-z]\w*)\s*</name>", _read_text(manifest), re.A)
+    except DefinitionError:
+        return None
+    return match[1] if match else None
+
+
+def _has_flat_files(folder: Path) -> bool:
+    try:
+        return any(any(folder.glob(f"*.{kind.value}")) for kind in DefinitionKind)
+    except OSError:
+        return False
+
+
+def _is_file(path: Path) -> bool:
+    """Whether a file is there; one behind a folder that may not be searched is not, for us."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except OSError:
+        return False

@@ -3,11 +3,19 @@
 import io
 import json
 import sys
+from importlib.util import find_spec
 
 import genmsg
 import roslib.message
 from genmsg.gentools import compute_md5
 from genmsg.msg_loader import MsgContext, load_depends, load_msg_from_string
+
+
+def has_classes(package, suffix):
+    try:
+        return find_spec(f"{package}.{suffix}") is not None
+    except ModuleNotFoundError:
+        return False
 
 
 def md5_of_text(text):

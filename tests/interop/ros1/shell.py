@@ -12,20 +12,20 @@ from crosnode.graph.uri import parse_uri
 from crosnode.master.master import Master, OutgoingCall
 from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
-    Call,
     CallReceived,
-    Fault,
-    Limits,
-    Response,
+    MethodCall,
+    MethodFault,
+    MethodResponse,
     ResponseReceived,
     XmlRpcClientConnection,
+    XmlRpcLimits,
     XmlRpcServerConnection,
 )
 
 CHUNK = 700
 """Bytes per read, an odd number so that messages come in pieces."""
 
-Answerer = Callable[[Call], Response | Fault]
+Answerer = Callable[[MethodCall], MethodResponse | MethodFault]
 
 
 def flush(connection: Any, sock: socket.socket) -> None:
@@ -59,7 +59,7 @@ def call(uri: str, method: str, *params: object) -> Any:
     """Call a method over XML-RPC and return its value."""
     address = parse_uri(uri, "http")
     with dial(uri, "http") as sock:
-        connection = XmlRpcClientConnection(f"{address.host}:{address.port}", Limits(), 0)
+        connection = XmlRpcClientConnection(f"{address.host}:{address.port}", XmlRpcLimits(), 0)
         connection.call(method, params, time.monotonic_ns())
         event = next_event(connection, sock)
     assert isinstance(event, ResponseReceived), event
@@ -93,10 +93,10 @@ def xmlrpc_server(answer: Answerer) -> Iterator[int]:
     """Answer XML-RPC calls; yield the port."""
 
     def serve(sock: socket.socket) -> None:
-        connection = XmlRpcServerConnection(Limits(), time.monotonic_ns())
+        connection = XmlRpcServerConnection(XmlRpcLimits(), time.monotonic_ns())
         while isinstance(event := next_event(connection, sock), CallReceived):
-            reply = answer(Call(event.method, event.params))
-            if isinstance(reply, Fault):
+            reply = answer(MethodCall(event.method, event.params))
+            if isinstance(reply, MethodFault):
                 connection.fault(*reply)
             else:
                 connection.respond(reply.value)
@@ -113,7 +113,7 @@ def running_master() -> Iterator[str]:
     lock = threading.Lock()
     outgoing: queue.Queue[OutgoingCall] = queue.Queue()
 
-    def answer(request: Call) -> Response | Fault:
+    def answer(request: MethodCall) -> MethodResponse | MethodFault:
         with lock:
             reply, calls = masters[0].handle(request)
         for each in calls:

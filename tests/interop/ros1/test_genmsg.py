@@ -39,8 +39,10 @@ pytestmark = pytest.mark.skipif(not has_ros(), reason="Debian's ROS 1 packages a
 
 
 def installed(suffix: str) -> list[str]:
-    """Return the types of our common packages that Debian has too."""
-    packages = [folder.name for folder in SHARE.iterdir()]
+    """Return the types of our common packages that Debian has too, with their Python classes."""
+    folders = [folder.name for folder in SHARE.iterdir()]
+    known = ask([["has_classes", folder, suffix] for folder in folders])
+    packages = [folder for folder, has_classes in zip(folders, known, strict=True) if has_classes]
     files = (f for p in packages for f in (DEBIAN / p / suffix).glob(f"*.{suffix}"))
     return sorted(f"{file.parts[-3]}/{file.stem}" for file in files)
 

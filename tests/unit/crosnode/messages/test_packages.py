@@ -1,6 +1,9 @@
 """Definition files in the folder layouts of ROS, catkin, Debian and cROS."""
 
+import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -64,6 +67,39 @@ def test_hidden_and_deep_folders_are_left(tmp_path: Path) -> None:
     write(tmp_path / ".git/pkg/msg/Name.msg", "int32 x")
     write(tmp_path / "1/2/3/4/5/6/7/pkg/msg/Name.msg", "int32 x")
     assert PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE) is None
+
+
+@pytest.fixture
+def locked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that may be neither listed nor searched, whoever runs the test: root may all."""
+    folder = tmp_path / "locked"
+    write(folder / "pkg" / "msg" / "Name.msg", "int32 x")
+
+    def refusing(call: Callable[..., Any], *, itself: bool) -> Callable[..., Any]:
+        def checked(path: Any, *rest: Any, **options: Any) -> Any:
+            there = Path(path)
+            if folder in there.parents or (itself and there == folder):
+                raise PermissionError(13, "Permission denied", str(path))
+            return call(path, *rest, **options)
+
+        return checked
+
+    for name, itself in (("stat", False), ("listdir", True), ("scandir", True)):
+        monkeypatch.setattr(os, name, refusing(getattr(os, name), itself=itself))
+    return folder
+
+
+def test_a_folder_that_may_not_be_read_holds_nothing(tmp_path: Path, locked: Path) -> None:
+    write(tmp_path / "open" / "pkg" / "msg" / "Other.msg", "int32 y")
+    for path in (tmp_path, locked, locked / "pkg"):
+        assert PackagePath([path]).read("pkg/Name", DefinitionKind.MESSAGE) is None
+    assert PackagePath([tmp_path]).read("pkg/Other", DefinitionKind.MESSAGE) == "int32 y"
+
+
+def test_a_manifest_that_cannot_be_read_leaves_the_folder_its_name(tmp_path: Path) -> None:
+    write(tmp_path / "src" / "pkg" / "package.xml", "#" * (MAX_FILE_SIZE + 1))
+    write(tmp_path / "src" / "pkg" / "msg" / "Name.msg", "int32 x")
+    assert PackagePath([tmp_path]).read("pkg/Name", DefinitionKind.MESSAGE) == "int32 x"
 
 
 def test_large_file(tmp_path: Path) -> None:
