@@ -8,6 +8,7 @@ controller on the virtual clock (`make_controller`). A program of a test says wh
 import textwrap
 
 import pytest
+from hypothesis import settings
 
 from plcsim.core.clock import VirtualClock
 from plcsim.core.memory import PAGE
@@ -18,6 +19,9 @@ from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.program.setup import make_controller as controller_of
 
 MS = 1_000_000
+
+settings.register_profile("plcsim", deadline=None)  # how long it takes is not what tests ask
+settings.load_profile("plcsim")
 
 
 def _program_of(cyclic=None, **body):

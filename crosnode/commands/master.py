@@ -5,9 +5,14 @@ from __future__ import annotations
 import argparse
 from typing import Final
 
+from crosnode.commands.later import act_of
 from crosnode.graph.uri import DEFAULT_PORT
+from plcsim.core.duration import parse_duration_ns
 
-LONGEST_S: Final = 366 * 86_400
+EPILOG: Final = (
+    "It listens on the interface of its host: on loopback, where nothing else is said. "
+    "Exit codes: 0 ended by Ctrl-C or --for, 1 cannot listen, 2 wrong usage."
+)
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -17,8 +22,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "master",
         help=text,
         description=f"{text}.",
-        examples=(("plcsim master", "until Ctrl-C"), ("plcsim master --port 11411", "")),
-        epilog="Exit codes: 0 ended by Ctrl-C or --for, 1 cannot listen, 2 wrong usage.",
+        examples=(
+            ("plcsim master", "for this machine, until Ctrl-C"),
+            ("plcsim master --host 192.168.0.5", "for those who reach this address"),
+        ),
+        epilog=EPILOG,
     )
     parser.add_argument(
         "-p",
@@ -31,11 +39,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--host", metavar="NAME", help="name or number in its URI; ROS_HOSTNAME, ROS_IP, localhost"
     )
-    parser.add_argument("--bind", metavar="IP", default="", help="own interface, by default all")
     parser.add_argument(
-        "--for", dest="for_s", type=_seconds, metavar="SECONDS", help="end after this time"
+        "--bind", metavar="IP", help="own interface to listen on, by default that of the host"
     )
-    parser.set_defaults(func=_run)
+    parser.add_argument(
+        "--for", dest="for_ns", type=_duration, metavar="TIME", help='end after TIME, such as "60s"'
+    )
+    parser.set_defaults(func=act_of("crosnode.commands.serve_master", "run"))
 
 
 def _port(text: str) -> int:
@@ -44,18 +54,8 @@ def _port(text: str) -> int:
     return int(text)
 
 
-def _seconds(text: str) -> float:
+def _duration(text: str) -> int:
     try:
-        seconds = float(text)
-    except ValueError:
-        seconds = -1
-    if not 0 <= seconds <= LONGEST_S:
-        raise argparse.ArgumentTypeError(f"{text[:20]!r} is no number of seconds such as 60")
-    return seconds
-
-
-def _run(arguments: argparse.Namespace) -> int:
-    # Loaded here, so that other commands of plcsim start without it.
-    from crosnode.master.process import run  # noqa: PLC0415
-
-    return run(arguments)
+        return parse_duration_ns(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None

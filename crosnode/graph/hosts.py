@@ -12,7 +12,7 @@ from plcsim.network.protocol import is_ipv4
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-LOCAL: Final = {"localhost": "127.0.0.1"}
+LOCAL: Final = {"localhost": "127.0.0.1", "::1": "127.0.0.1"}
 
 
 def parse_hosts(text: str) -> dict[str, str]:
@@ -24,6 +24,15 @@ def parse_hosts(text: str) -> dict[str, str]:
             for name in names:
                 hosts.setdefault(name.lower(), ip)
     return hosts
+
+
+def own_interface(host: str) -> str:
+    """Return the address of the interface that others reach under a name, "" for all.
+
+    Of a name only others may know what it means: /etc/hosts of Debian gives the own name a loopback
+    address.
+    """
+    return host if is_ipv4(host) else LOCAL.get(host.lower(), "")
 
 
 class HostTable:

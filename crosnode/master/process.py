@@ -1,4 +1,4 @@
-"""A process that owns a master: what ``plcsim master`` runs, and `crosnode.plc.master_service`.
+"""A process that owns a master: ``plcsim master``, or the service of a project.
 
 It steps as fast as there is something to do and rests a millisecond where there is not.
 """
@@ -6,28 +6,20 @@ It steps as fast as there is something to do and rests a millisecond where there
 from __future__ import annotations
 
 import os
-import signal
-import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from crosnode.errors import InvalidNameError
-from crosnode.graph.hosts import parse_hosts
-from crosnode.graph.uri import make_uri, parse_uri
 from crosnode.master.server import MasterOptions, MasterServer, first_parameters
 from crosnode.transport.budget import UNPACED
 from plcsim.core.context import Context
-from plcsim.core.errors import ConfigurationError
 from plcsim.core.memory import Memory
 from plcsim.host import descriptors
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST, tcpERR_INTERFACE, tcpERR_SOCKET_BIND
 from plcsim.network import OsNetwork
 
 if TYPE_CHECKING:
-    import argparse
     from collections.abc import Callable, Mapping
-    from types import FrameType
 
 REST_S: Final = 0.001
 IDENTS: Final = 4096
@@ -52,14 +44,14 @@ class MasterProcess:
     Args:
         host: name or number in its URI.
         port: to listen at.
-        bind_ip: own interface to listen on, "" for all.
+        bind_ip: own interface to listen on, "" for all, None for that of ``host``.
         hosts: addresses of host names in the URIs of nodes.
 
     Attributes:
         server: the master.
     """
 
-    def __init__(self, host: str, port: int, bind_ip: str, hosts: Mapping[str, str]) -> None:
+    def __init__(self, host: str, port: int, bind_ip: str | None, hosts: Mapping[str, str]) -> None:
         descriptors.allow(IDENTS + descriptors.SPARE)
         self._context = Context(Memory(), OsNetwork(), {"AsTCP": {"idents": IDENTS}})
         pid = os.getpid()
@@ -80,7 +72,7 @@ class MasterProcess:
         """Why the port is not open, None where it is."""
         if self.server.is_open:
             return None
-        port, bind_ip = self.server.options.port, self.server.options.bind_ip
+        port, bind_ip = self.server.options.port, self.server.bind_ip
         return {
             tcpERR_ALREADY_EXIST: Refusal("port", f"{port} is in use"),
             tcpERR_SOCKET_BIND: Refusal(
@@ -111,48 +103,3 @@ class MasterProcess:
                 break
             time.sleep(REST_S)
         self.server.close()
-
-
-class _Stop:
-    """Set by SIGINT or SIGTERM."""
-
-    def __init__(self) -> None:
-        self.is_asked = False
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, self._ask)
-
-    def _ask(self, _number: int, _frame: FrameType | None) -> None:
-        self.is_asked = True
-
-
-def run(arguments: argparse.Namespace) -> int:
-    """Run ``plcsim master``; return the exit status.
-
-    Raises:
-        ConfigurationError: the port cannot be opened, or the host is none.
-    """
-    start_ns = time.monotonic_ns()
-    text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
-    host = _host(arguments.host)
-    stop = _Stop()
-    process = MasterProcess(host, arguments.port, arguments.bind, parse_hosts(text))
-    if process.refusal:
-        raise ConfigurationError(f"--{process.refusal.field}: {process.refusal.text}")
-    sys.stdout.write(f"ROS_MASTER_URI={process.server.uri}\n")
-    sys.stdout.flush()
-    until_ns = None if arguments.for_s is None else start_ns + int(arguments.for_s * 1e9)
-    process.run(lambda: not stop.is_asked, until_ns)
-    return 0
-
-
-def _host(given: str | None) -> str:
-    """Return the host of the URI: the argument, ROS_HOSTNAME, ROS_IP or localhost."""
-    found = {"--host": given} | {key: os.environ.get(key) for key in ("ROS_HOSTNAME", "ROS_IP")}
-    for name, host in found.items():
-        if host:
-            try:
-                return parse_uri(make_uri("http", host, 1), "http").host
-            except InvalidNameError:
-                text = f"{name}: {host[:100]!r} is no name or number of a host"
-                raise ConfigurationError(text) from None
-    return "localhost"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crosnode.graph.hosts import HostTable
+from crosnode.graph.hosts import HostTable, own_interface
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.master.master import Master, OutgoingCall
 from crosnode.transport.budget import StepBudget, StepLimits
@@ -39,7 +39,7 @@ class MasterOptions(NamedTuple):
     Attributes:
         host: name or number in its URI.
         port: to listen at.
-        bind_ip: own interface to listen on, "" for all.
+        bind_ip: own interface to listen on, "" for all, None for that of ``host``.
         pid: what getPid answers.
         parameters: what the parameter server holds at the start.
         hosts: addresses of host names in the URIs of nodes.
@@ -49,7 +49,7 @@ class MasterOptions(NamedTuple):
 
     host: str = "localhost"
     port: int = DEFAULT_PORT
-    bind_ip: str = ""
+    bind_ip: str | None = None
     pid: int = 0
     parameters: Mapping[str, Value] | None = None
     hosts: Mapping[str, str] | None = None
@@ -66,6 +66,7 @@ class MasterServer:
 
     Attributes:
         uri: where nodes reach it.
+        bind_ip: own interface it listens on, "" for all.
         master: the logic.
     """
 
@@ -74,7 +75,8 @@ class MasterServer:
         self._context = context
         self._loop = EventLoop(context, options.step)
         acceptor = ApiAcceptor(self, options.xmlrpc)
-        self._listener = self._loop.listen(options.bind_ip, options.port, acceptor)
+        self.bind_ip = own_interface(options.host) if options.bind_ip is None else options.bind_ip
+        self._listener = self._loop.listen(self.bind_ip, options.port, acceptor)
         self._api = ApiCaller(self._loop, HostTable(options.hosts), options.xmlrpc)
         self.uri = make_uri("http", options.host, options.port)
         self.master = Master(self.uri, options.pid, options.parameters)

@@ -10,7 +10,7 @@ import os
 from typing import TYPE_CHECKING, Final, TypeVar
 
 from crosnode.errors import InvalidNameError, NodeError
-from crosnode.graph.hosts import HostTable
+from crosnode.graph.hosts import HostTable, own_interface
 from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.core import NodeCore
@@ -20,7 +20,7 @@ from crosnode.node.parameter import ParameterSubscription, check_parameters
 from crosnode.node.publisher import Publisher, TopicAcceptor
 from crosnode.node.queues import DropOldestQueue
 from crosnode.node.registration import Registration
-from crosnode.node.ros_time import RosTime
+from crosnode.node.ros_time import Epoch, RosTime
 from crosnode.node.rosout import LogLevel, Rosout
 from crosnode.node.service_caller import ServiceCaller
 from crosnode.node.service_provider import ServiceAcceptor, ServiceProvider
@@ -32,6 +32,7 @@ from crosnode.transport.event_loop import EventLoop
 from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 from plcsim.core.statistics import Histogram
+from plcsim.library.astcp import tcpERR_INTERFACE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -98,7 +99,7 @@ class CrosNode:
         self._context = context
         self._names = settings.names
         self._open(settings.master_uri)
-        self._time = RosTime(self, self.options.epoch_ns)
+        self._time = RosTime(self, self.options.epoch or Epoch())
         self._rosout = Rosout(self)
         for key, value in settings.parameters.items():
             self.set_param(key, value)
@@ -109,12 +110,13 @@ class CrosNode:
         loop = EventLoop(self._context, options.step)
         slave = ApiAcceptor(SlaveApi(self), options.xmlrpc)
         topics, services = TopicAcceptor(self), ServiceAcceptor(self)
-        self._slave_listener = loop.listen(options.bind_ip, 0, slave)
-        self.topic_listener = loop.listen(options.bind_ip, 0, topics)
-        self._service_listener = loop.listen(options.bind_ip, 0, services)
+        bind_ip = own_interface(self.host) if options.bind_ip is None else options.bind_ip
+        self._slave_listener = loop.listen(bind_ip, 0, slave)
+        self.topic_listener = loop.listen(bind_ip, 0, topics)
+        self._service_listener = loop.listen(bind_ip, 0, services)
         for listener in loop.listeners:
             if not listener.open(now_ns):
-                raise NodeError(f"{self.name}: no port: AsTCP status {listener.status}.")
+                raise NodeError(f"{self.name}: {_no_port(bind_ip, listener.status)}.")
         self.uri = make_uri("http", self.host, self._slave_listener.port)
         hosts = HostTable(options.hosts)
         api = ApiCaller(loop, hosts, options.xmlrpc)
@@ -424,6 +426,13 @@ class CrosNode:
         if not self.is_closed:
             self.is_closed = True
             self.core.loop.close(now_ns)
+
+
+def _no_port(bind_ip: str, status: int) -> str:
+    """Return why a port cannot be opened."""
+    if status == tcpERR_INTERFACE:
+        return f'{bind_ip} is no address of this host; bind = "0.0.0.0" in [ros] listens on all'
+    return f"no port: AsTCP status {status}"
 
 
 def _drop(roles: dict[str, Role], name: str, role: Role) -> None:

@@ -11,6 +11,8 @@ from crosnode.xmlrpc import XmlRpcLimits
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from crosnode.node.ros_time import Epoch
+
 
 class NodeOptions(NamedTuple):
     """What a node may take and where it listens.
@@ -19,9 +21,9 @@ class NodeOptions(NamedTuple):
         step: bounds of one step.
         tcpros: bounds of a topic or service connection.
         xmlrpc: bounds of an XML-RPC connection.
-        bind_ip: own interface to listen on, "" for all.
+        bind_ip: own interface to listen on, "" for all, None for that of the node's host.
         hosts: addresses of host names.
-        epoch_ns: added to a release gives nanoseconds since 1970.
+        epoch: turns releases into nanoseconds since 1970, None for those that are so already.
         clock_ns: measures the step for ``statistics``; None measures nothing.
         beside: called between the steps of ``destroy``: an embedded master that must answer.
     """
@@ -29,8 +31,8 @@ class NodeOptions(NamedTuple):
     step: StepLimits = StepLimits()
     tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
     xmlrpc: XmlRpcLimits = XmlRpcLimits()
-    bind_ip: str = ""
+    bind_ip: str | None = None
     hosts: Mapping[str, str] | None = None
-    epoch_ns: int = 0
+    epoch: Epoch | None = None
     clock_ns: Callable[[], int] | None = None
     beside: Callable[[], None] | None = None

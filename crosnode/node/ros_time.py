@@ -15,22 +15,50 @@ if TYPE_CHECKING:
 
 CLOCK: Final = "rosgraph_msgs/Clock"
 
+QUICK_NS: Final = 50_000
+"""Nanoseconds that reading a clock takes at most, where nothing comes in between."""
+
+
+class Epoch:
+    """What turns the controller's clock into the time of day, for all nodes of a controller.
+
+    Attributes:
+        ns: added to a release gives nanoseconds since 1970.
+    """
+
+    __slots__ = ("ns",)
+
+    def __init__(self, ns: int = 0) -> None:
+        self.ns = ns
+
+    def follow(self, before_ns: int, wall_ns: int, after_ns: int) -> None:
+        """Take the wall clock's time, so that a clock that was set is followed.
+
+        Args:
+            before_ns: the controller's clock before the wall clock was read.
+            wall_ns: the wall clock, nanoseconds since 1970.
+            after_ns: the controller's clock afterwards; where too much time lies between the two,
+                the reading says too little and is not taken.
+        """
+        if after_ns - before_ns <= QUICK_NS:
+            self.ns = wall_ns - (before_ns + after_ns) // 2
+
 
 class RosTime:
     """Tells the time of ROS.
 
     Args:
         node: whose time it is.
-        epoch_ns: what is added to a release to give nanoseconds since 1970.
+        epoch: of its controller.
 
     Attributes:
         is_simulated: whether ``/use_sim_time`` is set; time is 0 until ``/clock`` comes.
     """
 
-    def __init__(self, node: CrosNode, epoch_ns: int) -> None:
+    def __init__(self, node: CrosNode, epoch: Epoch) -> None:
         self.is_simulated = False
         self._node = node
-        self._epoch_ns = epoch_ns
+        self._epoch = epoch
         self._simulated_ns = 0
         self._clock: Subscriber | None = None
         self._seen: QueuedMessage | None = None
@@ -39,7 +67,7 @@ class RosTime:
 
     def now_ns(self, release_ns: int) -> int:
         """Return nanoseconds since 1970, or of simulated time."""
-        return self._simulated_ns if self.is_simulated else self._epoch_ns + release_ns
+        return self._simulated_ns if self.is_simulated else self._epoch.ns + release_ns
 
     def step(self) -> None:
         """Ask the master once whether time is simulated, then follow ``/clock``."""

@@ -18,13 +18,13 @@ from crosnode.plc.conversion import tag_conversion
 from crosnode.plc.project import make_node, surroundings
 from crosnode.transport.budget import StepBudget
 from crosnode.transport.link import QUIET_TURNS
-from plcsim.core.errors import ConfigurationError, TagError
+from plcsim.core.errors import ConfigurationError, Findings, TagError
 from plcsim.core.logbook import Severity
 from st_types.errors import ValueRangeError
 from st_types.types.values import decode, encode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from crosnode.messages import Message
     from crosnode.node import CrosNode, Publisher, Status, Subscriber
@@ -65,19 +65,30 @@ class Bridge:
         assert found is not None
         settings = found.settings
         self._file = settings.file
-        self.node: CrosNode = make_node(controller.context, settings.node)
+        self.node: CrosNode = make_node(controller.context, settings.table.node)
         self.refused = 0
         self._repeated: Counter[StatusKind] = Counter()
         self._controller = controller
-        self._out = [self._made(Outgoing, "publish", entry) for entry in settings.publish]
-        self._in = [self._made(Incoming, "subscribe", entry) for entry in settings.subscribe]
+        findings = Findings()
+        self._out = self._made(findings, Outgoing, "publish", settings.table.publish)
+        self._in = self._made(findings, Incoming, "subscribe", settings.table.subscribe)
+        findings.check()
 
-    def _made(self, cls: Callable[[Controller, CrosNode, E], T], key: str, entry: E) -> T:
-        try:
-            return cls(self._controller, self.node, entry)
-        except (ConfigurationError, CrosnodeError, TagError) as error:
-            text = f"{self._file}: ros.{key}.{entry.topic}: {error}"
-            raise ConfigurationError(text) from None
+    def _made(
+        self,
+        findings: Findings,
+        cls: Callable[[Controller, CrosNode, str, E], T],
+        key: str,
+        topics: Mapping[str, E],
+    ) -> list[T]:
+        made = []
+        for topic, entry in topics.items():
+            try:
+                made.append(cls(self._controller, self.node, topic, entry))
+            except (ConfigurationError, CrosnodeError, TagError) as error:
+                text = f"{self._file}: ros.{key}.{topic}: {error}"
+                findings.add(ConfigurationError(text))
+        return made
 
     def latch(self) -> None:
         """Do the node's step, then give tags the newest messages."""
@@ -132,15 +143,18 @@ class Outgoing:
     Args:
         controller: whose tag it is.
         node: publishes it.
+        topic: name, resolved by the node.
         entry: of [ros.publish].
     """
 
-    def __init__(self, controller: Controller, node: CrosNode, entry: Publication) -> None:
-        self.name = entry.topic
+    def __init__(
+        self, controller: Controller, node: CrosNode, topic: str, entry: Publication
+    ) -> None:
+        self.name = topic
         self._tags = controller.tags
         self._tag = controller.tags.find(entry.tag)
         self._publisher: Publisher = node.register_publisher(
-            entry.topic, entry.type_name, latching=entry.on_change
+            topic, entry.type_name, latching=entry.on_change
         )
         found = self._publisher.message_type
         data_type = self._tag.data_type
@@ -175,12 +189,14 @@ class Outgoing:
 class Incoming:
     """A tag that takes the newest message of a topic; arguments as for ``Outgoing``."""
 
-    def __init__(self, controller: Controller, node: CrosNode, entry: Subscription) -> None:
-        self.name = entry.topic
+    def __init__(
+        self, controller: Controller, node: CrosNode, topic: str, entry: Subscription
+    ) -> None:
+        self.name = topic
         self._tags = controller.tags
         self._tag = controller.tags.find(entry.tag)
         self._subscriber: Subscriber = node.register_subscriber(
-            entry.topic, entry.type_name, queue_size=1
+            topic, entry.type_name, queue_size=1
         )
         found = self._subscriber.message_type
         self._conversion = tag_conversion(node.types, found, self._tag.data_type, self._tag.path)

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import CrosnodeError
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.messages import MessageTypes
+from crosnode.node.ros_time import Epoch
 from crosnode.plc.bridge import Bridge
 from crosnode.plc.master_watch import MasterWatch
-from crosnode.plc.project import MASTER_IP, Surroundings
+from crosnode.plc.project import MASTER_IP, Surroundings, surroundings
 from crosnode.plc.settings import RosSettings, read_settings
-from plcsim.core.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.project.extension import Attachment, Extension
 
 if TYPE_CHECKING:
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 HOSTS: Final = Path("/etc/hosts")
 LOOK_NS: Final = 500_000_000
-"""Nanoseconds between two looks at whether the programs' nodes have their master."""
+"""Nanoseconds between two looks at masters and at the wall clock."""
 
 CHECK_IP: Final = "192.168.0.10"
 """Of the controller of `RosExtension.check`, on a network with nobody else."""
@@ -40,12 +42,15 @@ class RosExtension(Extension):
     def read(self, table: Table) -> RosSettings:
         """Return the settings; the types of the bridge are looked up."""
         text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
-        settings = read_settings(table, table.folder, dict(os.environ), text)
+        settings = read_settings(table, dict(os.environ), text)
         types = MessageTypes(settings.packages)
-        for key, entries in (("publish", settings.publish), ("subscribe", settings.subscribe)):
-            for entry in entries:
+        findings = Findings()
+        keys = settings.table
+        for key, topics in (("publish", keys.publish), ("subscribe", keys.subscribe)):
+            for topic, entry in topics.items():
                 if misfit := _misfit(types, entry.type_name):
-                    raise table.error(f"{key}.{entry.topic}.type", misfit)
+                    findings.add(table.error(f"{key}.{topic}.type", misfit))
+        findings.check()
         return settings
 
     def in_process(self, settings: RosSettings, ip: str) -> RosSettings:
@@ -54,15 +59,13 @@ class RosExtension(Extension):
         On a virtual network all addresses are those of that network, and no ROS_* counts: an
         embedded master is at the controller's address, any other at ``MASTER_IP``.
         """
-        settings = settings._replace(is_in_process=True)
+        settings = replace(settings, is_in_process=True)
         if not ip:
             return settings
-        host, port = (
-            (ip, settings.master_port) if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
-        )
-        return settings._replace(
-            master_uri=make_uri("http", host, port), host=ip, bind_ip="", environment={}
-        )
+        own = (ip, settings.table.master_port)
+        host, port = own if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
+        uri = make_uri("http", host, port)
+        return replace(settings, master_uri=uri, host=ip, bind_ip=None, environment={})
 
     def service(self, settings: RosSettings) -> str:
         """Return the module of the embedded master, where it runs in a process of its own."""
@@ -72,19 +75,20 @@ class RosExtension(Extension):
 
     def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
         """Leave the settings for programs; step the bridge, and a master in the scan, with it."""
-        clock = controller.clock
-        epoch_ns = 0 if clock.is_virtual else time.time_ns() - clock.now_ns()
-        found = Surroundings(settings, epoch_ns, time.perf_counter_ns)
-        first = min(controller.classes, key=lambda each: each.cycle_ns)
+        clock, first = controller.clock, min(controller.classes, key=lambda each: each.cycle_ns)
+        found = Surroundings(settings, Epoch(), time.perf_counter_ns)
+        if not clock.is_virtual:
+            found.epoch.ns = time.time_ns() - clock.now_ns()
+            controller.image.watchers.append(_NowAndThen(controller, first, _follow_wall_clock))
         if settings.is_embedded and settings.is_in_process:
             found = found._replace(master=_master_in_scan(controller, first))
         controller.context.give_settings(found)
-        if settings.publish or settings.subscribe:
+        if settings.table.publish or settings.table.subscribe:
             step = _BridgeStep(controller, first, settings.file)
             step.bridge()  # its types are compiled before the first cycle
             controller.image.inputs.append(step.latch)
             controller.image.watchers.append(step.publish)
-        controller.image.watchers.append(_WatchStep(controller, first))
+        controller.image.watchers.append(_NowAndThen(controller, first, _watch_masters))
         return Attachment(_for_service(settings))
 
     def check(self, settings: RosSettings, controller: Controller) -> list[str]:
@@ -98,7 +102,7 @@ def _for_service(settings: RosSettings) -> dict[str, object]:
     return {
         "file": str(settings.file),
         "host": settings.host,
-        "port": settings.master_port,
+        "port": settings.table.master_port,
         "bind_ip": settings.bind_ip,
         "hosts": dict(settings.hosts),
     }
@@ -128,21 +132,42 @@ def _master_in_scan(
     return InProcessMaster
 
 
-class _WatchStep:
-    """Looks now and then whether the nodes of the programs have their master."""
+class _NowAndThen:
+    """Does something in PUBLISH of a task class, about twice a second.
 
-    def __init__(self, controller: Controller, task_class: TaskClass) -> None:
+    Args:
+        controller: whose class it is.
+        task_class: the fastest.
+        act: called with the controller.
+    """
+
+    def __init__(
+        self, controller: Controller, task_class: TaskClass, act: Callable[[Controller], None]
+    ) -> None:
         self._controller = controller
         self._class = task_class
+        self._act = act
         self._next_ns = 0
 
     def __call__(self, task_class: TaskClass) -> None:
-        context = self._controller.context
-        if task_class is not self._class or context.release_ns < self._next_ns:
-            return
-        self._next_ns = context.release_ns + LOOK_NS
-        for severity, text in context.library(MasterWatch).look(context.release_ns):
-            self._controller.log(severity, "ros", text)
+        now_ns = self._controller.context.release_ns
+        if task_class is self._class and now_ns >= self._next_ns:
+            self._next_ns = now_ns + LOOK_NS
+            self._act(self._controller)
+
+
+def _watch_masters(controller: Controller) -> None:
+    """Tell whether the nodes of the programs have their master."""
+    context = controller.context
+    for severity, text in context.library(MasterWatch).look(context.release_ns):
+        controller.log(severity, "ros", text)
+
+
+def _follow_wall_clock(controller: Controller) -> None:
+    """Let ROS time go with the host's time of day, which may be set while the PLC runs."""
+    found, clock = surroundings(controller.context), controller.clock
+    if found:
+        found.epoch.follow(clock.now_ns(), time.time_ns(), clock.now_ns())
 
 
 class _BridgeStep:

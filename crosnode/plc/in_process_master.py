@@ -28,7 +28,7 @@ class InProcessMaster(MasterServer):
             context,
             MasterOptions(
                 host=settings.host,
-                port=settings.master_port,
+                port=settings.table.master_port,
                 bind_ip=settings.bind_ip,
                 pid=os.getpid(),
                 parameters=first_parameters(f"plcsim-{os.getpid()}"),

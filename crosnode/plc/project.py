@@ -7,13 +7,16 @@ them; without a table [ros] the ROS_* environment counts.
 from __future__ import annotations
 
 import os
+import time
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.graph.arguments import NodeSettings, node_settings
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
+from crosnode.node.ros_time import Epoch
 from crosnode.plc.master_watch import MasterWatch
+from plcsim.network import OsNetwork, network_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,14 +35,14 @@ class Surroundings(NamedTuple):
 
     Attributes:
         settings: table [ros].
-        epoch_ns: added to a release gives nanoseconds since 1970.
+        epoch: turns releases into nanoseconds since 1970.
         clock_ns: measures steps.
         master: the embedded master, where it runs in the scan.
         beside: steps the other hosts of a test, which answer nothing while no cycle ends.
     """
 
     settings: RosSettings
-    epoch_ns: int
+    epoch: Epoch
     clock_ns: Callable[[], int]
     master: Callable[[Context], MasterServer] | None = None
     beside: Callable[[], None] | None = None
@@ -100,17 +103,28 @@ def make_node(
     options = NodeOptions() if step is None else NodeOptions(step=step)
     if found is None:
         settings = node_settings(name, arguments, os.environ, namespace=namespace, host="127.0.0.1")
+        options = options._replace(epoch=_epoch_now(context))
         return CrosNode(context, settings, context.library(SharedTypes), options)
     ros = found.settings
     options = options._replace(
         bind_ip=ros.bind_ip,
         hosts=ros.hosts,
-        epoch_ns=found.epoch_ns,
+        epoch=found.epoch,
         clock_ns=found.clock_ns,
         beside=partial(step_beside, context),
     )
     settings = _settings(ros, name, arguments, namespace)
     return CrosNode(context, settings, context.library(SharedTypes), options)
+
+
+def _epoch_now(context: Context) -> Epoch:
+    """Return the epoch of a controller whose clock only its releases tell."""
+    return Epoch(time.time_ns() - time.monotonic_ns() if is_real(context) else 0)
+
+
+def is_real(context: Context) -> bool:
+    """Whether a controller is on the host's network, and with it on the host's clock."""
+    return isinstance(network_of(context), OsNetwork)
 
 
 def step_beside(context: Context) -> None:
@@ -126,7 +140,8 @@ def _settings(
     ros: RosSettings, name: str, arguments: tuple[str, ...], namespace: str
 ) -> NodeSettings:
     """Return the node's settings; [ros] goes before the environment."""
-    given = [*ros.arguments, *arguments]
-    environment = {"ROS_NAMESPACE": ros.namespace} if ros.namespace else ros.environment
+    given = [*ros.table.arguments, *arguments]
+    own = ros.table.namespace
+    environment = {"ROS_NAMESPACE": own} if own else ros.environment
     found = node_settings(name, given, environment, namespace=namespace)
     return found._replace(master_uri=ros.master_uri, host=ros.host)

@@ -169,9 +169,7 @@ class Ros:
         host = self._new_host(ip or f"192.168.0.{next(self._numbers)}")
         environment = {"ROS_MASTER_URI": self._found.settings.master_uri}
         settings = node_settings(name, arguments, environment, host=host.ip)
-        options = NodeOptions(
-            epoch_ns=self._found.epoch_ns, beside=partial(step_beside, self._context)
-        )
+        options = NodeOptions(epoch=self._found.epoch, beside=partial(step_beside, self._context))
         node = CrosNode(host.context, settings, self._types, options)
         host.step = node.do_events_loop
         return node

@@ -4,11 +4,12 @@ from itertools import pairwise
 
 import pytest
 
-from crosnode.errors import InvalidNameError, MessageTypeError
-from crosnode.node import StatusKind
+from crosnode.errors import InvalidNameError, MessageTypeError, NodeError
+from crosnode.node import CrosNode, StatusKind
 from crosnode.transport.budget import StepLimits
 from crosnode.xmlrpc.api_caller import CallState
 from plcsim.library.astcp.idents import IdentTable
+from plcsim.network import Address, Outcome
 
 from .world import MS, OTHER_IP, PLC_IP, STRING, World, drain, news, words
 
@@ -292,3 +293,28 @@ def test_a_subscriber_taken_back_while_the_master_is_new_parts_from_its_publishe
     assert peer.life < listener.core.master.life
     listener.unregister(subscriber)
     world.until(lambda: not publisher.subscribers, 100)
+
+
+def test_a_node_is_reached_by_those_who_can_reach_its_host_and_no_others() -> None:
+    world = World()
+    here = world.node("here", environment={"ROS_IP": "127.0.0.1"})
+    there = world.node("there", OTHER_IP)
+    opened = world.node("opened", "192.168.0.21", environment={"ROS_IP": "127.0.0.1"}, bind_ip="")
+
+    def outcome(node: CrosNode, ip: str) -> Outcome:
+        socket = world.peer().open("", 0).socket
+        assert socket
+        port = int(node.uri.rstrip("/").rpartition(":")[2])
+        while (result := socket.connect(Address(ip, port))) is Outcome.WOULD_BLOCK:
+            world.run(1)
+        return result
+
+    assert outcome(here, PLC_IP) is Outcome.REFUSED
+    assert outcome(there, OTHER_IP) is Outcome.OK
+    assert outcome(opened, "192.168.0.21") is Outcome.OK
+
+
+def test_a_host_that_is_none_of_this_machine_is_named() -> None:
+    world = World()
+    with pytest.raises(NodeError, match=r"/n: 10\.1\.1\.1 is no address of this host; bind = "):
+        world.node("n", environment={"ROS_IP": "10.1.1.1"})

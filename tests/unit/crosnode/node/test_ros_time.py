@@ -1,12 +1,13 @@
 from crosnode.messages import Time
 from crosnode.node import StatusKind
+from crosnode.node.ros_time import Epoch
 
 from .world import MS, OTHER_IP, SECOND, World, drain, news
 
 
 def test_time_is_the_release_moved_to_the_epoch() -> None:
     world = World()
-    node = world.node("n", epoch_ns=10**18)
+    node = world.node("n", epoch=Epoch(10**18))
     world.run(7)
     assert node.now_ns == 10**18 + 7 * MS
 
@@ -17,7 +18,7 @@ def test_simulated_time_is_0_until_the_clock_comes_and_then_follows_it() -> None
     driver.set_param("/use_sim_time", True)
     clock = driver.register_publisher("/clock", "rosgraph_msgs/Clock")
     world.run(30)
-    node = world.node("n", epoch_ns=10**18)
+    node = world.node("n", epoch=Epoch(10**18))
     world.until(lambda: "/clock" in node.subscribers and node.subscribers["/clock"].publishers)
     assert node.now_ns == 0
     clock.send(clock.new(clock=Time(5, 250)))
@@ -57,7 +58,7 @@ def test_a_clock_of_another_type_is_told_and_time_stays_0() -> None:
     world = World()
     assert world.master
     world.master.master.set_param("/x", "/use_sim_time", True)
-    node = world.node("n", epoch_ns=10**18)
+    node = world.node("n", epoch=Epoch(10**18))
     node.register_subscriber("/clock", "std_msgs/Time")
     world.run(300)
     (refused,) = news(node, StatusKind.REGISTRATION_REFUSED)
@@ -80,3 +81,19 @@ def test_bytes_that_are_no_time_end_their_connection_only() -> None:
     clock.send(clock.new(clock=Time(9, 0)))
     world.run(5)
     assert node.now_ns == 9 * SECOND
+
+
+def test_a_wall_clock_that_is_set_is_followed() -> None:
+    world, epoch = World(), Epoch(10**18)
+    node = world.node("n", epoch=epoch)
+    world.run(7)
+    epoch.follow(world.now_ns, 2 * 10**18, world.now_ns + 10)
+    assert node.now_ns == 2 * 10**18 - 5
+    epoch.follow(world.now_ns, 10**18, world.now_ns)  # back again
+    assert node.now_ns == 10**18
+
+
+def test_a_reading_that_was_interrupted_says_nothing() -> None:
+    epoch = Epoch(10**18)
+    epoch.follow(0, 2 * 10**18, MS)
+    assert epoch.ns == 10**18

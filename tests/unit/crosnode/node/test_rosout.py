@@ -1,13 +1,14 @@
 import pytest
 
 from crosnode.node import LogLevel
+from crosnode.node.ros_time import Epoch
 
 from .world import OTHER_IP, World, drain
 
 
 def test_entries_go_to_rosout_with_time_and_topics() -> None:
     world = World()
-    node = world.node("n", epoch_ns=10**18)
+    node = world.node("n", epoch=Epoch(10**18))
     subscriber = world.node("l", OTHER_IP).register_subscriber("/rosout", "rosgraph_msgs/Log")
     node.log(LogLevel.ERROR, "broken \ud800", file="main.py", line=3, function="cyclic")
     world.until(lambda: subscriber.queue)

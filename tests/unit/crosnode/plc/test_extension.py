@@ -73,7 +73,7 @@ def test_programs_get_the_settings_and_the_master_runs_in_the_scan() -> None:
     assert node.statistics.last_ns > 0
     found = surroundings(plc.context)
     assert found
-    assert found.epoch_ns == 0
+    assert found.epoch.ns == 0
 
 
 def test_after_service_a_restart_makes_node_and_master_anew() -> None:
@@ -168,7 +168,7 @@ def test_on_a_virtual_network_addresses_are_its_own_and_no_environment_counts() 
     settings = EXTENSION.read(Table(Path("plc.toml"), "ros", values))
     moved = EXTENSION.in_process(settings, "192.168.0.10")
     assert moved.master_uri == "http://192.168.0.1:11311/"
-    assert (moved.host, moved.bind_ip, moved.namespace) == ("192.168.0.10", "", "/x")
+    assert (moved.host, moved.bind_ip, moved.table.namespace) == ("192.168.0.10", None, "/x")
     assert moved.environment == {}
 
 

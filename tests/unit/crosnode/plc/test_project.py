@@ -1,15 +1,17 @@
 """Nodes of programs in a project without a table [ros]: the environment counts."""
 
+import time
 from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
+from crosnode.node.ros_time import Epoch
 from crosnode.plc.project import SharedTypes, Surroundings, create_node, surroundings
 from crosnode.plc.settings import read_settings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
-from plcsim.network import VirtualNetwork
+from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.settings.table import Table
 
 
@@ -33,8 +35,8 @@ def test_the_namespace_of_the_table_goes_before_the_environment_that_before_the_
     def name(namespace: str, environment: Mapping[str, str]) -> str:
         context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
         values = {"namespace": namespace} if namespace else {}
-        settings = read_settings(Table(Path("plc.toml"), "ros", values), Path(), environment)
-        context.give_settings(Surroundings(settings, 0, lambda: 0))
+        settings = read_settings(Table(Path("plc.toml"), "ros", values), environment)
+        context.give_settings(Surroundings(settings, Epoch(), lambda: 0))
         return create_node(context, "x", namespace="/mine").name
 
     assert name("/table", {"ROS_NAMESPACE": "/desk"}) == "/table/x"
@@ -44,12 +46,22 @@ def test_the_namespace_of_the_table_goes_before_the_environment_that_before_the_
 
 def test_beside_a_node_in_exit_goes_on_what_a_test_has_there() -> None:
     context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
-    settings = read_settings(Table(Path("plc.toml"), "ros", {}), Path(), {})
+    settings = read_settings(Table(Path("plc.toml"), "ros", {}), {})
     steps: list[int] = []
-    found = Surroundings(settings, 0, lambda: 0)
+    found = Surroundings(settings, Epoch(), lambda: 0)
     context.give_settings(found)
     node = create_node(context, "x")
     context.give_settings(found._replace(beside=lambda: steps.append(1)))
     node.set_param("/a", 1)  # waits for the master
     node.destroy(steps=3)
     assert steps
+
+
+def test_without_a_table_time_is_that_of_the_host_on_its_network_and_0_on_a_virtual_one() -> None:
+    real = Context(Memory(), OsNetwork())
+    real.release_ns = time.monotonic_ns()
+    node = create_node(real, "x")
+    assert abs(node.now_ns - time.time_ns()) < 10**10
+    node.core.loop.close(0)
+    virtual = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+    assert create_node(virtual, "x").now_ns == virtual.release_ns

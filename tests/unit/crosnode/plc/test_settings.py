@@ -7,25 +7,21 @@ from crosnode.plc.settings import Publication, RosSettings, Subscription, read_s
 from plcsim.core.errors import ConfigurationError
 from plcsim.settings.table import Table
 
-FILE = Path("plc.toml")
-
 
 def read(
     values: Mapping[str, object],
     environment: Mapping[str, str] | None = None,
     folder: Path = Path(),
 ) -> RosSettings:
-    table = Table(FILE, "ros", values)
-    settings = read_settings(table, folder, environment or {}, "10.0.0.9 plant\n")
-    table.finish()
-    return settings
+    table = Table(folder / "plc.toml", "ros", values)
+    return read_settings(table, environment or {}, "10.0.0.9 plant\n")
 
 
 def test_defaults_are_those_of_ros() -> None:
     settings = read({})
     assert settings.master_uri == "http://localhost:11311/"
     assert settings.host == "127.0.0.1"
-    assert settings.namespace == ""
+    assert settings.table.namespace == ""
     assert not settings.is_embedded
     assert settings.hosts == {"plant": "10.0.0.9"}
 
@@ -34,9 +30,15 @@ def test_the_environment_counts_and_the_table_goes_before_it() -> None:
     environment = {"ROS_MASTER_URI": "http://a:1", "ROS_IP": "10.0.0.1", "ROS_NAMESPACE": "cell"}
     assert read({}, environment).master_uri == "http://a:1"
     assert read({}, environment).host == "10.0.0.1"
-    assert read({}, environment).namespace == ""  # that of the environment is the node's business
+    assert (
+        read({}, environment).table.namespace == ""
+    )  # that of the environment is the node's business
     settings = read({"master": "http://b:2", "host": "plc", "namespace": "/x"}, environment)
-    assert (settings.master_uri, settings.host, settings.namespace) == ("http://b:2", "plc", "/x")
+    assert (settings.master_uri, settings.host, settings.table.namespace) == (
+        "http://b:2",
+        "plc",
+        "/x",
+    )
 
 
 def test_an_embedded_master_has_the_uri_of_the_host() -> None:
@@ -59,8 +61,10 @@ def test_packages_hosts_and_the_bridge(tmp_path: Path) -> None:
     )
     assert settings.packages == (tmp_path / "share", Path("/opt/share"))
     assert settings.hosts["robot"] == "10.2.2.2"
-    assert settings.publish == (Publication("/a", "p.x", "std_msgs/Bool", 5_000_000, False),)
-    assert settings.subscribe == (Subscription("b", "p.y", "std_msgs/Bool"),)
+    assert settings.table.publish == {
+        "/a": Publication(tag="p.x", type_name="std_msgs/Bool", every_ns=5_000_000)
+    }
+    assert settings.table.subscribe == {"b": Subscription(tag="p.y", type_name="std_msgs/Bool")}
 
 
 @pytest.mark.parametrize(
