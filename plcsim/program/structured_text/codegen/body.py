@@ -25,6 +25,9 @@ NO_OFFSET: Final = b"\0\0"
 """Memory argument of an access whose address is complete."""
 
 
+_OF_BLOCKS: Final = ("block", "action")
+"""Kinds of functions whose only parameter, if there is one, is the address of a data block."""
+
 _IF: Final = IF + EMPTY
 _TRAP: Final = _IF + UNREACHABLE + END
 
@@ -122,7 +125,7 @@ class Body:
         self.depth = 0
         self.breaks: dict[int, Label] = {}
         self.continues: dict[int, Label] = {}
-        self.this = function.kind == "block"
+        self.this = function.kind in _OF_BLOCKS and bool(function.parameters)
         self.copies = Copies(self._local_for_copy, this=self.this)
         self.line = function.line
         self._parameters = len(function.parameters)

@@ -115,11 +115,11 @@ class _Compiler:
             self._write(Body(function, self._context, HELPER_OPTIONS, statements))
         profile = self._profile()
         encoded = self._writer.encode()
-        names = [segment.name for segment in self._module.segments]
         holes = self._holes(encoded.starts)
         lines = self._lines(encoded.starts)
         imports = list(self._module.imports.values())
-        return ObjectCode(self._module.name, encoded.wasm, names, holes, lines, imports, profile)
+        segments = self._module.segments
+        return ObjectCode(self._module.name, encoded.wasm, segments, holes, lines, imports, profile)
 
     def _file_of(self, function: ir.Function) -> int:
         """Return the number of a function's file; each helper is a file of its own."""

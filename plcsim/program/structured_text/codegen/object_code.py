@@ -32,7 +32,7 @@ class ObjectCode:
     Args:
         name: of the module.
         wasm: the module, with holes for addresses.
-        segments: names of the segments that it accesses.
+        segments: what it accesses, in the order of their numbers.
         holes: where their addresses belong.
         lines: from instructions to lines.
         imports: functions that it needs, those of the runtime not among them.
@@ -43,7 +43,7 @@ class ObjectCode:
         self,
         name: str,
         wasm: bytes,
-        segments: Sequence[str],
+        segments: Sequence[ir.Segment],
         holes: Holes,
         lines: LineTable,
         imports: Sequence[ir.Import] = (),
@@ -58,13 +58,13 @@ class ObjectCode:
         self.profile = profile
 
     def place(self, addresses: Mapping[str, int]) -> bytes:
-        """Return the module with its variables at these addresses, by segment.
+        """Return the module with its variables at these addresses, by name of the segment.
 
         Raises:
             KeyError: a segment has no address.
         """
         wasm = np.frombuffer(bytearray(self.wasm), dtype=np.uint8)
-        starts = np.array([addresses[name] for name in self.segments], dtype=np.int64)
+        starts = np.array([addresses[one.name] for one in self.segments], dtype=np.int64)
         positions, segments, offsets = self.holes.T
         values = starts[segments] + offsets
         for place in range(4):

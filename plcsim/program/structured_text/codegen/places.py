@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 THIS: Final = 0
-"""Base of the members of the block whose body is running, in a `Key`."""
+"""Base of the members of the block whose body or action is running, in a `Key`."""
 
 NEAR: Final = 0x8000
 """Below a segment's start this many bytes are no variable: the nil pages lie before the first."""

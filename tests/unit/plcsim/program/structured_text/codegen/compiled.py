@@ -35,7 +35,7 @@ class Compiled:
         self.memory.allocate(SIZE)
         self.machine = Machine(self.memory, fuel=fuel, cache=CodeCache(None))
         self.code = generate(module, options)
-        self.wasm = self.code.place(dict.fromkeys(self.code.segments, FIRST))
+        self.wasm = self.code.place({one.name: FIRST for one in self.code.segments})
         externs = dict(self._mathematics()) | dict(self._imports(module, imports or {}))
         self.instance = self.machine.instantiate(self.machine.compile(self.wasm), externs)
         self.functions = {}

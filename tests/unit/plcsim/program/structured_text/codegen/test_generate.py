@@ -64,7 +64,7 @@ def test_segments_have_addresses_of_their_own():
     there = ir.Place(globals_, 4, 9)
     tested = module(unit(ir.Store(1, "w32", there, load(0))), segments=(PROGRAM, globals_))
     code = generate(tested)
-    assert code.segments == ["program", "global"]
+    assert code.segments == (PROGRAM, globals_)
     assert code.place({"program": FIRST, "global": FIRST + 64}) != code.place(
         {"program": FIRST, "global": FIRST + 128}
     )

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from plcsim.machine.encoder import sleb, uleb
+from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.body import HOLE
 from plcsim.program.structured_text.codegen.lines import LineTable
 from plcsim.program.structured_text.codegen.object_code import ObjectCode
@@ -10,7 +11,9 @@ from plcsim.program.structured_text.codegen.object_code import ObjectCode
 def filled(address, offset=0):
     """What is put into a hole."""
     holes = np.array([[1, 0, offset]], np.int64)
-    code = ObjectCode("test", b"\x41" + HOLE + b"\x0b", ["program"], holes, LineTable([], {}))
+    code = ObjectCode(
+        "test", b"\x41" + HOLE + b"\x0b", [ir.Segment("program")], holes, LineTable([], {})
+    )
     placed = code.place({"program": address})
     assert placed[0] == 0x41
     assert placed[6] == 0x0B
@@ -43,7 +46,9 @@ def test_what_is_filled_in_is_what_the_encoder_writes_but_longer():
 
 def test_every_hole_takes_the_address_of_its_segment():
     holes = np.array([[0, 1, 4], [5, 0, 0], [10, 1, 0]], np.int64)
-    code = ObjectCode("test", HOLE * 3, ["program", "global"], holes, LineTable([], {}))
+    code = ObjectCode(
+        "test", HOLE * 3, [ir.Segment("program"), ir.Segment("global")], holes, LineTable([], {})
+    )
     placed = code.place({"global": 0x20_0000, "program": 0x30_0000, "more": 1})
     parts = [value_of(placed[n : n + 5], signed=False) for n in (0, 5, 10)]
     assert parts == [0x20_0004, 0x30_0000, 0x20_0000]
