@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.core.duration import format_duration
 from plcsim.testing.calibration import REFERENCE_NS
-from plcsim.testing.result import SCHEMA
+from plcsim.testing.result import SCHEMA, other_result_of
 from plcsim.testing.svg import histogram
 
 if TYPE_CHECKING:
@@ -40,7 +40,9 @@ details.passed { border-left: 4px solid var(--good); color: inherit }
 summary { padding: 10px 14px; cursor: pointer; display: flex; gap: 12px; align-items: baseline }
 summary .name { flex: 1; overflow-wrap: anywhere; font-family: ui-monospace, Menlo, Consolas,
   "DejaVu Sans Mono", monospace; font-size: 13px }
-.body { padding: 0 16px 16px; overflow-x: auto }
+.body { padding: 0 16px 16px }
+.wide { overflow-x: auto }
+.why { margin: 12px 0; overflow-wrap: anywhere }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
 th { text-align: right; color: var(--soft); font-weight: 500 }
 td, th { padding: 3px 14px 3px 0; text-align: right; white-space: nowrap }
@@ -50,8 +52,17 @@ pre { white-space: pre-wrap; background: var(--page); border-radius: 6px; paddin
   overflow-x: auto;
   font: 12px/1.45 ui-monospace, Menlo, Consolas, "DejaVu Sans Mono", monospace }
 .charts { display: flex; gap: 20px; flex-wrap: wrap }
-figure { margin: 0 } figcaption { font-size: 12px; color: var(--soft) }
-svg { max-width: 100%; height: auto }
+figure { margin: 0; overflow-x: auto } figcaption { font-size: 12px; color: var(--soft) }
+svg { max-width: 100%; height: auto; display: block }
+@media (max-width: 700px) {
+  main { padding: 16px 8px 40px }
+  .tile { flex: 1 1 40%; padding: 8px 12px }
+  summary { flex-wrap: wrap; gap: 2px 12px; padding: 8px 12px }
+  summary .name { flex: 1 1 100%; min-width: 0; order: 1 }
+  .body { padding: 0 12px 12px }
+  pre { padding: 8px; white-space: pre; font-size: 11px }
+  .trace svg { max-width: none }
+}
 """
 
 
@@ -65,13 +76,16 @@ class ReportWriter:
         self._folder = folder
         self._seed = seed
         self._results: list[dict[str, Any]] = []
+        self._others: list[dict[str, Any]] = []
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Take the result of a PLC test, the outcome as it was judged at last."""
+        """Take the result of a test, the outcome as it was judged at last."""
         result = getattr(report, "plc", None)
         if result is not None:
             message = report.longrepr if isinstance(report.longrepr, str) else result["message"]
             self._results.append(result | {"outcome": report.outcome, "message": message})
+        elif report.when == "call" or not report.passed:
+            self._others.append(other_result_of(report))
 
     def pytest_sessionfinish(self) -> None:
         """Write the report."""
@@ -82,6 +96,7 @@ class ReportWriter:
             "machine": platform.machine(),
             "reference_ns": REFERENCE_NS,
             "tests": self._results,
+            "others": self._others,
         }
         self._folder.mkdir(parents=True, exist_ok=True)
         (self._folder / "report.json").write_text(json.dumps(whole, indent=1) + "\n", "utf-8")
@@ -94,7 +109,7 @@ class ReportWriter:
 
 def page(whole: dict[str, Any]) -> str:
     """Return the report as HTML."""
-    tests = sorted(whole["tests"], key=lambda t: t["outcome"] != "failed")
+    tests = sorted([*whole["tests"], *whole["others"]], key=lambda t: t["outcome"] != "failed")
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -105,7 +120,8 @@ def page(whole: dict[str, Any]) -> str:
 
 def _head(whole: dict[str, Any]) -> str:
     tests = whole["tests"]
-    counts = {o: sum(t["outcome"] == o for t in tests) for o in ("passed", "failed", "skipped")}
+    outcomes = [t["outcome"] for t in (*tests, *whole["others"])]
+    counts = {outcome: outcomes.count(outcome) for outcome in ("passed", "failed", "skipped")}
     simulated_ns = sum(t["time_ns"] for t in tests)
     loops = [t["calibration_ns"] for t in tests if t["calibration_ns"]]
     tiles = [_tile(str(n), outcome, outcome) for outcome, n in counts.items()]
@@ -128,19 +144,40 @@ def _tile(figure: str, text: str, kind: str = "") -> str:
 def _test(test: dict[str, Any]) -> str:
     outcome = test["outcome"]
     opened = " open" if outcome == "failed" else ""
-    parts = [_message(test), _classes(test["task_classes"]), _programs(test["programs"])]
-    parts += [_violations(test["violations"]), _traces(test["traces"])]
+    has_controller = "clock" in test
+    parts = [_message(test), _of_controller(test) if has_controller else ""]
+    clock = f"{format_duration(test['time_ns'])}, {test['clock']} clock" if has_controller else ""
+    verdict = test.get("verdict") or outcome
     return (
         f'<details class="{outcome}"{opened}><summary>'
-        f'<span class="{outcome}">{escape(test["verdict"] or outcome)}</span>'
+        f'<span class="{outcome}">{escape(verdict)}</span>'
         f'<span class="name">{escape(test["test"])}</span>'
-        f'<span class="soft">{format_duration(test["time_ns"])} on the {test["clock"]} clock</span>'
+        f'<span class="soft">{clock or "without a controller"}</span>'
         f'</summary><div class="body">{"".join(parts)}</div></details>\n'
     )
 
 
+def _of_controller(test: dict[str, Any]) -> str:
+    """Return what the controller of a test did."""
+    parts = [_classes(test["task_classes"]), _programs(test["programs"])]
+    parts += [_violations(test["violations"]), _traces(test["traces"])]
+    return "".join(parts)
+
+
 def _message(test: dict[str, Any]) -> str:
-    return f"<pre>{escape(test['message'])}</pre>" if test["message"] else ""
+    """Return why a test ended as it did: the line, what was wrong, the last cycles."""
+    if not test["message"]:
+        return ""
+    parts = []
+    if test["source"]:
+        location = f'<span class="soft">{escape(test["location"])}</span>'
+        parts.append(f"<pre>{location}\n<b>{escape(test['source'])}</b></pre>")
+    why, _, rest = test["message"].partition("\n")
+    parts.append(f'<p class="why">{escape(why)}</p>')
+    text = "\n\n".join(filter(None, (rest, test.get("explanation", ""))))
+    if text:
+        parts.append(f"<pre>{escape(text)}</pre>")
+    return "".join(parts)
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -168,7 +205,7 @@ def _classes(classes: Sequence[dict[str, Any]]) -> str:
         )
         for c in classes
     ]
-    return "<h3>Task classes</h3>" + _table(heads, rows)
+    return f'<h3>Task classes</h3><div class="wide">{_table(heads, rows)}</div>'
 
 
 def _programs(programs: Sequence[dict[str, Any]]) -> str:
@@ -191,10 +228,12 @@ def _violations(violations: Sequence[dict[str, Any]]) -> str:
         (f"#{v['task_class']}", str(v["cycle"]), format_duration(v["release_ns"]), v["text"])
         for v in violations
     ]
-    return "<h3>Cycle time violations</h3>" + _table(("class", "cycle", "time", ""), rows)
+    table = _table(("class", "cycle", "time", ""), rows)
+    return f'<h3>Cycle time violations</h3><div class="wide">{table}</div>'
 
 
 def _traces(traces: Sequence[dict[str, Any]]) -> str:
     if not traces:
         return ""
-    return "<h3>Traces</h3>" + "".join(f"<figure>{trace['svg']}</figure>" for trace in traces)
+    figures = (f'<figure class="trace">{trace["svg"]}</figure>' for trace in traces)
+    return "<h3>Traces</h3>" + "".join(figures)

@@ -103,6 +103,7 @@ class Plc(World, Expectations):
         self._stopped = False
         self._pending: BaseException | None = None
         self._last_release_ns = 0
+        self._earlier_ns = 0
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.append(self._publish)
 
@@ -120,6 +121,7 @@ class Plc(World, Expectations):
         Raises:
             ControllerFault: an INIT failed.
         """
+        self._earlier_ns = self.total_ns
         for task_class in self.controller.classes:
             task_class.cycles = 0
         self.history.clear()
@@ -174,6 +176,11 @@ class Plc(World, Expectations):
         """Time since the start of the controller, in nanoseconds."""
         origin_ns = self.controller.scan.origin_ns
         return self.clock.now_ns() - origin_ns if origin_ns else 0
+
+    @property
+    def total_ns(self) -> int:
+        """Time that the controller has run in this test, those before restarts included."""
+        return self._earlier_ns + self.time_ns
 
     @property
     def last_release_ns(self) -> int:

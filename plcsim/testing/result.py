@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import linecache
 import re
+from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +28,9 @@ _REPEAT = re.compile(r"-?repeat\d+(?=[\]-])")
 _OWN_ERROR = re.compile(r"\Aplcsim\.[\w.]+: ")
 """What pytest puts before the message of an error of ours."""
 
+EXPLANATION = "plc"
+"""Heading of what the plugin adds to a failed test."""
+
 MOST_TRACES = 6
 """Traces of one test that go into the report."""
 
@@ -47,11 +52,13 @@ def result_of(
         "outcome": report.outcome,
         "verdict": getattr(report, "plc_verdict", ""),
         "message": _message(report),
+        **_origin(report),
+        "explanation": "\n".join(text for head, text in report.sections if head == EXPLANATION),
         "project": plc.name,
         "clock": "monotonic" if plc.realtime else "virtual",
         "seed": plc.seed,
         "interleaving": str(plc.interleaving or ""),
-        "time_ns": plc.time_ns,
+        "time_ns": plc.total_ns,
         "state": plc.controller.state.name,
         "fault": fault_report(plc.controller.fault),
         "calibration_ns": loop_ns,
@@ -69,6 +76,16 @@ def result_of(
     }
 
 
+def other_result_of(report: pytest.TestReport) -> dict[str, Any]:
+    """Return what the report says of a test that has no controller."""
+    return {
+        "test": report.nodeid,
+        "outcome": report.outcome,
+        "message": _message(report),
+        **_origin(report),
+    }
+
+
 def group_of(nodeid: str) -> str:
     """Return the name that all repeats of a test share."""
     return _REPEAT.sub("", nodeid).replace("[]", "")
@@ -80,6 +97,17 @@ def _message(report: pytest.TestReport) -> str:
     text = getattr(getattr(report.longrepr, "reprcrash", None), "message", None)
     shown = str(text or report.longrepr or "") if not report.passed else ""
     return _OWN_ERROR.sub("", shown)
+
+
+def _origin(report: pytest.TestReport) -> dict[str, str]:
+    """Return where a test failed, as "file:line", and the line itself; "" where nobody knows."""
+    crash = getattr(report.longrepr, "reprcrash", None)
+    if crash is None:
+        return {"location": "", "source": ""}
+    file, here = Path(crash.path), Path.cwd()
+    shown = file.relative_to(here) if file.is_relative_to(here) else file
+    source = linecache.getline(str(crash.path), crash.lineno).strip()
+    return {"location": f"{shown}:{crash.lineno}", "source": source}
 
 
 def _program(name: str, costs_ns: list[int], own_ns: int, loop_ns: int) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from plcsim.testing.errors import ExpectationFailed, PlcTestError
 from plcsim.testing.html_report import ReportWriter
 from plcsim.testing.plc import Plc
 from plcsim.testing.realtime import Verdict, figures, judge
-from plcsim.testing.result import properties_of, result_of
+from plcsim.testing.result import EXPLANATION, properties_of, result_of
 from plcsim.testing.target import find_project, program_target, project_target
 from st_types.errors import TypeSystemError
 
@@ -231,7 +231,7 @@ def complete(item: pytest.Item, call: pytest.CallInfo[None], report: pytest.Test
             traces = _traces_of_failure(call, current)
             _explain(item, call, report, current, traces)
         except Exception as err:  # a failing test must be reported, whatever its tags are like
-            report.sections.append(("plc", f"the failure could not be explained: {err!r}"))
+            report.sections.append((EXPLANATION, f"the failure could not be explained: {err!r}"))
     if plc.realtime and report.when == "call":
         _apply_verdict(item, report, plc)
     shown = traces if item.config.getoption("--plc-report") else []
@@ -284,7 +284,7 @@ def _explain(
     if plc.used_chance:
         lines.append(f"chance was in it: repeat with --plc-seed={plc.seed}")
     if lines:
-        report.sections.append(("plc", "\n".join(lines)))
+        report.sections.append((EXPLANATION, "\n".join(lines)))
 
 
 def _saved(item: pytest.Item, traces: list[Trace], failure: str) -> list[str]:

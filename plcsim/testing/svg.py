@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
+from plcsim.core.duration import format_duration
 from plcsim.testing.values import is_number, printable, text_of
 
 if TYPE_CHECKING:
@@ -214,10 +215,7 @@ def histogram(
             f'<rect class="bar" x="{x:.1f}" y="{bottom - size:.1f}" '
             f'width="{max(1.0, step - 1):.1f}" height="{size:.1f}"/>'
         )
-    for place in range(low, low + max(count, 8) + 1, max(1, max(count, 8) // 4)):
-        x = left + (place - low) * step
-        if x < width - 6 * LETTER:
-            parts.append(label(x, bottom + 14, _short(2 ** (place / 4)), "soft"))
+    parts += _duration_axis(low, max(count, 8), left, width - left, bottom + 14)
     if limit_ns:
         x = left + (_place(limit_ns) - low) * step
         if left <= x <= width - left:
@@ -226,6 +224,17 @@ def histogram(
         f'<line class="grid" x1="{left}" y1="{bottom}" x2="{width - left}" y2="{bottom}"/>'
     )
     return document(width, height, "\n".join(parts))
+
+
+def _duration_axis(low: int, bars: int, left: float, right: float, y: float) -> list[str]:
+    """Return the labels below the bars: at both ends and between."""
+    anchors = ("start", "middle", "middle", "middle", "end")
+    parts = []
+    for quarter, anchor in enumerate(anchors):
+        x = left + (right - left) * quarter / 4
+        text = _two_digits(2 ** ((low + bars * quarter / 4) / 4))
+        parts.append(label(round(x, 1), y, text, "soft", anchor))
+    return parts
 
 
 def _place(duration_ns: int) -> int:
@@ -244,8 +253,7 @@ def _log_bars(buckets: Sequence[tuple[int, int]]) -> dict[int, int]:
     return bars
 
 
-def _short(duration_ns: float) -> str:
-    for unit, size in (("s", 1e9), ("ms", 1e6), ("µs", 1e3)):
-        if duration_ns >= size:
-            return f"{duration_ns / size:.2g} {unit}"
-    return f"{duration_ns:.0f} ns"
+def _two_digits(duration_ns: float) -> str:
+    """Return a duration to two digits."""
+    whole = round(duration_ns)
+    return format_duration(round(whole, 2 - len(str(whole))))

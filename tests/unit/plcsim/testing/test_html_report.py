@@ -33,7 +33,22 @@ SUITE = """
     def test_bad(plc):
         plc.assert_within("100ms", {"Worker.n": 50, "Worker.odd": "<no>" == "x"})
 
+    def test_restarted(plc):
+        plc.run("1s")
+        plc.restart()
+
+    def test_plain(plc):
+        plc.run("50ms")
+        assert plc["Worker.n"] == 7, "too few"
+
     def test_without_a_plc():
+        pass
+
+    def test_without_a_plc_that_fails():
+        assert "one" == "two"
+
+    @pytest.mark.skip(reason="not <yet>")
+    def test_skipped():
         pass
 """
 
@@ -64,7 +79,7 @@ def report(pytester):
         pytester.makepyfile(SUITE)
         pytester.runpytest_inprocess(
             "-p", "no:hypothesispytest", "--plc-report=out", *arguments
-        ).assert_outcomes(passed=2, failed=1)
+        ).assert_outcomes(passed=3, failed=3, skipped=1)
         return pytester.path / "out"
 
     return run
@@ -78,18 +93,54 @@ def test_the_page_is_whole_and_needs_nothing_else(report):
     assert reader.outside == []
     assert text.index("test_bad") < text.index("test_good")
     assert "expected Worker.n = 50" in text
-    assert text.count("<svg") == 4  # histogram and trace of both
+    assert text.count("<svg") == 7  # four histograms, and traces of three tests
+    assert "not &lt;yet&gt;" in text
 
 
 def test_the_figures_are_there_as_json(report):
     whole = json.loads((report() / "report.json").read_text())
-    good, bad = whole["tests"]
+    good, bad, *_ = whole["tests"]
     assert (good["outcome"], bad["outcome"]) == ("passed", "failed")
     assert good["task_classes"][0]["cycles"] == 100
     assert good["programs"][0]["cycles"] == 100
     assert good["programs"][0]["median_in_loops"] > 0
     assert sum(count for _, count in good["programs"][0]["histogram"]) == 100
     assert bad["message"].startswith("expected Worker.n = 50")
+
+
+def by_name(whole, key):
+    return {test["test"].split("::")[1]: test for test in whole[key]}
+
+
+def test_time_before_a_restart_counts(report):
+    whole = json.loads((report() / "report.json").read_text())
+    assert by_name(whole, "tests")["test_restarted"]["time_ns"] == 1_000_000_000
+
+
+def test_a_plain_assert_has_its_line_and_the_last_cycles(report):
+    test = by_name(json.loads((report() / "report.json").read_text()), "tests")["test_plain"]
+    location, _, line = test["location"].rpartition(":")
+    assert location.endswith(".py")
+    assert int(line) > 1
+    assert test["source"] == 'assert plc["Worker.n"] == 7, "too few"'
+    assert test["message"] == "AssertionError: too few\nassert 5 == 7"
+    assert test["explanation"].startswith("the last 5 cycles")
+    assert "trace: out/traces/" in test["explanation"]
+
+
+def test_tests_without_a_controller_are_listed_too(report):
+    folder = report()
+    others = by_name(json.loads((folder / "report.json").read_text()), "others")
+    assert {name: test["outcome"] for name, test in others.items()} == {
+        "test_without_a_plc": "passed",
+        "test_without_a_plc_that_fails": "failed",
+        "test_skipped": "skipped",
+    }
+    assert others["test_without_a_plc_that_fails"]["source"] == 'assert "one" == "two"'
+    assert others["test_skipped"]["message"] == "Skipped: not <yet>"
+    text = (folder / "index.html").read_text()
+    assert text.index("test_without_a_plc_that_fails") < text.index("test_good")
+    assert '<b class="skipped">1</b>skipped' in text
 
 
 def test_junit_properties(report, pytester):
@@ -103,13 +154,16 @@ def test_junit_properties(report, pytester):
 
 def test_a_failure_leaves_its_trace_beside_the_report(report):
     names = sorted(p.name for p in (report() / "traces").iterdir())
-    assert [re.sub(r".*py_", "", name) for name in names] == ["test_bad.csv", "test_bad.svg"]
+    files = ["test_bad.csv", "test_bad.svg", "test_plain.csv", "test_plain.svg"]
+    assert [re.sub(r".*py_", "", name) for name in names] == files
 
 
 def test_with_workers_the_report_is_the_same(report):
     pytest.importorskip("xdist")
     whole = json.loads((report("-n", "2") / "report.json").read_text())
-    assert {t["test"].split("::")[1] for t in whole["tests"]} == {"test_good", "test_bad"}
+    names = {"test_good", "test_bad", "test_restarted", "test_plain"}
+    assert set(by_name(whole, "tests")) == names
+    assert len(by_name(whole, "others")) == 3
 
 
 @pytest.mark.parametrize(

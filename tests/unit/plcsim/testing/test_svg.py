@@ -48,5 +48,23 @@ def test_a_histogram_has_a_bar_for_each_order_and_the_limit():
     assert len([li for li in elements(picture, "line") if li.get("class") == "limit"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("bucket", "labels"),
+    [
+        (119, ["110 ns", "150 ns", "220 ns", "300 ns", "430 ns"]),
+        (1_100_000, ["1 ms", "1.5 ms", "2.1 ms", "3 ms", "4.2 ms"]),
+        (999, ["860 ns", "1.2 us", "1.7 us", "2.4 us", "3.4 us"]),
+        (1, ["1 ns", "1 ns", "2 ns", "3 ns", "4 ns"]),
+    ],
+)
+def test_the_labels_of_a_histogram_are_whole_and_inside(bucket, labels):
+    texts = elements(histogram([(bucket, 1)], width=360), "text")
+    assert [text.text for text in texts] == labels
+    anchors = [(float(text.get("x")), text.get("text-anchor")) for text in texts]
+    assert anchors[0] == (10, "start")
+    assert anchors[-1] == (350, "end")
+    assert {anchor for _, anchor in anchors[1:-1]} == {"middle"}
+
+
 def test_an_empty_histogram():
     assert ET.fromstring(histogram([])).tag.endswith("svg")
