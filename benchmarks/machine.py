@@ -41,7 +41,7 @@ from plcsim.machine.encoder import (
     sleb,
     uleb,
 )
-from plcsim.machine.engine import Engine, engine_of
+from plcsim.machine.engine import Engine, compile_wasm, engine_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -164,10 +164,10 @@ def measure_loading(repeat: int) -> dict[str, float]:
         cache, engine = CodeCache(Path(folder)), engine_of(fuel=False)
         for seed in range(repeat):
             wasm = program(LINES, seed)
-            timed(f"compile {LINES} lines", lambda w=wasm: engine.compile(w, cache))
+            timed(f"compile {LINES} lines", lambda w=wasm: compile_wasm(w, cache=cache))
             _forget(engine)
             code = timed(
-                f"load {LINES} lines from the cache", lambda w=wasm: engine.compile(w, cache)
+                f"load {LINES} lines from the cache", lambda w=wasm: compile_wasm(w, cache=cache)
             )
             machine = timed("a machine on a new memory", lambda: Machine(Memory(), cache=cache))
             timed("instantiate", lambda m=machine, c=code: m.instantiate(c, {}))

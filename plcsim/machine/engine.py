@@ -36,7 +36,7 @@ from plcsim.machine.errors import MachineError
 from plcsim.machine.reader import DATA, sections
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 CODES_KEPT = 64
 """Modules an engine remembers besides the cache on disk, for many controllers in one process."""
@@ -105,15 +105,22 @@ class Engine:
         self._settings = f"{library_version()} {settings}"
         self._codes: OrderedDict[str, Code] = OrderedDict()
 
-    def compile(self, wasm: bytes, cache: CodeCache) -> Code:
+    def compile(self, identity: bytes, make: Callable[[], bytes], cache: CodeCache) -> Code:
         """Return a module as machine code, compiled now or before.
+
+        Args:
+            identity: what the module depends on, if not the module itself.
+            make: makes the module; called only where it has not been compiled before.
+            cache: where compiled code is kept.
 
         Raises:
             MachineError: it is no valid module, or needs features that PLC programs do not have.
         """
-        key = key_of(wasm, self._settings)
+        key = key_of(identity, self._settings)
         code = (
-            self._codes.pop(key, None) or self._load(key, cache) or self._compile(wasm, key, cache)
+            self._codes.pop(key, None)
+            or self._load(key, cache)
+            or self._compile(make(), key, cache)
         )
         self._codes[key] = code
         if len(self._codes) > CODES_KEPT:
@@ -178,7 +185,7 @@ def compile_wasm(wasm: bytes, *, fuel: bool = False, cache: CodeCache | None = N
     Raises:
         MachineError: it is no valid module, or needs features that PLC programs do not have.
     """
-    return engine_of(fuel=fuel).compile(wasm, cache or default_cache())
+    return engine_of(fuel=fuel).compile(wasm, lambda: wasm, cache or default_cache())
 
 
 def _refuse_data(wasm: bytes) -> None:

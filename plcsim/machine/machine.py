@@ -32,7 +32,10 @@ if TYPE_CHECKING:
     from plcsim.machine.cache import CodeCache
 
 FUEL = 1 << 62
-"""Instructions allowed where nobody says less."""
+"""Instructions that are left outside of units, where they are counted."""
+
+UNIT_FUEL = 5_000_000_000
+"""Instructions that a unit of a program may take, some seconds' worth; more is an endless loop."""
 
 MEMORY_NAME = ("env", "memory")
 TABLE_NAME = ("env", "__indirect_function_table")
@@ -185,7 +188,19 @@ class Machine:
         Raises:
             MachineError: it is no valid module, or needs features that PLC programs do not have.
         """
-        return self._engine.compile(wasm, self._cache)
+        return self.compile_made(wasm, lambda: wasm)
+
+    def compile_made(self, identity: bytes, make: Callable[[], bytes]) -> Code:
+        """Return a module as machine code that need not be made where it was compiled before.
+
+        Args:
+            identity: all that the module depends on.
+            make: makes it.
+
+        Raises:
+            MachineError: as for `compile`.
+        """
+        return self._engine.compile(identity, make, self._cache)
 
     def instantiate(self, code: Code, imports: Mapping[tuple[str, str], Extern | int]) -> Instance:
         """Link a module, fill its part of memory and table, and run its start function.
@@ -231,6 +246,24 @@ class Machine:
         raise_error(error, "a constant")
         return extern
 
+    def unit(self, function: Callable[[], None]) -> Callable[[], None]:
+        """Return a function as the unit of a program: where instructions are counted, it ends.
+
+        Calling it raises CycleTimeViolation after `UNIT_FUEL` instructions.
+        """
+        if not self._engine.fuel:
+            return function
+        set_fuel = self._store.set_fuel
+
+        def run() -> None:
+            set_fuel(UNIT_FUEL)
+            try:
+                function()
+            finally:
+                set_fuel(FUEL)
+
+        return run
+
     def host_function(
         self, call: Callable[..., Any], params: str = "", results: str = ""
     ) -> Extern:
@@ -254,7 +287,10 @@ class Machine:
         return Extern(extern, Type(FUNCTION, _signed(params), _signed(results)))
 
     def reserve_functions(self, count: int) -> int:
-        """Make room in the table of functions; return the index of the first new entry, all nil."""
+        """Make room in the table of functions; return the index of the first new entry.
+
+        The new entries are nil.
+        """
         entry, before = ValueStructure(), c_uint64()
         entry.kind = 5
         table = self._common[TABLE_NAME].structure.of

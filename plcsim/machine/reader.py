@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.machine.errors import MachineError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 HEADER = b"\0asm\x01\0\0\0"
 CUSTOM, TYPES, IMPORTS, FUNCTIONS, TABLES, MEMORIES, GLOBALS, EXPORTS = range(8)
@@ -32,7 +32,7 @@ class Reader:
     def __init__(self, data: bytes, place: int = 0, end: int | None = None) -> None:
         self._data = data
         self.place = place
-        self.end = len(data) if end is None else end
+        self.end = len(data) if end is None else min(end, len(data))
 
     @property
     def more(self) -> bool:
@@ -107,3 +107,89 @@ def sections(wasm: bytes) -> Iterator[Section]:
         inner = Reader(wasm, start, start + size)
         name = inner.name() if number == CUSTOM else ""
         yield Section(number, name, inner.place, start + size)
+
+
+class Import(NamedTuple):
+    """An import of a module.
+
+    Attributes:
+        module: first part of its name.
+        name: second part.
+        kind: 0 a function, 1 a table, 2 a memory, 3 a global variable.
+        type: index of the type of a function, value type of a variable.
+        mutable: of a variable.
+        start: place of the entry in the module.
+        end: place behind it.
+    """
+
+    module: str
+    name: str
+    kind: int
+    type: int
+    mutable: bool
+    start: int
+    end: int
+
+
+FUNCTION, TABLE, MEMORY, GLOBAL = range(4)
+"""Kinds of imports and exports in the binary format."""
+
+
+def imports(wasm: bytes, section: Section) -> Iterator[Import]:
+    """Yield the entries of an import section."""
+    reader = Reader(wasm, section.start, section.end)
+    for _ in range(reader.uleb()):
+        start = reader.place
+        module, name, kind = reader.name(), reader.name(), reader.byte()
+        type_, mutable = 0, False
+        if kind == FUNCTION:
+            type_ = reader.uleb()
+        elif kind == GLOBAL:
+            type_, mutable = reader.byte(), bool(reader.byte())
+        elif kind in (TABLE, MEMORY):
+            _skip_limits(reader, kind)
+        else:
+            raise MachineError(f"import {module}.{name} is of the unknown kind {kind}")
+        yield Import(module, name, kind, type_, mutable, start, reader.place)
+
+
+def _skip_limits(reader: Reader, kind: int) -> None:
+    if kind == TABLE:
+        reader.byte()
+    flags = reader.uleb()
+    reader.uleb()
+    if flags & 1:
+        reader.uleb()
+
+
+def exports(wasm: bytes, section: Section) -> Iterator[tuple[str, int, int]]:
+    """Yield name, kind and index of each export."""
+    reader = Reader(wasm, section.start, section.end)
+    for _ in range(reader.uleb()):
+        yield reader.name(), reader.byte(), reader.uleb()
+
+
+_I32_CONST, _GLOBAL_GET, _I32_ADD, _I32_SUB, _END = 0x41, 0x23, 0x6A, 0x6B, 0x0B
+
+
+def constant(reader: Reader, variables: Mapping[int, int]) -> int:
+    """Read a constant expression of type i32 and return its value, unsigned.
+
+    Args:
+        reader: at the expression.
+        variables: values of the global variables that it may name.
+    """
+    stack: list[int] = []
+    while (code := reader.byte()) != _END:
+        if code == _I32_CONST:
+            stack.append(reader.sleb())
+        elif code == _GLOBAL_GET and (index := reader.uleb()) in variables:
+            stack.append(variables[index])
+        elif code in (_I32_ADD, _I32_SUB) and len(stack) > 1:
+            right, left = stack.pop(), stack.pop()
+            stack.append(left + right if code == _I32_ADD else left - right)
+        else:
+            raise MachineError("a module has a constant that cannot be worked out")
+    if len(stack) != 1:
+        raise MachineError("a module has a constant that cannot be worked out")
+    return stack[0] & 0xFFFF_FFFF

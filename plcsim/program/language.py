@@ -7,7 +7,10 @@ that, the scan, tags, Modbus, tests, sees a `plcsim.core.task.Task` and not what
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+from plcsim.machine import Machine
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,18 +44,30 @@ class Site:
 
     Args:
         context: of the controller; its memory takes the programs' variables.
+        counts_instructions: those of compiled programs; for the virtual clock, where no other
+            measure of time means anything, and nothing else ends an endless loop.
 
     Attributes:
         context: as above.
     """
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: Context, *, counts_instructions: bool = False) -> None:
         self.context = context
+        self._counts_instructions = counts_instructions
 
     @property
     def memory(self) -> Memory:
         """The PLC memory."""
         return self.context.memory
+
+    @cached_property
+    def machine(self) -> Machine:
+        """What compiled programs run on; made when the first of them asks for it.
+
+        Raises:
+            MachineError: the host has no room for it.
+        """
+        return Machine(self.memory, fuel=self._counts_instructions)
 
 
 class ProgramCode(Protocol):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from plcsim.core.clock import VirtualClock
 from plcsim.core.context import Context
 from plcsim.core.controller import Controller
 from plcsim.core.memory import DEFAULT_SIZE, Memory
@@ -82,7 +83,7 @@ def make_controller(
         ConfigurationError: the variables do not fit into the memory.
     """
     context = Context(Memory(setup.memory_size, system_fd), network, setup.settings)
-    site = Site(context)
+    site = Site(context, counts_instructions=isinstance(clock, VirtualClock))
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program
     return Controller(

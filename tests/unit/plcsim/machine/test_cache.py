@@ -126,7 +126,7 @@ def test_engines_with_other_settings_do_not_share_entries(cache, tmp_path):
     for settings in ({"fuel": False}, {"fuel": True}, {"fuel": True, "compare": True}):
         engine = engine_of(**settings)
         engine._codes.clear()
-        engine.compile(wasm, cache)
+        engine.compile(wasm, lambda: wasm, cache)
     assert len(entries(tmp_path)) == 3
 
 

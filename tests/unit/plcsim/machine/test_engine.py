@@ -15,7 +15,7 @@ def test_all_settings_can_be_combined(fuel, compare):
     """A combination that wasmtime refuses would end the process."""
     engine = engine_of(fuel=fuel, compare=compare)
     assert engine is engine_of(fuel=fuel, compare=compare)
-    assert engine.compile(assemble(""), NO_CACHE).imports == [("env", "memory")]
+    assert engine.compile(b"", lambda: assemble(""), NO_CACHE).imports == [("env", "memory")]
 
 
 def test_imports_and_exports_are_told():
@@ -34,10 +34,10 @@ def test_imports_and_exports_are_told():
 def test_only_the_latest_modules_are_remembered():
     engine = engine_of(fuel=False)
     texts = [f"(func (result i32) (i32.const {n}))" for n in range(CODES_KEPT + 1)]
-    codes = [engine.compile(assemble(text), NO_CACHE) for text in texts]
+    codes = [compile_wasm(assemble(text), cache=NO_CACHE) for text in texts]
     assert len(engine._codes) == CODES_KEPT
-    assert engine.compile(assemble(texts[-1]), NO_CACHE) is codes[-1]
-    assert engine.compile(assemble(texts[0]), NO_CACHE) is not codes[0]
+    assert compile_wasm(assemble(texts[-1]), cache=NO_CACHE) is codes[-1]
+    assert compile_wasm(assemble(texts[0]), cache=NO_CACHE) is not codes[0]
 
 
 FAULTHANDLER = """
