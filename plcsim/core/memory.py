@@ -193,20 +193,25 @@ class Memory:
         return self._map[address : end if found < 0 else found]
 
     @overload
-    def access(self, data_type: type[S], address: int) -> S: ...
+    def access(self, data_type: type[S], address: int, context: object = None) -> S: ...
     @overload
-    def access(self, data_type: ArrayType[V], address: int) -> V: ...
+    def access(self, data_type: ArrayType[V], address: int, context: object = None) -> V: ...
     @overload
-    def access(self, data_type: StructType[V], address: int) -> V: ...
-    def access(self, data_type: Any, address: int) -> object:
+    def access(self, data_type: StructType[V], address: int, context: object = None) -> V: ...
+    def access(self, data_type: Any, address: int, context: object = None) -> object:
         """Return a view of the STRUCT or ARRAY at ``address``, as ``ref ACCESS address`` does.
+
+        Args:
+            data_type: what is taken to lie there.
+            address: of its first byte.
+            context: what function blocks in it work with.
 
         Raises:
             PageFault: some of its bytes are not valid.
         """
         kind = resolve_alias(type_of(data_type))
         self.check(address, kind.size)
-        return view_of(kind, self._map, address, address, None)
+        return view_of(kind, self._map, address, address, context)
 
     def get(self, data_type: DataType[V], address: int) -> V:
         """Return the plain value of a variable (see `st_types.types.values.decode`).

@@ -8,6 +8,7 @@ import sys
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.c.language import C_LANGUAGE
 from plcsim.program.language import ProgramSource
 from plcsim.program.python.language import PYTHON
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     from plcsim.program.language import Language, ProgramCode
 
-LANGUAGES: Final[tuple[Language, ...]] = (PYTHON,)
+LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, C_LANGUAGE)
 """A program is written in one of them."""
 
 _counter = itertools.count(1)

@@ -32,7 +32,7 @@ from st_types.types.derived import (
 from st_types.types.elementary import DataType, ElementaryType
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from st_types.resolve.declared import Function, Variable
     from st_types.resolve.scope import Scope
@@ -81,18 +81,31 @@ _SECTIONS = {
 }
 
 
-def c_header(scope: Scope, name: str) -> str:
+def c_header(
+    scope: Scope,
+    name: str,
+    *,
+    c_types: Mapping[str, str] = C_TYPES,
+    variables: str = "",
+    known: Sequence[Scope] = (),
+) -> str:
     """Return the header of all types, constants and functions of ``scope``.
 
     Args:
         scope: the declarations; what has no layout is left out.
         name: of the library or program, for the guard.
+        c_types: C type of each elementary type.
+        variables: what stands before each variable that is no constant, such as ``_GLOBAL``; with
+            "" there are none.
+        known: scopes whose types have headers of their own, included before this one.
     """
     guard = f"_{''.join(c if c.isalnum() else '_' for c in name).upper()}_H_"
     head = f"/* {name}: written by plcsim types header */\n\n#ifndef {guard}\n#define {guard}\n"
     head += '\n#include <bur/plctypes.h>\n\n#ifdef __cplusplus\nextern "C" {\n#endif\n'
     tail = f"\n#ifdef __cplusplus\n}}\n#endif\n\n#endif /* {guard} */\n"
-    return head + "".join(line + "\n" for line in Header(scope).lines()) + tail
+    header = Header(scope, c_types, known)
+    lines = [*header.lines(), *(header.variables(variables) if variables else ())]
+    return head + "".join(line + "\n" for line in lines) + tail
 
 
 class Header:
@@ -102,13 +115,23 @@ class Header:
         names: typedef name of each type that is written.
     """
 
-    def __init__(self, scope: Scope) -> None:
+    def __init__(
+        self,
+        scope: Scope,
+        c_types: Mapping[str, str] = C_TYPES,
+        known: Sequence[Scope] = (),
+    ) -> None:
         self._scope = scope
+        self._c_types = c_types
         self._taken: set[str] = set(C_KEYWORDS)
         self.names: dict[DataType[object], str] = {}
         self._tags: dict[DataType[object], str] = {}
         self._written: set[DataType[object]] = set()
         self._complete: set[DataType[object]] = set()
+        for data_type in (t for other in known for t in other.data_types()):
+            self._name(data_type)
+            self._written.add(data_type)
+            self._complete.add(data_type)
 
     def lines(self) -> Iterator[str]:
         """Yield the lines between the head and the tail of the header."""
@@ -120,6 +143,15 @@ class Header:
         for data_type in types:
             yield from self._type(data_type)
         yield from self._prototypes(types)
+
+    def variables(self, storage: str) -> Iterator[str]:
+        """Yield the declarations of the variables that are no constants."""
+        found = [v for v in self._scope.variables if not v.is_constant and v.data_type]
+        if found:
+            yield from ("", "/* Variables */")
+        for variable in found:
+            assert variable.data_type is not None
+            yield f"{storage} {self._declarator(variable.data_type, self._free(variable.name))};"
 
     def _name(self, data_type: DataType[object]) -> str:
         if data_type not in self.names:
@@ -212,7 +244,7 @@ class Header:
         """Return the C declaration of ``name`` without its semicolon."""
         match data_type:
             case ElementaryType():
-                return f"{C_TYPES[data_type.name]} {name}"
+                return f"{self._c_types[data_type.name]} {name}"
             case StringType(length=length):
                 return f"plcstring {name}[{length + 1}]"
             case WStringType(length=length):

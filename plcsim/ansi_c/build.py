@@ -1,0 +1,268 @@
+"""Compiles C files and links them to one position-independent module; what is known is kept.
+
+An object is compiled again where its source, a header that it read, the options or the compiler
+have changed, and a module is linked again where an object has.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import subprocess
+import tempfile
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from plcsim.core.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from plcsim.ansi_c.toolchain import Toolchain
+    from plcsim.machine.cache import CodeCache
+
+SUFFIXES: Final = (".c", ".cpp", ".cc", ".cxx")
+"""Of files that are compiled; all but the first are C++."""
+
+_OPTIONS = (
+    *("-c", "-fPIC", "-fvisibility=default", "-O2", "-gdwarf-4"),
+    # what programs for the controller take for granted of its compiler
+    *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
+    *("-fno-math-errno", "-ffp-contract=off", "-fgnuc-version=11.3.0"),
+    # instructions that the machine does not run, and the saturating conversions of x86
+    *("-mno-bulk-memory", "-mno-nontrapping-fptoint", "-mno-reference-types", "-mno-multivalue"),
+    *("-nostdlibinc", "-fno-color-diagnostics", "-ferror-limit=0", "-Wno-unknown-warning-option"),
+    *("-D_DEFAULT_INCLUDES", "-D_SG4", "-D_REPLACE_CONST"),
+)
+_C_OPTIONS = (
+    "-std=gnu11",
+    # Errors in a newer clang that were none for the compilers of Automation Studio.
+    *("-Wno-int-conversion", "-Wno-pointer-to-int-cast", "-Wno-int-to-pointer-cast"),
+    *("-Wno-error=implicit-function-declaration", "-Wno-error=implicit-int"),
+    *("-Wno-error=return-type", "-Wno-error=incompatible-pointer-types"),
+    "-Wno-error=incompatible-function-pointer-types",
+)
+_CPP_OPTIONS = (
+    *("-std=gnu++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"),
+    *("-fno-finite-loops", "-fcheck-new", "-Wno-register"),
+)
+_LINK_OPTIONS = ("--shared", "--experimental-pic", "--import-memory", "--import-undefined")
+
+_FINDING = re.compile(r"^(.+?):(\d+):(\d+): (?:fatal )?(error|warning): (.*)$", re.MULTILINE)
+_LINKER = re.compile(r"^\S*wasm-ld\S*: (?:error|warning): (.*(?:\n>>> .*)*)$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Order:
+    """What is to be built.
+
+    Attributes:
+        name: for people.
+        sources: files in C and C++.
+        folders: where headers are looked for, in order.
+        options: further ones of the compiler, such as ``-DX=1``.
+    """
+
+    name: str
+    sources: Sequence[Path]
+    folders: Sequence[Path] = ()
+    options: Sequence[str] = ()
+
+
+@dataclass
+class Built:
+    """A module.
+
+    Attributes:
+        wasm: as it was linked.
+        warnings: of the compiler, as "file:line:column: text".
+    """
+
+    wasm: bytes
+    warnings: list[str] = field(default_factory=list)
+
+
+def build(order: Order, toolchain: Toolchain, cache: CodeCache) -> Built:
+    """Compile and link.
+
+    Raises:
+        ConfigurationError: the compiler or the linker found errors; all of them are told, as
+            "file:line:column: text".
+    """
+    with tempfile.TemporaryDirectory(prefix="plcsim-c-") as folder:
+        work = Path(folder)
+        objects = [
+            _Object(source, work / f"{number}", order, toolchain)
+            for number, source in enumerate(order.sources)
+        ]
+        _compile([o for o in objects if not o.load(cache)])
+        findings = [finding for o in objects for finding in o.errors]
+        if findings:
+            raise ConfigurationError(*findings)
+        for compiled in objects:
+            compiled.store(cache)
+        wasm = _link(order, objects, toolchain, cache, work)
+    return Built(wasm, [warning for o in objects for warning in o.warnings])
+
+
+class _Object:
+    """One file to compile.
+
+    A manifest names the headers that were read when it was compiled last, with their hashes; where
+    all of them are still the same, so is the object.
+    """
+
+    def __init__(self, source: Path, target: Path, order: Order, toolchain: Toolchain) -> None:
+        is_c = source.suffix.lower() == ".c"
+        self.source = source
+        self.file = target.with_suffix(".o")
+        self.content = b""
+        self.errors: list[str] = []
+        self.warnings: list[str] = []
+        self.toolchain = toolchain
+        self._dependencies = target.with_suffix(".d")
+        self.command = [
+            *(toolchain.c if is_c else toolchain.cpp),
+            *_OPTIONS,
+            *(_C_OPTIONS if is_c else _CPP_OPTIONS),
+            *order.options,
+            *(part for folder in order.folders for part in ("-I", str(folder))),
+            str(source),
+        ]
+        self._manifest = _key("manifest", toolchain.identity, *self.command)
+
+    def load(self, cache: CodeCache) -> bool:
+        """Take the object from the cache where nothing has changed."""
+        try:
+            manifest = json.loads(cache.load(self._manifest) or b"null")
+            if manifest is None or any(_hash_of(f) != h for f, h in manifest["files"].items()):
+                return False
+        except (ValueError, OSError):
+            return False
+        self.content = cache.load(manifest["object"]) or b""
+        self.warnings = manifest["warnings"]
+        return bool(self.content)
+
+    def full_command(self) -> list[str]:
+        return [*self.command, "-MD", "-MF", str(self._dependencies), "-o", str(self.file)]
+
+    def finish(self, code: int, told: str) -> None:
+        """Take what the compiler has made and told."""
+        found = [(m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}") for m in _FINDING.finditer(told)]
+        self.warnings = [text for kind, text in found if kind == "warning"]
+        if code == 0:
+            self.content = self.file.read_bytes()
+            return
+        self.errors = [text for kind, text in found if kind == "error"]
+        if not self.errors:
+            self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
+
+    def store(self, cache: CodeCache) -> None:
+        """Keep the object, where it was compiled now."""
+        if not self._dependencies.is_file():
+            return
+        files = {str(self.source), *_read_dependencies(self._dependencies)}
+        key = _key("object", self.content)
+        manifest = {
+            "files": {file: _hash_of(file) for file in sorted(files)},
+            "object": key,
+            "warnings": self.warnings,
+        }
+        cache.store(key, self.content)
+        cache.store(self._manifest, json.dumps(manifest).encode())
+
+
+def _compile(objects: Sequence[_Object]) -> None:
+    """Compile files, as many at a time as there are processors."""
+    at_once = max(1, len(os.sched_getaffinity(0)))
+    for start in range(0, len(objects), at_once):
+        with ExitStack() as stack:
+            running = [
+                (o, stack.enter_context(_started(o))) for o in objects[start : start + at_once]
+            ]
+            for compiled, process in running:
+                told, _ = process.communicate()
+                compiled.finish(process.returncode, told)
+
+
+def _started(compiled: _Object) -> subprocess.Popen[str]:
+    return subprocess.Popen(  # noqa: S603  # a compiler that we have found
+        compiled.full_command(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        encoding="utf-8",
+        errors="replace",
+        env=compiled.toolchain.environment(),
+    )
+
+
+def _link(
+    order: Order,
+    objects: Sequence[_Object],
+    toolchain: Toolchain,
+    cache: CodeCache,
+    work: Path,
+) -> bytes:
+    key = _key("module", toolchain.identity, *_LINK_OPTIONS, *(o.content for o in objects))
+    known = cache.load(key)
+    if known is not None:
+        return known
+    for compiled in objects:
+        compiled.file.write_bytes(compiled.content)
+    target = work / "module.wasm"
+    command = [
+        *toolchain.linker,
+        *_LINK_OPTIONS,
+        *(str(o.file) for o in objects),
+        "-o",
+        str(target),
+    ]
+    done = subprocess.run(  # noqa: S603  # a linker that we have found
+        command,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        check=False,
+        env=toolchain.environment(),
+    )
+    if done.returncode:
+        raise ConfigurationError(*_linker_findings(order, objects, done.stderr))
+    wasm = target.read_bytes()
+    cache.store(key, wasm)
+    return wasm
+
+
+def _linker_findings(order: Order, objects: Sequence[_Object], told: str) -> list[str]:
+    """Return what the linker said, with the names of the sources in place of the objects."""
+    for compiled in objects:
+        told = told.replace(str(compiled.file), str(compiled.source))
+    texts = [m[1].replace("\n>>>", ",") for m in _LINKER.finditer(told)]
+    found = [f"{order.name}: {text}" for text in texts]
+    return found or [f"{order.name}: cannot be linked: {told.strip()}"]
+
+
+def _read_dependencies(file: Path) -> Iterator[str]:
+    """Yield the files that a source has read, from the rule that the compiler wrote for make."""
+    rule = file.read_text("utf-8", "replace").replace("\\\n", " ")
+    _, _, names = rule.partition(": ")
+    for name in re.findall(r"(?:\\.|[^\s\\])+", names):
+        yield re.sub(r"\\(.)", r"\1", name).replace("$$", "$")
+
+
+def _key(*parts: str | bytes) -> str:
+    state = hashlib.blake2b(digest_size=24)
+    for part in parts:
+        data = part.encode() if isinstance(part, str) else part
+        state.update(len(data).to_bytes(8, "little") + data)
+    return state.hexdigest()
+
+
+def _hash_of(file: str) -> str:
+    return hashlib.blake2b(Path(file).read_bytes(), digest_size=24).hexdigest()

@@ -1,0 +1,43 @@
+/* Strings and memory (ISO C 7.24), and what POSIX adds that programs for the controller use. */
+
+#ifndef PLCSIM_STRING_H
+#define PLCSIM_STRING_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+void *memcpy(void *target, const void *source, size_t count);
+void *memmove(void *target, const void *source, size_t count);
+void *memset(void *target, int value, size_t count);
+int memcmp(const void *a, const void *b, size_t count);
+void *memchr(const void *area, int value, size_t count);
+
+size_t strlen(const char *text);
+size_t strnlen(const char *text, size_t most);
+char *strcpy(char *target, const char *source);
+char *strncpy(char *target, const char *source, size_t count);
+char *stpcpy(char *target, const char *source);
+char *strcat(char *target, const char *source);
+char *strncat(char *target, const char *source, size_t most);
+int strcmp(const char *a, const char *b);
+int strncmp(const char *a, const char *b, size_t most);
+int strcoll(const char *a, const char *b);
+int strcasecmp(const char *a, const char *b);
+int strncasecmp(const char *a, const char *b, size_t most);
+char *strchr(const char *text, int character);
+char *strrchr(const char *text, int character);
+char *strstr(const char *text, const char *part);
+char *strpbrk(const char *text, const char *any);
+size_t strspn(const char *text, const char *accepted);
+size_t strcspn(const char *text, const char *rejected);
+char *strtok(char *text, const char *separators);
+char *strtok_r(char *text, const char *separators, char **rest);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,164 @@
+"""A linked module of C on the machine of a controller: placed, bound, its data initialised."""
+
+from __future__ import annotations
+
+import hashlib
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from plcsim.ansi_c.line_table import read_line_table
+from plcsim.core.errors import ConfigurationError
+from plcsim.machine.placement import Placement, initial_values, place
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from plcsim.ansi_c.line_table import LineTable
+    from plcsim.machine import Extern, Frame, Machine
+    from plcsim.machine.placement import PlacedModule
+    from plcsim.machine.shared_module import SharedModule
+
+V = TypeVar("V")
+
+_ALIGNMENT = 16
+"""Bytes; of the data of every module, as clang takes it for granted of its stack."""
+
+
+class Surroundings(Protocol):
+    """What a module of C finds outside."""
+
+    def variable(self, name: str) -> int | None:
+        """Return the address of a variable of the controller, None where there is none."""
+
+    def function(self, name: str) -> Extern | None:
+        """Return a function or a block's body, None where there is none."""
+
+
+class CModule:
+    """A module of C that was placed and linked.
+
+    Args:
+        name: in messages, and in the frames of faults; no other module of the machine has it.
+        linked: the module.
+        machine: what it runs on.
+        surroundings: where it finds what it does not hold itself.
+        address: of its data; None allocates it.
+
+    Raises:
+        ConfigurationError: something that it uses is nowhere; all of it is told.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        linked: SharedModule,
+        machine: Machine,
+        surroundings: Surroundings,
+        address: int | None = None,
+    ) -> None:
+        self.name = name
+        self._linked = linked
+        self._machine = machine
+        self._surroundings = surroundings
+        alignment = max(linked.memory_alignment, _ALIGNMENT)
+        memory = machine.memory
+        self.address = (
+            memory.allocate(linked.memory_size, alignment) if address is None else address
+        )
+        self._placement = Placement(
+            self.address,
+            machine.reserve_functions(linked.table_size),
+            self._addresses(),
+            self._pointers(),
+        )
+        self._instance = machine.instantiate(
+            machine.compile_made(self._identity(), lambda: self._placed.wasm), self._functions()
+        )
+        for pointer, index in self._placement.pointers.items():
+            machine.set_function(index, self.extern(pointer))
+        self._relocate = self._optional("__wasm_apply_data_relocs")
+        self._construct = self._optional("__wasm_call_ctors")
+
+    @cached_property
+    def _placed(self) -> PlacedModule:
+        """The module as it is compiled; after that it is needed for faults only."""
+        return place(self._linked, self._placement, self.name)
+
+    def _identity(self) -> bytes:
+        """Return what the compiled code depends on."""
+        where = repr((self.name, self._placement)).encode()
+        return hashlib.blake2b(self._linked.wasm).digest() + where
+
+    def _addresses(self) -> dict[str, int]:
+        own = self._linked.variables
+        found = {
+            name: self._surroundings.variable(name)
+            or (self.address + own[name] if name in own else None)
+            for name in self._linked.addresses
+        }
+        return self._complete(found, "variable")
+
+    def _pointers(self) -> dict[str, int]:
+        """Give each function that the module needs a pointer to an entry of the table."""
+        names = self._linked.pointers
+        first = self._machine.reserve_functions(len(names))
+        return {name: first + number for number, name in enumerate(names)}
+
+    def _functions(self) -> dict[tuple[str, str], Extern | int]:
+        names = self._linked.called
+        found = {name: self._surroundings.function(name) for name in names}
+        return {("env", name): extern for name, extern in self._complete(found, "function").items()}
+
+    def _complete(self, found: Mapping[str, V | None], kind: str) -> dict[str, V]:
+        missing = sorted(name for name, value in found.items() if value is None)
+        if missing:
+            raise ConfigurationError(
+                *(f"{self.name}: uses {kind} {name}, which is nowhere" for name in missing)
+            )
+        return {name: value for name, value in found.items() if value is not None}
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._linked.functions
+
+    def extern(self, name: str) -> Extern:
+        """Return a function of the module, or of its surroundings, for others to import."""
+        if name in self._linked.functions:
+            return self._instance.extern(name)
+        found = self._surroundings.function(name)
+        if found is None:
+            raise ConfigurationError(f"{self.name}: uses {name}, which is nowhere")
+        return found
+
+    def function(self, name: str, params: str | None = None, results: str | None = None) -> Any:
+        """Return a function of the module as a Python callable."""
+        return self._instance.function(name, params, results)
+
+    def _optional(self, name: str) -> Callable[[], None]:
+        return self._instance.function(name) if name in self._linked.functions else _nothing
+
+    def address_of(self, variable: str) -> int | None:
+        """Return the address of a variable that the module itself defines, None without one."""
+        offset = self._linked.variables.get(variable)
+        return None if offset is None else self.address + offset
+
+    def reset(self) -> None:
+        """Give all its variables their initial values, as before its first call."""
+        memory = self._machine.memory
+        memory.write(self.address, bytes(self._linked.memory_size))
+        for address, content in initial_values(self._linked, self._placement):
+            memory.write(address, content)
+        self._relocate()
+        self._construct()
+
+    def location(self, frame: Frame) -> str:
+        """Return "file:line" of a frame in this module, "" where it is not known."""
+        offset = self._placed.linked_offset(frame.offset)
+        return self._lines.location(offset - self._linked.code_start)
+
+    @cached_property
+    def _lines(self) -> LineTable:
+        return read_line_table(self._linked.section(".debug_line"))
+
+
+def _nothing() -> None:
+    pass

@@ -1,0 +1,118 @@
+"""Finds a clang and a linker for WebAssembly: the package ``ziglang``, or those of the system.
+
+Both make the same of C; what differs between their versions is kept here.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+from plcsim.core.errors import ConfigurationError
+
+OLDEST, NEWEST = 14, 30
+"""Versions of clang and LLD that are looked for; 14 is the oldest that links what is needed."""
+
+MISSING = (
+    "programs in C need a compiler, and there is none: install it by  pip install 'plcsim[c]'  "
+    f"(or clang and lld {OLDEST} or newer by the system's own packages)"
+)
+
+_TARGET = "wasm32-unknown-emscripten"  # for it alone clang 14 makes position-independent code
+_ZIG_TARGET = "wasm32-freestanding"
+_DYNAMIC = "--unresolved-symbols=import-dynamic"  # what LLD 14 does by itself
+
+
+class Toolchain(NamedTuple):
+    """A compiler and a linker.
+
+    Attributes:
+        name: with its version, for people.
+        identity: tells one toolchain from another in what is kept of its work.
+        c: command that compiles C, with its target.
+        cpp: the same for C++.
+        linker: command that links, with what its version needs.
+    """
+
+    name: str
+    identity: str
+    c: tuple[str, ...]
+    cpp: tuple[str, ...]
+    linker: tuple[str, ...]
+
+    def environment(self) -> dict[str, str]:
+        """Return the environment to run it in: nothing of the user's C setup takes part."""
+        ignored = ("CPATH", "C_INCLUDE_PATH", "CPLUS_INCLUDE_PATH", "CCC_OVERRIDE_OPTIONS")
+        return {k: v for k, v in os.environ.items() if k not in ignored} | {"LC_ALL": "C"}
+
+
+def find_toolchain() -> Toolchain:
+    """Return the compiler and linker of this system.
+
+    Raises:
+        ConfigurationError: there is none; the message says how to get one.
+    """
+    found = zig() or system_clang()
+    if found is None:
+        raise ConfigurationError(MISSING)
+    return found
+
+
+@cache
+def zig() -> Toolchain | None:
+    """Return the toolchain in the package ``ziglang``, None where it is not installed."""
+    spec = find_spec("ziglang")
+    if spec is None or not spec.submodule_search_locations:
+        return None
+    program = Path(spec.submodule_search_locations[0]) / "zig"
+    if not program.is_file():
+        return None
+    try:
+        number = version("ziglang")
+    except PackageNotFoundError:
+        number = "unknown"
+    command = str(program)
+    return Toolchain(
+        f"zig {number}",
+        f"zig {number}",
+        (command, "cc", "-target", _ZIG_TARGET),
+        (command, "c++", "-target", _ZIG_TARGET),
+        (command, "wasm-ld", _DYNAMIC),
+    )
+
+
+@cache
+def system_clang() -> Toolchain | None:
+    """Return the newest clang with a linker of the same version on the path, None without one."""
+    for number in ("", *(f"-{n}" for n in range(NEWEST, OLDEST - 1, -1))):
+        clang, cpp, linker = (
+            shutil.which(name + number) for name in ("clang", "clang++", "wasm-ld")
+        )
+        if clang and cpp and linker and (found := _version(clang)) >= OLDEST:
+            return Toolchain(
+                f"clang {found}",
+                f"{_state(clang)} {_state(linker)}",
+                (clang, f"--target={_TARGET}"),
+                (cpp, f"--target={_TARGET}"),
+                (linker, _DYNAMIC) if found > OLDEST else (linker,),
+            )
+    return None
+
+
+def _version(clang: str) -> int:
+    """Return the main version of a clang by the name of its file, such as ``llvm-14/bin/clang``."""
+    found = re.findall(r"(?:clang|llvm)-?(\d+)", str(Path(clang).resolve()))
+    return int(found[-1]) if found else OLDEST
+
+
+def _state(program: str) -> str:
+    """Return what changes when a program is replaced by another version."""
+    file = Path(program).resolve()
+    status = file.stat()
+    return f"{file} {status.st_size} {status.st_mtime_ns}"

@@ -1,0 +1,1 @@
+"""Programs in ANSI C and C++."""

@@ -1,0 +1,93 @@
+import subprocess
+
+import pytest
+
+from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.headers import INCLUDE, program_headers, write_headers
+from plcsim.machine import CodeCache
+from st_types.resolve.scope import Scope
+from st_types.syntax.declarations import parse_text
+
+LIBRARY = """
+FUNCTION_BLOCK Ramp
+    VAR_INPUT enable : BOOL; target : LREAL; END_VAR
+    VAR_OUTPUT value : REAL; count : LINT; END_VAR
+END_FUNCTION_BLOCK
+FUNCTION scale : REAL VAR_INPUT x : REAL; END_VAR END_FUNCTION
+TYPE Mode : (OFF, ON := 5); END_TYPE
+VAR CONSTANT rampMAX : UINT := 7; END_VAR
+"""
+PROGRAM = """
+TYPE Part : STRUCT flag : BOOL; weight : LREAL; long_ : LINT; ramp : Ramp; END_STRUCT; END_TYPE
+VAR part : Part; parts : ARRAY[1..3] OF Part; mode : Mode; name : STRING[10]; END_VAR
+"""
+CHECK = """
+#include <AsDefault.h>
+#define SAME(a, b) _Static_assert((a) == (b), #a)
+SAME(sizeof(struct Ramp), 24);
+SAME(__builtin_offsetof(Ramp_typ, value), 8);
+SAME(__builtin_offsetof(Part, weight), 4);
+SAME(__builtin_offsetof(struct Part, long_), 12);
+SAME(sizeof(Part), 44);
+SAME(sizeof(parts), 3 * 44);
+SAME(sizeof(mode), 4);
+SAME(sizeof(name), 11);
+SAME(ON, 5);
+SAME(rampMAX, 7);
+void _CYCLIC run(void) { part.ramp.target = scale(gain); Ramp(&part.ramp); parts[2].flag = 1; }
+"""
+
+
+def scope(name, text, *outer):
+    return Scope(name, [parse_text(text)], outer)
+
+
+@pytest.fixture
+def headers():
+    library = scope("Motion", LIBRARY)
+    project = scope("cell", "VAR gain : REAL; END_VAR", library)
+    return program_headers(scope("conveyor", PROGRAM, project, library), project, [library])
+
+
+def test_a_program_finds_what_is_declared_around_it(headers, each_toolchain, source, tmp_path):
+    folder = write_headers(headers, tmp_path / "include")
+    file = source("main.c", CHECK)
+    built = build(Order("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
+    assert built.warnings == []
+
+
+def test_each_library_has_its_header(headers):
+    assert {"Motion.h", "AsDefault.h"} <= set(headers)
+    assert "conveyor" not in headers["Motion.h"]
+
+
+def test_headers_lie_in_a_folder_of_their_content(headers, tmp_path):
+    one = write_headers(headers, tmp_path)
+    assert write_headers(dict(reversed(headers.items())), tmp_path) == one
+    assert write_headers({**headers, "AsDefault.h": ""}, tmp_path) != one
+    assert sorted(f.name for f in one.iterdir()) == sorted(headers)
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_folder_that_cannot_be_written_is_replaced(headers):
+    folder = write_headers(headers, INCLUDE / "bur" / "plctypes.h")
+    assert (folder / "AsDefault.h").is_file()
+
+
+def test_types_are_those_of_the_32_bit_target(each_toolchain, source):
+    """The same assertions hold for gcc -m32, where that is installed."""
+    text = """
+    #include <bur/plctypes.h>
+    #define SAME(a, b) _Static_assert((a) == (b), #a)
+    struct l { char a; LREAL b; }; struct i { char a; LINT b; }; struct p { char a; void *b; };
+    SAME(sizeof(struct l), 12); SAME(sizeof(struct i), 12); SAME(sizeof(struct p), 8);
+    SAME(sizeof(long), 4); SAME(sizeof(DINT), 4); SAME(sizeof(BOOL), 1); SAME(sizeof(WSTRING), 2);
+    struct bits { unsigned a : 20; unsigned b : 20; unsigned char c : 3; };
+    SAME(sizeof(struct bits), 8);
+    enum e { A, B }; SAME(sizeof(enum e), 4);
+    """
+    file = source("a.c", text)
+    build(Order("p", [file], [INCLUDE]), each_toolchain, CodeCache(None))
+    command = ["gcc", "-m32", "-ffreestanding", "-fsyntax-only", f"-I{INCLUDE}", str(file)]
+    native = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "static assertion" not in native.stderr
