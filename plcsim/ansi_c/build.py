@@ -15,7 +15,7 @@ import tempfile
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from plcsim.core.errors import ConfigurationError
 
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 
     from plcsim.ansi_c.toolchain import Toolchain
     from plcsim.machine.cache import CodeCache
-
-SUFFIXES: Final = (".c", ".cpp", ".cc", ".cxx")
-"""Of files that are compiled; all but the first are C++."""
 
 _OPTIONS = (
     *("-c", "-fPIC", "-fvisibility=default", "-O2", "-gdwarf-4"),
@@ -62,7 +59,7 @@ class Order:
 
     Attributes:
         name: for people.
-        sources: files in C and C++.
+        sources: files in C and C++; what does not end with ``.c`` is C++.
         folders: where headers are looked for, in order.
         options: further ones of the compiler, such as ``-DX=1``.
     """

@@ -18,7 +18,10 @@ BUDGET, RELEASE = range(2)
 """Indices of 64-bit cells: the budget; the release time of the running task class in ns."""
 
 UNLIMITED = 1 << 62
-"""The budget of a program that nobody has asked to end; it may be counted down."""
+"""The budget of a program that nobody has asked to end.
+
+Its low word is 0, and that of no other is: compiled code looks at nothing else.
+"""
 
 STALLED = -1
 """The budget of a program that does not return."""

@@ -10,8 +10,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from plcsim.machine import Machine
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
@@ -19,6 +17,7 @@ if TYPE_CHECKING:
     from plcsim.core.context import Context
     from plcsim.core.memory import Memory
     from plcsim.core.task import Task
+    from plcsim.machine import Machine
 
 
 class ProgramSource(NamedTuple):
@@ -67,6 +66,8 @@ class Site:
         Raises:
             MachineError: the host has no room for it.
         """
+        from plcsim.machine import Machine  # noqa: PLC0415  # 20 ms that not every project needs
+
         return Machine(self.memory, fuel=self._counts_instructions)
 
 

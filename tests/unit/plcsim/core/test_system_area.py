@@ -16,6 +16,11 @@ from plcsim.core.system_area import (
 )
 
 
+def test_the_low_word_tells_whether_a_program_may_run():
+    assert UNLIMITED & 0xFFFF_FFFF == 0
+    assert all(why & 0xFFFF_FFFF for why in (STALLED, STOPPED))
+
+
 def test_a_new_page_lets_programs_run():
     area = SystemArea()
     assert (area.cells[BUDGET], area.verdict) == (UNLIMITED, "")

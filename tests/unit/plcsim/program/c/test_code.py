@@ -1,0 +1,196 @@
+import pytest
+
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.core.clock import VirtualClock
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.system import State
+from plcsim.program.c.language import C_LANGUAGE
+from plcsim.program.language import ProgramSource
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+
+MS = 1_000_000
+
+VARIABLES = """
+VAR
+    counter : UDINT := 7;
+    timer : TON;
+    done : BOOL;
+    text : STRING[20] := 'abc';
+    wild : REFERENCE TO UDINT;
+    left : BOOL;
+END_VAR
+VAR CONSTANT
+    LIMIT : UINT := 5;
+END_VAR
+"""
+
+MAIN = """
+#include <bur/plctypes.h>
+#ifdef _DEFAULT_INCLUDES
+	#include <AsDefault.h>
+#endif
+#include <string.h>
+
+UDINT plain = 3;
+static UDINT calls;
+static void fill(char *to) { strcat(to, "!"); }
+void (*action)(char *) = fill;
+
+void _INIT ProgramInit(void)
+{
+	counter += plain++;
+}
+
+void _CYCLIC ProgramCyclic(void)
+{
+	counter++;
+	timer.PT = 20;
+	timer.IN = 1;
+	TON(&timer);
+	done = timer.Q;
+	if (strlen(text) < LIMIT)
+		action(text);
+	if (++calls == 50)
+		*wild = 1;
+}
+
+void _EXIT ProgramExit(void) { left = 1; }
+"""
+
+
+@pytest.fixture(autouse=True)
+def _a_compiler():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+
+
+@pytest.fixture
+def load(tmp_path):
+    """``load({"Main.c": "..."})``: the code of a program."""
+
+    def load(files):
+        folder = tmp_path / "conveyor"
+        folder.mkdir(exist_ok=True)
+        for name, text in files.items():
+            (folder / name).write_text(text)
+        units = C_LANGUAGE.units(folder)
+        return C_LANGUAGE.load(ProgramSource("conveyor", folder, units, tmp_path, "package"))
+
+    return load
+
+
+@pytest.fixture
+def controller(load):
+    """``controller(files, "a", "b")``: one with the program as these tasks in a 1 ms class."""
+
+    def controller(files, *names, clock=None):
+        code = load(files)
+        programs = [ProgramSetup(name, code) for name in names or ["conveyor"]]
+        setup = Setup([TaskClassSetup(1, MS, programs)])
+        return make_controller(setup, clock=clock or VirtualClock())
+
+    return controller
+
+
+def value(plc, path):
+    return plc.tags.read(plc.tags.find(path))
+
+
+FILES = {"Main.c": MAIN, "Variables.var": VARIABLES}
+
+
+def test_a_program_runs_with_blocks_library_and_pointers(controller):
+    plc = controller(FILES)
+    plc.boot()
+    assert value(plc, "conveyor.counter") == 10
+    plc.run(cycles=5)
+    assert value(plc, "conveyor.counter") == 15
+    assert value(plc, "conveyor.text") == "abc!!"
+    assert value(plc, "conveyor.timer.ET") == 4
+    plc.run(cycles=20)
+    assert value(plc, "conveyor.done") is True
+    plc.shutdown()
+    assert value(plc, "conveyor.left") is True
+    assert plc.state is State.STOPPED
+
+
+def test_a_wild_pointer_is_service_with_its_line(controller):
+    plc = controller(FILES)
+    plc.boot()
+    plc.run(cycles=100)
+    assert (plc.state, value(plc, "conveyor.counter")) == (State.SERVICE, 60)
+    fault = plc.fault
+    file, _, line = fault.location.rpartition(":")
+    assert file.endswith("/conveyor/Main.c")
+    assert MAIN.splitlines()[int(line) - 1].strip() == "*wild = 1;"
+    assert fault.reason == "page fault: address 16#00000000"
+    assert fault.calls == (f"{fault.location} in ProgramCyclic",)
+
+
+def test_a_restart_begins_with_all_initial_values(controller):
+    plc = controller(FILES)
+    for _ in range(2):
+        plc.boot()
+        assert value(plc, "conveyor.counter") == 10
+        plc.run(cycles=100)
+        assert plc.state is State.SERVICE
+
+
+def test_two_tasks_of_one_program_share_nothing(controller):
+    plc = controller(FILES, "one", "two")
+    plc.boot()
+    plc.run(cycles=3)
+    assert value(plc, "one.counter") == value(plc, "two.counter") == 13
+    assert value(plc, "one.text") == value(plc, "two.text") == "abc!!"
+
+
+def test_an_exception_in_a_block_leads_to_the_call_in_c(controller, monkeypatch):
+    from plcsim.library.standard import TON
+
+    def execute(_self):
+        raise KeyError("in Python")
+
+    monkeypatch.setattr(TON, "execute", execute)
+    plc = controller(FILES)
+    plc.boot()
+    plc.run(cycles=1)
+    assert plc.fault.reason == "KeyError: 'in Python'"
+    line = MAIN.splitlines().index("\tTON(&timer);") + 1
+    assert plc.fault.calls[0].endswith(f"Main.c:{line} in ProgramCyclic")
+
+
+def test_an_endless_loop_is_ended_on_the_virtual_clock(controller, monkeypatch):
+    monkeypatch.setattr("plcsim.machine.machine.UNIT_FUEL", 100_000)
+    text = "#include <bur/plctypes.h>\nvoid _CYCLIC run(void)\n{\n  while (1);\n}\n"
+    plc = controller({"Main.c": text})
+    plc.boot()
+    plc.run(cycles=1)
+    (violation,) = plc.violations
+    assert violation.location.endswith("Main.c:4")
+
+
+def test_errors_are_told_with_their_places(load):
+    files = {"Main.c": "int f(void) { return x; }", "Part.c": "#include <nowhere.h>\n"}
+    with pytest.raises(ConfigurationError) as caught:
+        load(files)
+    first, second = caught.value.findings
+    assert "conveyor/Main.c:1:22: use of undeclared identifier 'x'" in first
+    assert "conveyor/Part.c:1:10: 'nowhere.h' file not found" in second
+
+
+def test_a_program_without_a_unit_is_refused(load):
+    with pytest.raises(ConfigurationError, match="no function of the program is marked _INIT"):
+        load({"Main.c": "void cyclic(void) {}"})
+
+
+def test_what_is_nowhere_is_told_when_the_task_is_made(controller):
+    text = "#include <bur/plctypes.h>\nvoid Mp(void*);\nvoid _CYCLIC run(void) { Mp(0); }"
+    with pytest.raises(ConfigurationError, match="conveyor: uses function Mp, which is nowhere"):
+        controller({"Main.c": text})
+
+
+def test_errors_in_declarations_are_told(load):
+    with pytest.raises(ConfigurationError, match=r"Variables\.var:2"):
+        load({"Main.c": MAIN, "Variables.var": "VAR\n x : NoSuchType;\nEND_VAR"})
