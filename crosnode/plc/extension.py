@@ -73,6 +73,10 @@ class RosExtension(Extension):
             return "crosnode.plc.master_service"
         return ""
 
+    def endpoint(self, settings: RosSettings) -> str:
+        """Return the URI of the embedded master."""
+        return settings.master_uri
+
     def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
         """Leave the settings for programs; step the bridge, and a master in the scan, with it."""
         clock, first = controller.clock, min(controller.classes, key=lambda each: each.cycle_ns)

@@ -10,10 +10,13 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.live_logbook import is_by_host, line_of
 from plcsim.core.duration import format_duration
+from plcsim.project.extension import extensions
+from plcsim.shared_image.status_page import ServiceState
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
     from plcsim.project.plc_toml import Project
     from plcsim.shared_image.status_page import StatusPage
@@ -44,7 +47,8 @@ class LiveTable:
         project: what runs.
         page: its status page.
         for_ns: when the run ends, on the controller's clock; None for never.
-        hints: what a person can do meanwhile, a line each.
+        services: gives how the services do, by table.
+        hint: what a person can do meanwhile.
     """
 
     def __init__(
@@ -52,15 +56,17 @@ class LiveTable:
         project: Project,
         page: StatusPage,
         for_ns: int | None = None,
-        hints: Sequence[str] = (),
+        services: Callable[[], Mapping[str, ServiceState]] = dict,
+        hint: str = "",
     ) -> None:
         self._project = project
         self._page = page
         self._goal = "" if for_ns is None else f" of {format_duration(for_ns)}"
-        self._hints = [Text(hint, style="dim") for hint in hints]
+        self._services = services
+        self._hint = Text(hint, style="dim")
 
     def picture(self) -> Group:
-        """Return state, time, task classes and hints."""
+        """Return state, time, task classes, services and the hint."""
         state = self._page.state.name
         elapsed = f"{self._page.elapsed_ns / 1e9:.1f} s{self._goal}"
         head = Text.assemble(
@@ -79,11 +85,24 @@ class LiveTable:
                 _pair(s.lateness_ns, s.longest_lateness_ns),
             )
         names = (_programs(c.number, (p.name for p in c.programs)) for c in self._project.classes)
-        return Group(head, table, *names, *self._hints)
+        return Group(head, table, *names, *self._lines_of_services(), self._hint)
+
+    def _lines_of_services(self) -> Iterator[Text]:
+        for name, state in self._services().items():
+            where = extensions()[name].endpoint(self._project.extensions[name])
+            style = "bold red" if state is ServiceState.FAILING else ""
+            yield Text.assemble(f"[{name}] ", (state.name.lower(), style), f"  {where}")
 
 
-def print_summary(result: dict[str, Any]) -> None:
-    """Print how a run ended: state, task classes, fault, logbook."""
+def print_summary(
+    result: dict[str, Any], shown: Collection[tuple[int, str, str]] = frozenset()
+) -> None:
+    """Print how a run ended: state, task classes, fault, logbook.
+
+    Args:
+        result: the report.
+        shown: entries of the logbook that were printed meanwhile, as (time_ns, source, text).
+    """
     console = CommandConsole(stderr=True)
     state = result["state"]
     elapsed = format_duration(result["elapsed_ns"])
@@ -112,12 +131,14 @@ def print_summary(result: dict[str, Any]) -> None:
     entries = [
         e
         for e in result["logbook"]
-        if e["severity"] != "information" and not fault.endswith(e["text"])
+        if e["severity"] != "information"
+        and not fault.endswith(e["text"])
+        and not is_by_host(e["source"], e["text"])
+        and (e["time_ns"], e["source"], e["text"]) not in shown
     ]
     for entry in entries[-10:]:
-        seconds = f"{entry['time_ns'] / 1e9:.6f}"
-        text = Text(f"{seconds:>13} s  {entry['source']}: {entry['text']}")
-        console.print(text, soft_wrap=True)
+        line = line_of(entry["time_ns"], entry["source"], entry["text"])
+        console.print(Text(line), soft_wrap=True)
     if lost := result.get("output_lost_bytes"):
         console.print(f"{lost:,} bytes that were printed are lost: nobody took them in time")
     if len(entries) > 10:
@@ -150,7 +171,9 @@ def _blame(classes: list[dict[str, Any]]) -> str:
             counts[cause] = counts.get(cause, 0) + count
     if not any(counts.values()):
         return ""
-    return "violations by cause: " + ", ".join(f"{cause} {n}" for cause, n in counts.items())
+    text = ", ".join(f"{cause} {count}" for cause, count in counts.items())
+    why = "; plcsim doctor says why the host is late" if counts["host"] else ""
+    return f"violations by cause: {text}{why}"
 
 
 def source_line(location: str) -> str:

@@ -9,6 +9,8 @@ import os
 import shlex
 import signal
 import sys
+import time
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +18,7 @@ from plcsim.cli.check import notes_on_cpu
 from plcsim.cli.console import CommandConsole, print_error
 from plcsim.cli.display import LiveTable, print_summary
 from plcsim.cli.exit_codes import ExitCode, epilog
+from plcsim.cli.live_logbook import LiveLogbook
 from plcsim.cli.output_file import check_output, write_output
 from plcsim.cli.project_argument import add_project
 from plcsim.cli.terminal import Terminal
@@ -26,7 +29,7 @@ from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
     from types import FrameType
 
     from plcsim.project.plc_toml import Project
@@ -107,22 +110,30 @@ def run(options: argparse.Namespace) -> int:
             print(f"on this host: {note}", file=sys.stderr)
     terminal = None if options.quiet else _terminal()
     stdout = terminal if terminal is not None and _is_one_terminal() else None
+    output = Output(stdout, terminal, patient=options.virtual)
     supervisor = Supervisor(
         project,
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
-        output=Output(stdout, terminal, patient=options.virtual),
+        output=output,
         quiet=options.quiet,
     )
+    logbook = None if options.quiet else LiveLogbook(supervisor.events, output.say)
     with supervisor, _signals_forwarded(supervisor):
         with _table_on(terminal, _table(project, supervisor, options)):
-            result = supervisor.wait()
-        code = _finish(result, options)  # a late Ctrl-C shall not cost the report
+            result = supervisor.wait(partial(_look, logbook))
+        shown = frozenset() if logbook is None else logbook.shown
+        code = _finish(result, options, shown)  # a late Ctrl-C shall not cost the report
         code = code or _judge_services(supervisor.services.never_served)
         if options.stay and code == ExitCode.SERVICE:
             _stay(supervisor, options)
         return code
+
+
+def _look(logbook: LiveLogbook | None) -> None:
+    if logbook is not None:
+        logbook.look(time.monotonic_ns())
 
 
 def _terminal() -> Terminal | None:
@@ -140,8 +151,9 @@ def _is_one_terminal() -> bool:
 
 
 def _table(project: Project, supervisor: Supervisor, options: argparse.Namespace) -> LiveTable:
-    hints = [HINT.format(shlex.quote(str(options.project)))]
-    return LiveTable(project, supervisor.page, options.for_ns, hints)
+    hint = HINT.format(shlex.quote(str(options.project)))
+    services = supervisor.services
+    return LiveTable(project, supervisor.page, options.for_ns, lambda: services.states, hint)
 
 
 @contextlib.contextmanager
@@ -182,14 +194,17 @@ def _stay(supervisor: Supervisor, options: argparse.Namespace) -> None:
     supervisor.stay()
 
 
-def _finish(result: dict[str, Any], options: argparse.Namespace) -> int:
+def _finish(
+    result: dict[str, Any], options: argparse.Namespace, shown: Collection[tuple[int, str, str]]
+) -> int:
     """Write the report, print the summary, and return the exit code."""
     if "error" in result:
         raise ConfigurationError(result["error"])
     in_service = result["state"] == "SERVICE"
     unwritten = _write_report(result, options.report)
     if not options.quiet or in_service:
-        _show(result)
+        with contextlib.suppress(OSError):  # nobody may be left to read it
+            print_summary(result, shown)
     if unwritten:  # how the run ended was told all the same, and counts more
         print_error(unwritten)
     failed = ExitCode.FAILED if unwritten else ExitCode.DONE
@@ -212,9 +227,3 @@ def _judge_services(never_served: list[str]) -> int:
     for table in never_served:
         print_error(f"[{table}] never served; the reason stands above")
     return ExitCode.FAILED if never_served else ExitCode.DONE
-
-
-def _show(result: dict[str, Any]) -> None:
-    """Print the summary; where nobody is left to read it, the exit code is told all the same."""
-    with contextlib.suppress(OSError):
-        print_summary(result)

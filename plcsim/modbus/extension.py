@@ -47,6 +47,11 @@ class ModbusExtension(Extension):
         """Return the module that serves the map."""
         return "plcsim.modbus.service.process"
 
+    def endpoint(self, settings: ModbusProject) -> str:
+        """Return address and port."""
+        host, port = settings.settings.host, settings.settings.port
+        return f"{f'[{host}]' if ':' in host else host}:{port or 'any free port'}"
+
     def attach(self, settings: ModbusProject, controller: Controller) -> Attachment:
         """Return the map for the service; addresses given for the first time are locked.
 

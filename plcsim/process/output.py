@@ -233,10 +233,14 @@ class Output:
         self.waits_for_reader |= self._patient and left <= 0
 
     def _put(self, sink: Sink, data: bytes) -> None:
-        taken = data if self._patient else data[: max(0, sink.room)]
+        taken = data[: max(0, sink.room)]
         self.lost += len(data) - len(taken)
         if taken:
             sink.put(taken)
+
+    def say(self, line: str) -> None:
+        """Print a line of the parent's own to stderr, among what the children print there."""
+        self._put(self._sinks[1], f"{line}\n".encode("utf-8", "backslashreplace"))
 
     def flush(self, patient: Callable[[], bool] = lambda: False) -> int:
         """Hand everything on that was printed so far, and wait for those who read it.

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.core.errors import ConfigurationError, PlcError
+from plcsim.core.logbook import Severity
 from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
 from plcsim.network import OsNetwork, VirtualNetwork
@@ -148,6 +149,8 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         system_fd=order.system_fd,
     )
     _handle_signals(controller)
+    for right in rights.refused:
+        controller.log(Severity.WARNING, "system", f"no real-time right: {right}")
     controller.boot()
     if rights.complete:
         realtime.settle()

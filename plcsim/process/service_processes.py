@@ -74,11 +74,15 @@ class _Service:
         self.starts += 1
 
     @property
+    def state(self) -> ServiceState:
+        """How it does."""
+        return self._page.service_state(self.order.number)
+
+    @property
     def never_served(self) -> bool:
         """It had its chance: it ended by itself or said why it could not."""
-        number = self.order.number
-        failing = self._page.service_state(number) is ServiceState.FAILING
-        return failing and not self._page.has_served(number)
+        failing = self.state is ServiceState.FAILING
+        return failing and not self._page.has_served(self.order.number)
 
     @property
     def pid(self) -> int | None:
@@ -144,6 +148,11 @@ class ServiceProcesses:
     def starts(self) -> dict[str, int]:
         """How often each service was started, by table."""
         return {service.order.table: service.starts for service in self._services}
+
+    @property
+    def states(self) -> dict[str, ServiceState]:
+        """How each service does, by table."""
+        return {service.order.table: service.state for service in self._services}
 
     @property
     def never_served(self) -> list[str]:

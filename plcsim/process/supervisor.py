@@ -34,6 +34,7 @@ from plcsim.process.run_file import Run, announce, withdraw
 from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
 from plcsim.process.watchdog import Sight, Sign, Watch, Watchdog
+from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.status_page import StatusPage
 
 if TYPE_CHECKING:
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from plcsim.process.output import ChildOutput
     from plcsim.project.plc_toml import Project
     from plcsim.project.tables import TaskClassEntry
+    from plcsim.shared_image.stream import StreamReader
 
 POLL_S = 0.02
 """The watchdog looks this often."""
@@ -187,6 +189,7 @@ class Supervisor:
             look()
             time.sleep(POLL_S)  # Popen.wait(timeout) would wake five times as often
         self._reap()
+        look()
         outcome = self._outcome()
         lost = self._output.flush(lambda: self._virtual and not self._stops)
         if "error" not in outcome:
@@ -218,6 +221,13 @@ class Supervisor:
         if self._process.returncode is None:
             end_group(self._process.pid)
             self._process.wait()
+
+    def events(self) -> StreamReader | None:
+        """Return a reader of all that has happened in the scan, None before its image is there."""
+        try:
+            return ImageReader(self.services.image_fd).events(from_oldest=True)
+        except ImageNotReady:
+            return None
 
     def stay(self, look: Callable[[], None] = lambda: None) -> None:
         """Stay up in SERVICE until `stop` is called: services and watchers read the last snapshot.

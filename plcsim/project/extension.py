@@ -72,6 +72,10 @@ class Extension(Protocol):
         """
         return ""
 
+    def endpoint(self, settings: Any) -> str:
+        """Return where others reach the service, as people write it; "" where nobody does."""
+        return ""
+
     def attach(self, settings: Any, controller: Controller) -> Attachment:
         """Hook into a controller before its boot, in the scan process.
 

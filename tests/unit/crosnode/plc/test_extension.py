@@ -155,6 +155,11 @@ def test_only_an_embedded_master_outside_of_tests_is_a_service() -> None:
     assert service("http://localhost:11311/", in_process=False) == ""
 
 
+def test_the_endpoint_is_the_uri_of_the_master() -> None:
+    table = Table(Path("plc.toml"), "ros", {"master": "embedded", "master_port": 11411})
+    assert EXTENSION.endpoint(EXTENSION.read(table)).endswith(":11411/")
+
+
 def test_the_logbook_says_once_that_a_program_misses_its_master() -> None:
     plc = controller(master="http://192.168.0.99:11311/")
     plc.boot()

@@ -9,7 +9,7 @@ from plcsim.cli.display import LiveTable, print_summary, source_line
 from plcsim.core.task import Policy
 from plcsim.process.report import report
 from plcsim.project.plc_toml import read_project
-from plcsim.shared_image.status_page import StatusPage
+from plcsim.shared_image.status_page import ServiceState, StatusPage
 
 MS = 1_000_000
 
@@ -86,7 +86,7 @@ def live(project_of):
     """The live table of a project of one program, and its status page."""
     folder = project_of("")
     page = StatusPage()
-    yield LiveTable(read_project(folder), page, 60_000 * MS, ["what to do"]), page
+    yield LiveTable(read_project(folder), page, 60_000 * MS, hint="what to do"), page
     page.close()
 
 
@@ -106,3 +106,20 @@ def test_the_live_table_shows_the_status_page(live, make_controller, task_class,
     assert " ".join(row.split()) == "#1 10 ms 4 4 4 11 ms / 11 ms 0 ns / 0 ns"
     assert names == "#1: main"
     assert hint == "what to do"
+
+
+def test_the_live_table_shows_how_services_do_and_where_they_are(project_of):
+    folder = project_of("", plc="[modbus]\nport = 1502\nauto = true")
+    states = {"modbus": ServiceState.STARTING}
+    page = StatusPage()
+    table = LiveTable(read_project(folder), page, services=lambda: states)
+
+    def line():
+        out = io.StringIO()
+        Console(file=out, width=80).print(table.picture())
+        return out.getvalue().splitlines()[4]
+
+    assert line() == "[modbus] starting  127.0.0.1:1502"
+    states["modbus"] = ServiceState.FAILING
+    assert line() == "[modbus] failing  127.0.0.1:1502"
+    page.close()

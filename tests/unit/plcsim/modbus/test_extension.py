@@ -8,6 +8,7 @@ import pytest
 from plcsim.cli.main import main
 from plcsim.modbus import extension
 from plcsim.modbus.ports import remedy
+from plcsim.project.plc_toml import read_project
 
 PROGRAM = """
 from plcsim import Program
@@ -47,6 +48,19 @@ def test_a_project_that_is_right_has_nothing_more_to_say(
 ) -> None:
     assert main(["check", str(project)]) == 0
     assert "on this host" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "endpoint"),
+    [
+        ("port = 1502", "127.0.0.1:1502"),
+        ('host = "::1"', "[::1]:502"),
+        ("port = 0", "127.0.0.1:any free port"),
+    ],
+)
+def test_the_endpoint_is_told(project: Path, text: str, endpoint: str) -> None:
+    settings = read_project(with_modbus(project, text)).extensions["modbus"]
+    assert extension.EXTENSION.endpoint(settings) == endpoint
 
 
 def test_the_map_is_checked_as_by_tags_check(
