@@ -1,6 +1,6 @@
 """``plcsim ros``: what a ROS 1 type is, its md5, and messages between JSON and bytes.
 
-This module only declares the commands: numpy and rosbags, which they need, are loaded when one of
+This module only declares the commands: numpy, which they need, is loaded when one of
 them runs (`crosnode.commands.later`).
 """
 

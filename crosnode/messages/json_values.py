@@ -14,7 +14,7 @@ import math
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from crosnode.errors import MessageValueError
-from crosnode.messages.codec import Message, attribute_name
+from crosnode.messages.message import Message, attribute_name
 from crosnode.messages.values import DTYPES, Duration, Time
 
 if TYPE_CHECKING:

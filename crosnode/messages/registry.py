@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import DefinitionError, MessageTypeError, UnknownTypeError
-from crosnode.messages.codec import Codec, Message
+from crosnode.messages.codec import Codec
 from crosnode.messages.definition import (
     HEADER,
     Definition,
@@ -27,6 +27,8 @@ from crosnode.messages.packages import SHARE, DefinitionKind, PackagePath
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
     from pathlib import Path
+
+    from crosnode.messages.message import Message
 
 _SEPARATOR: Final = "=" * 80
 _MAX_NESTING: Final = 64
@@ -86,7 +88,7 @@ class MessageType:
         """
         return self._types.message_class(self.name)(**values)
 
-    def encode(self, message: object) -> memoryview:
+    def encode(self, message: object) -> bytes:
         """Return the message as bytes; see ``Codec.encode``."""
         return self._types.codec_for(self.name).encode(self.name, message)
 

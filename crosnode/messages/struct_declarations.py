@@ -240,6 +240,8 @@ def _literal(text: str) -> Literal:
 
 def _constant(prefix: str, constant: MessageConstant) -> Declaration:
     name = f"{prefix}_{constant.name}"
+    if not (name.isascii() and name.isidentifier()):  # genmsg takes any words for it
+        raise DefinitionError(f"{prefix}: no constant of a PLC can be called {constant.name!r}.")
     if isinstance(constant.value, str):
         data = constant.value.encode()
         initial: Expression = _literal(string_literal(data.decode("latin-1")))

@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from crosnode.messages import Duration, Time
-from crosnode.messages.codec import attribute_name
+from crosnode.messages.message import attribute_name
 from crosnode.messages.text import is_utf8, to_latin1
 from plcsim.core.errors import ConfigurationError
 from st_types.types.derived import ArrayType, StringType, StructType, WStringType, resolve_alias

@@ -8,8 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.errors import DecodeError, DefinitionError, MessageValueError
-from crosnode.messages.codec import MAX_UNROLLED, Codec, Message
+from crosnode.messages.codec import MAX_FIXED, Codec
 from crosnode.messages.definition import parse_message
+from crosnode.messages.message import Message
 from crosnode.messages.values import Duration, Time
 
 
@@ -22,45 +23,6 @@ def codec_of(**texts: str) -> Codec:
 
 def new(codec: Codec, text: str, **values: object) -> Message:
     return codec.add(parse_message("pkg/Type", text))(**values)
-
-
-def test_defaults() -> None:
-    codec = codec_of(Inner="int32 x")
-    message = new(
-        codec,
-        """
-        bool b
-string s
-float32 f
-uint8 u
-time t
-duration d
-Inner i
-        float64[3] fixed
-uint8[] bytes
-Inner[2] two
-Inner[] some
-string[2] words
-time[] times
-        """,
-    )
-    assert (message.b, message.s, message.f, message.u) == (False, "", 0.0, 0)
-    assert (message.t, message.d) == (Time(0, 0), Duration(0, 0))
-    assert message.i.x == 0
-    assert message.fixed.tolist() == [0.0, 0.0, 0.0]
-    assert message.bytes.tolist() == []
-    assert [inner.x for inner in message.two] == [0, 0]
-    assert message.two[0] is not message.two[1]
-    assert (message.some, message.words, message.times) == ([], ["", ""], [])
-    data = codec.encode("pkg/Type", message)
-    assert codec.decode("pkg/Type", data) == message
-
-
-def test_defaults_are_not_shared() -> None:
-    codec = codec_of(Type="int32[] a\nstring[] b")
-    first, second = (codec.decode("pkg/Type", bytes(8)) for _ in range(2))
-    first.b.append("x")
-    assert second.b == []
 
 
 def test_byte_order_and_signs() -> None:
@@ -79,11 +41,6 @@ def test_keyword_fields() -> None:
         codec, "int32 from\nint32 self\nint32 cls\nint32 pos", from_=1, self=2, cls=3, pos=4
     )
     assert bytes(codec.encode("pkg/Type", message)) == struct.pack("<4i", 1, 2, 3, 4)
-
-
-def test_keyword_that_collides() -> None:
-    with pytest.raises(DefinitionError, match="from_"):
-        codec_of(Type="int32 from\nint32 from_")
 
 
 def test_empty_message() -> None:
@@ -182,17 +139,11 @@ def test_hostile_bytes(text: str, data: bytes) -> None:
         codec.decode("pkg/Type", data)
 
 
-def test_variable_array_of_nothing_is_refused() -> None:
-    """Four bytes on the wire could otherwise ask for four thousand million objects."""
-    with pytest.raises(DefinitionError, match=r"pkg/Type\.x: variable array of empty"):
-        codec_of(Nothing="", Nested="Nothing n\nNothing[3] m\nint8[0] k", Type="Nested[] x")
-
-
 def test_long_fixed_arrays() -> None:
     codec = codec_of(Type="uint8[100000] x")
     assert len(codec.encode("pkg/Type", codec.decode("pkg/Type", bytes(100000)))) == 100000
-    with pytest.raises(DefinitionError, match=r"pkg/Long\.x: fixed array"):
-        codec_of(Long=f"string[{MAX_UNROLLED + 1}] x")
+    with pytest.raises(DefinitionError, match=r"pkg/Long\.x: array of more than 4096 string"):
+        codec_of(Long=f"string[{MAX_FIXED + 1}] x")
 
 
 TEXTS = codec_of(
@@ -262,19 +213,33 @@ def test_any_message_comes_back(
 DEFAULT = CODEC.add(parse_message("pkg/Type", EVERY_KIND))()
 
 
-def test_equality() -> None:
-    codec = codec_of(Type="float64[] x\nint32 y", Other="float64[] x\nint32 y")
-    one, two = (codec.decode("pkg/Type", bytes(8)) for _ in range(2))
-    assert one == two
-    two.x = np.array([1.0])
-    assert one != two
-    assert one != codec.decode("pkg/Other", bytes(8))
-    assert repr(one) == "Type(x=array([], dtype=float64), y=0)"
-    with pytest.raises(TypeError):
-        hash(one)
+def test_a_text_is_no_list_of_texts() -> None:
+    codec = codec_of()
+    for text in ("string[] words", "string[3] words"):
+        message = new(codec, text, words="abc")
+        with pytest.raises(MessageValueError, match=r"pkg/Type\.words: expected a list, got str"):
+            codec.encode("pkg/Type", message)
+    message = new(codec, "uint8[] data", data="abc")
+    with pytest.raises(MessageValueError, match=r"pkg/Type\.data: expected a sequence, got str"):
+        codec.encode("pkg/Type", message)
 
 
-def test_warm_compiles_dependencies() -> None:
+@pytest.mark.parametrize("value", [2, "no", None, []])
+def test_what_is_no_bool(value: object) -> None:
+    codec = codec_of()
+    for text, held in (("bool b", value), ("bool[] b", [value]), ("bool[1] b", [value])):
+        message = new(codec, text, b=held)
+        with pytest.raises(MessageValueError, match=r"pkg/Type\.b: expected a bool"):
+            codec.encode("pkg/Type", message)
+
+
+def test_what_stands_for_a_bool() -> None:
+    codec = codec_of()
+    message = new(codec, "bool a\nbool[] b\nbool[2] c", a=np.True_, b=[0, True], c=[1, np.False_])
+    assert codec.encode("pkg/Type", message) == b"\1\2\0\0\0\0\1\1\0"
+    assert codec.decode("pkg/Type", b"\5\0\0\0\0\0\0").a is True
+
+
+def test_warm_runs_the_code_once() -> None:
     codec = codec_of(Inner="int32 x", Type="Inner i\nInner[] j")
     codec.warm("pkg/Type")
-    assert {"pkg/Inner", "pkg/Type"} <= codec.compiled

@@ -215,6 +215,7 @@ def test_errors(types: MessageTypes, name: str, message: str) -> None:
     [
         ("float32 A=inf", "x_A_A: inf is no value of a PLC"),
         ("int8[0] a", r"x_A.a: an ARRAY cannot have 0 elements"),
+        ("int8 A[]=1", r"x_A: no constant of a PLC can be called 'A\[\]'"),
     ],
 )
 def test_what_has_no_form_in_a_plc(text: str, message: str) -> None:
