@@ -47,7 +47,7 @@ def parse_declarations(source: Source) -> DeclarationFile:
         first = _parse(source)
     if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
         return first
-    second = _parse(Source(source.path, text, source.encoding))
+    second = _parse(Source(source.path, text, source.encoding, source.mark))
     return second if second.diagnostics.error_count < first.diagnostics.error_count else first
 
 

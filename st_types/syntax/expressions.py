@@ -151,10 +151,13 @@ class ExpressionParser(TokenReader):
     Attributes:
         reserved: keywords that are no names of variables, whatever stands beside them.
         key_table: the keys of tokens; with the keywords of statements in the parser of those.
+        postfixes: what may follow an operand here: arguments may not where ``(`` means another
+            thing.
     """
 
     reserved: ClassVar[frozenset[str]] = _OPERATOR_WORDS
     key_table: ClassVar[KeyTable] = KeyTable(_OPERATOR_WORDS)
+    postfixes = POSTFIXES
     _operators = 0
 
     @cached_property
@@ -211,7 +214,7 @@ class ExpressionParser(TokenReader):
         if key == NAME:
             self.index = at + 1
             name = Name(at, self.texts[at])
-            return self.postfix(name) if keys[at + 1] in POSTFIXES else name
+            return self.postfix(name) if keys[at + 1] in self.postfixes else name
         if key == "literal":
             return self.literal(self.texts[at])
         if key in _PREFIXES:
@@ -244,11 +247,12 @@ class ExpressionParser(TokenReader):
         return self.postfix(Name(at, text))  # a keyword as a name
 
     def _parenthesised(self) -> Expression:
-        self._step()
+        at = self._step()
         self.enter()
         inner = self._operation()
         self.leave()
         self.expect(")", "to close the parenthesis")
+        self.tokens.parentheses[at] = inner.at
         return inner
 
     def literal(self, text: str) -> Expression:
@@ -276,7 +280,8 @@ class ExpressionParser(TokenReader):
         """Parse the members, indices, ``^`` and arguments that follow ``base``."""
         keys = self.keys
         index = start = self.index
-        while (key := keys[index]) in POSTFIXES:
+        postfixes = self.postfixes
+        while (key := keys[index]) in postfixes:
             if key == "." and keys[index + 1] == NAME:
                 base = MemberAccess(index + 1, base, self.texts[index + 1])
                 index += 2

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from st_types.syntax.expressions import Call, Expression, ExpressionParser, Name
-from st_types.syntax.tree import (
-    ArrayInitial,
-    Initial,
-    MemberInitial,
-    RepeatedInitial,
-    StructInitial,
-)
+from typing import TYPE_CHECKING
+
+from st_types.syntax.expressions import POSTFIXES, Call, ExpressionParser
+from st_types.syntax.tree import ArrayInitial, MemberInitial, RepeatedInitial, StructInitial
+
+if TYPE_CHECKING:
+    from st_types.syntax.expressions import Expression
+    from st_types.syntax.tree import Initial
+
+_PATH = POSTFIXES - {"("}
+"""What may follow an operand where no function is called."""
 
 
 class InitialParser(ExpressionParser):
@@ -24,36 +27,27 @@ class InitialParser(ExpressionParser):
             UnexpectedTokenError: there is no value here.
         """
         at = self.index
-        first = self._initial_item(counts_by_name=False)
+        first = self._initial_item(may_call=True)
         if isinstance(first, Call) or (self.text != "," and not isinstance(first, RepeatedInitial)):
             return first
         items: list[Initial] = [first]
         while self.accept(","):
-            items.append(self._initial_item(counts_by_name=True))
+            items.append(self._initial_item(may_call=False))
         return ArrayInitial(at, items)
 
-    def _initial_item(self, *, counts_by_name: bool) -> Initial:
-        text = self.text
+    def _initial_item(self, *, may_call: bool) -> Initial:
+        """Parse a value; ``may_call`` is False in lists, where ``N + 1(0)`` repeats the 0."""
+        at, text = self.index, self.text
         if text == "[":
             return self._array_initial()
         if text == "(" and self._starts_members():
             return self._struct_initial()
-        if self.texts[self.index + 1] == "(" and self._is_count(text, by_name=counts_by_name):
-            return self._repeated_initial()
-        return self.expression()
-
-    def _is_count(self, text: str, *, by_name: bool) -> bool:
-        if not text.isascii():
-            return False
-        return text.isdecimal() or (by_name and text.isidentifier() and text.upper() != "NOT")
-
-    def _count(self) -> Expression:
-        """Parse the number before ``(``, or the name of a constant."""
-        at, text = self.index, self.text
-        if not text.isidentifier():
-            return self.literal(text)
-        self.index += 1
-        return Name(at, text)
+        outer, self.postfixes = self.postfixes, POSTFIXES if may_call else _PATH
+        try:
+            value = self.expression()
+        finally:
+            self.postfixes = outer
+        return self._repeated_initial(at, value) if self.text == "(" else value
 
     def _starts_members(self) -> bool:
         after = self.texts[self.index + 1 : self.index + 3]
@@ -77,12 +71,11 @@ class InitialParser(ExpressionParser):
                 self.expect(",", f"or '{closing}' after an initial value")
                 if self.accept(closing):
                     break
-            items.append(self._initial_item(counts_by_name=True))
+            items.append(self._initial_item(may_call=False))
         return items
 
-    def _repeated_initial(self) -> RepeatedInitial:
-        at = self.index
-        count = self._count()
+    def _repeated_initial(self, at: int, count: Expression) -> RepeatedInitial:
+        """Parse what stands in the parentheses behind the ``count`` at token ``at``."""
         if self._starts_members() and self.texts[self.index + 1] != ")":
             return RepeatedInitial(at, count, [self._struct_initial()])
         self._open_initial()
@@ -106,4 +99,4 @@ class InitialParser(ExpressionParser):
         at = self.index
         name = self.expect_name("of a member")
         self.expect(":=", f"after the name of the member {name}")
-        return MemberInitial(at, name, self._initial_item(counts_by_name=False))
+        return MemberInitial(at, name, self._initial_item(may_call=True))

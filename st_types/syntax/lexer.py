@@ -172,9 +172,11 @@ class Tokens:
         texts: one string a token, then empty ones for the end of the text, `LOOKAHEAD` or more.
         trivia: blanks, comments and pragmas before each token.
         truncated: True where the text has more than `MAX_TOKENS` tokens; the others were not read.
+        parentheses: by the number of a ``(`` that a parser found around an expression, the number
+            that is ``at`` of the expression; the tree has no nodes for them.
     """
 
-    __slots__ = ("_offsets", "source", "texts", "trivia", "truncated")
+    __slots__ = ("_offsets", "parentheses", "source", "texts", "trivia", "truncated")
 
     def __init__(self, source: Source) -> None:
         parts = _CUT.split(source.text, maxsplit=MAX_TOKENS)
@@ -183,6 +185,7 @@ class Tokens:
         self.trivia = parts[1::3] + [""] * LOOKAHEAD
         self.texts = parts[2::3] + [""] * LOOKAHEAD
         self._offsets: list[int] | None = None
+        self.parentheses: dict[int, int] = {}
 
     @property
     def end(self) -> int:

@@ -21,6 +21,7 @@ MAX_SOURCE_BYTES = 32 * 1024 * 1024
 """Largest file that is read; real declaration files stay below 2 MiB."""
 
 _LINE_END = re.compile(r"\r\n?|\n")
+_UTF16 = {BOM_UTF16_LE: "utf-16-le", BOM_UTF16_BE: "utf-16-be"}
 
 
 class Location(NamedTuple):
@@ -41,12 +42,14 @@ class Source:
         path: as it is shown in diagnostics.
         text: decoded, without a byte order mark; line ends as in the file.
         encoding: the codec that decoded it, for bytes of STRINGs.
+        mark: the byte order mark, empty if there is none.
     """
 
-    def __init__(self, path: str, text: str, encoding: str = "utf-8") -> None:
+    def __init__(self, path: str, text: str, encoding: str = "utf-8", mark: bytes = b"") -> None:
         self.path = path
         self.text = text
         self.encoding = encoding
+        self.mark = mark
 
     @classmethod
     def decode(cls, path: str, data: bytes) -> Source:
@@ -61,13 +64,25 @@ class Source:
             message = f"the file is larger than {MAX_SOURCE_BYTES // 1024 // 1024} MiB"
             finding = Diagnostic(Severity.ERROR, path, 1, 1, message)
             raise SourceError(finding.render(), [finding])
-        if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
-            return cls(path, data.decode("utf-16", "replace"), "utf-16")
-        data = data.removeprefix(BOM_UTF8)
+        for mark, encoding in _UTF16.items():
+            if data.startswith(mark):
+                return cls(path, data[len(mark) :].decode(encoding, "replace"), encoding, mark)
+        mark = BOM_UTF8 if data.startswith(BOM_UTF8) else b""
+        data = data.removeprefix(mark)
         try:
-            return cls(path, data.decode("utf-8"), "utf-8")
+            return cls(path, data.decode("utf-8"), "utf-8", mark)
         except UnicodeDecodeError:
-            return cls(path, data.decode("latin-1"), "latin-1")
+            return cls(path, data.decode("latin-1"), "latin-1", mark)
+
+    def encode(self, text: str) -> bytes:
+        """Return ``text`` with the encoding, the byte order mark and the line ends of this source.
+
+        Line ends are those of its first line, LF if it has only one.
+        """
+        first = _LINE_END.search(self.text)
+        lines = _LINE_END.split(text)
+        body = (first.group() if first is not None else "\n").join(lines)
+        return self.mark + body.encode(self.encoding, "surrogatepass")
 
     @classmethod
     def read(cls, path: Path, shown: str = "") -> Source:

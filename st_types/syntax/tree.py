@@ -205,7 +205,7 @@ class FunctionDeclaration(Node):
 Item = TypeBlock | VariableBlock | FunctionBlockDeclaration | FunctionDeclaration
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class DeclarationFile:
     """A parsed file.
 
@@ -220,6 +220,9 @@ class DeclarationFile:
     closing: str = field(compare=False)
     tokens: Tokens = field(compare=False, repr=False)
     diagnostics: DiagnosticLog = field(compare=False, repr=False)
+
+    def __repr__(self) -> str:
+        return f"<{self.path}>"
 
     @property
     def path(self) -> str:

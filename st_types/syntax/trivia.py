@@ -17,23 +17,42 @@ _PIECE = re.compile(
 
 def comments_before(trivia: str) -> tuple[str, ...]:
     """Return the comments on lines of their own: all but those on the line the trivia starts in."""
-    return _comments(trivia, own_line=True)
+    return _pieces(trivia, _COMMENTS, own_line=True)
 
 
 def comments_behind(trivia: str) -> tuple[str, ...]:
     """Return the comments on the line the trivia starts in, as they are written."""
-    return _comments(trivia, own_line=False)
+    return _pieces(trivia, _COMMENTS, own_line=False)
 
 
-def _comments(trivia: str, *, own_line: bool) -> tuple[str, ...]:
-    if "(*" not in trivia and "/" not in trivia:
+def notes_before(trivia: str) -> tuple[str, ...]:
+    """Return comments and pragmas as `comments_before` does."""
+    return _pieces(trivia, _NOTES, own_line=True)
+
+
+def notes_behind(trivia: str) -> tuple[str, ...]:
+    """Return comments and pragmas as `comments_behind` does."""
+    return _pieces(trivia, _NOTES, own_line=False)
+
+
+def pragmas_behind(trivia: str) -> tuple[str, ...]:
+    """Return the pragmas on the line the trivia starts in."""
+    return _pieces(trivia, ("pragma",), own_line=False)
+
+
+_COMMENTS = ("block", "line")
+_NOTES = (*_COMMENTS, "pragma")
+
+
+def _pieces(trivia: str, kinds: tuple[str, ...], *, own_line: bool) -> tuple[str, ...]:
+    if "(*" not in trivia and "/" not in trivia and "{" not in trivia:
         return ()
     found = []
     on_own_line = False
     for piece in _PIECE.finditer(trivia):
         if piece.lastgroup == "end":
             on_own_line = True
-        elif piece.lastgroup != "pragma" and on_own_line is own_line:
+        elif piece.lastgroup in kinds and on_own_line is own_line:
             found.append(piece.group())
     return tuple(found)
 

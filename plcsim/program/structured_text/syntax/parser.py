@@ -40,7 +40,7 @@ def parse_structured_text(
         first = _parse(source, defines)
         if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
             return first
-        second = _parse(Source(source.path, text, source.encoding), defines)
+        second = _parse(Source(source.path, text, source.encoding, source.mark), defines)
     return second if second.diagnostics.error_count < first.diagnostics.error_count else first
 
 

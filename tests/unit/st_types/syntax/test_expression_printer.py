@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.syntax.diagnostics import DiagnosticLog
-from st_types.syntax.expression_printer import print_expression
+from st_types.syntax.expression_printer import ExpressionPrinter, print_expression
 from st_types.syntax.expressions import (
     MAX_OPERATORS,
     PRECEDENCE,
@@ -54,8 +54,13 @@ def test_printing_gives_the_text_back(text: str) -> None:
     assert print_expression(parse(text)) == text
 
 
-def test_superfluous_parentheses_go() -> None:
-    assert print_expression(parse("((a)) + (b * c)")) == "a + b * c"
+def test_superfluous_parentheses_go_unless_the_file_is_at_hand() -> None:
+    text = "((a)) + (b * c) + ((d + e)) * -(1) + (f).g"
+    source = Source("a", text)
+    tokens = Tokens(source)
+    node = ExpressionParser(tokens, DiagnosticLog(source)).expression()
+    assert print_expression(node) == "a + b * c + (d + e) * -1 + f.g"
+    assert ExpressionPrinter(tokens).expression(node) == text.replace("(f)", "f")
 
 
 def test_a_long_chain_prints() -> None:

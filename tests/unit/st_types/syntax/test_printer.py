@@ -7,7 +7,7 @@ from st_types.syntax.diagnostics import DiagnosticLog
 from st_types.syntax.expressions import Binary, Expression, Literal, MemberAccess, Name, Unary
 from st_types.syntax.lexer import Tokens
 from st_types.syntax.literals import parse_literal
-from st_types.syntax.printer import print_declaration, print_file, print_item
+from st_types.syntax.printer import print_bytes, print_declaration, print_file, print_item
 from st_types.syntax.source import Source
 from st_types.syntax.tree import (
     ArrayInitial,
@@ -88,6 +88,20 @@ def test_text_in_the_usual_shape_comes_back_unchanged() -> None:
         ("TYPE e : (); END_TYPE", "TYPE\n\te :\n\t\t(\n\t\t);\nEND_TYPE\n"),
         ("VAR END_VAR (*x*) VAR END_VAR", "VAR\nEND_VAR\n(*x*)\nVAR\nEND_VAR\n"),
         ("{P} VAR END_VAR", "{P} VAR\nEND_VAR\n"),
+        ("VAR a : A := (0); END_VAR", "VAR\n\ta : A := (0);\nEND_VAR\n"),
+        (
+            "VAR a : ARRAY[(0)..(N)] OF INT := [((N)+1)((2))]; END_VAR",
+            "VAR\n\ta : ARRAY[(0)..(N)] OF INT := [((N) + 1)((2))];\nEND_VAR\n",
+        ),
+        (
+            "{A} TYPE E : ({B}\nx {C},\n{D} y); END_TYPE {E}",
+            "{A}\nTYPE\n\tE :\n\t\t( {B}\n\t\tx,\n\t\t{D}\n\t\ty\n\t\t);\nEND_TYPE\n{E}\n",
+        ),
+        (
+            "TYPE S : STRUCT a : INT; {P}\nEND_STRUCT; {Q} END_TYPE",
+            "TYPE\n\tS : STRUCT\n\t\ta : INT;\n\t\t{P}\n\tEND_STRUCT;\n\t{Q}\nEND_TYPE\n",
+        ),
+        ("FUNCTION f (*a*)\n(*b*) END_FUNCTION", "FUNCTION f (*a*)\n(*b*)\nEND_FUNCTION\n"),
         (
             "FUNCTION f : STRUCT a : INT; END_STRUCT END_FUNCTION",
             "FUNCTION f : STRUCT\n\ta : INT;\nEND_STRUCT\nEND_FUNCTION\n",
@@ -96,6 +110,19 @@ def test_text_in_the_usual_shape_comes_back_unchanged() -> None:
 )
 def test_shapes(text: str, printed: str) -> None:
     assert print_file(parse_text(text)) == printed
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        "TYPE\r\n\tA : INT; (*für*)\r\nEND_TYPE\r\n".encode("latin-1"),
+        "\ufeffTYPE\n\tA : INT; (*€\n2*)\nEND_TYPE\n".encode(),
+        "\ufeffTYPE\r\tA : INT;\rEND_TYPE\r".encode("utf-16-le"),
+        "\ufeffTYPE\r\n\tA : INT;\r\nEND_TYPE\r\n".encode("utf-16-be"),
+    ],
+)
+def test_encoding_mark_and_line_ends_are_those_that_were_read(data: bytes) -> None:
+    assert print_bytes(parse_declarations(Source.decode("a.typ", data))) == data
 
 
 def test_parts_print_alone() -> None:

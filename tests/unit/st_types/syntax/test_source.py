@@ -15,8 +15,8 @@ from st_types.syntax.source import Location, Source
         (b"\xef\xbb\xbfTYPE", "TYPE", "utf-8"),
         ("für".encode(), "für", "utf-8"),
         ("für".encode("latin-1"), "für", "latin-1"),
-        ("für".encode("utf-16"), "für", "utf-16"),
-        (b"\xfe\xff\x00A", "A", "utf-16"),
+        ("für".encode("utf-16"), "für", "utf-16-le"),
+        (b"\xfe\xff\x00A", "A", "utf-16-be"),
     ],
 )
 def test_decoding(data: bytes, text: str, encoding: str) -> None:

@@ -3,7 +3,10 @@ import pytest
 from st_types.syntax.trivia import (
     comments_before,
     comments_behind,
+    notes_before,
+    notes_behind,
     open_comment,
+    pragmas_behind,
     pragmas_in,
 )
 
@@ -13,6 +16,12 @@ TRIVIA = " (*speed*) (*#CMD*) {P}\r\n\t// next\n\t(* of two\n lines *)\n\t{Q} "
 def test_comments_on_the_same_line_stand_behind() -> None:
     assert comments_behind(TRIVIA) == ("(*speed*)", "(*#CMD*)")
     assert comments_before(TRIVIA) == ("// next", "(* of two\n lines *)")
+
+
+def test_pragmas_are_notes_too() -> None:
+    assert notes_behind(TRIVIA) == ("(*speed*)", "(*#CMD*)", "{P}")
+    assert notes_before(TRIVIA) == ("// next", "(* of two\n lines *)", "{Q}")
+    assert pragmas_behind(TRIVIA) == ("{P}",)
 
 
 def test_blanks_hold_no_comment() -> None:
