@@ -176,8 +176,11 @@ class Index:
                         found.setdefault(value.name, each)
 
     def report_duplicates(self, dialect: Dialect) -> bool:
-        """Record what is declared twice, in one file an error, in two a warning; False if none."""
-        found = False
+        """Record what is declared twice: True if that is an error.
+
+        It is one in one file, except for constants that say the same, and a warning in two files.
+        """
+        has_errors = False
         lists: tuple[Sequence[Entry], ...] = (self.types, self.functions, self.variables)
         for entries in lists:
             names = [entry.node.name for entry in entries]
@@ -189,12 +192,19 @@ class Index:
             for name, entry in zip(names, entries, strict=True):
                 first = first_of_name.setdefault(name, entry)
                 if first is not entry:
-                    found = True
-                    _report_duplicate(first, entry)
-        return found
+                    has_errors |= _report_duplicate(first, entry)
+        return has_errors
 
 
-def _report_duplicate(first: Entry, entry: Entry) -> None:
+def _report_duplicate(first: Entry, entry: Entry) -> bool:
     file, other = entry.resolver.file, first.resolver.file
     message = f"{entry.node.name} is declared twice; first at {other.location(first.node)}"
-    (file.error if file is other else file.warning)(entry.node, message)
+    is_error = file is other and not _say_the_same(first, entry)
+    (file.error if is_error else file.warning)(entry.node, message)
+    return is_error
+
+
+def _say_the_same(one: Entry, other: Entry) -> bool:
+    entries = (one, other)
+    are_constants = all(isinstance(e, VariableEntry) and e.is_constant for e in entries)
+    return are_constants and one.node == other.node

@@ -138,13 +138,18 @@ class Scope:
         entry = self.index.names(space).get(name)
         if entry is not None or not self.outer:
             return entry
-        if len(self.outer) == 1:
+        if self._has_one_around:
             return self.outer[0].exact(space, name)
         around = self._around.setdefault(space, {})
         if name not in around:
             found = (scope.index.names(space).get(name) for scope in self.chain[1:])
             around[name] = next((entry for entry in found if entry is not None), None)
         return around[name]
+
+    @cached_property
+    def _has_one_around(self) -> bool:
+        """Whether one scope knows all that is around this one: it sees it, and is not seen."""
+        return len(self.outer) == 1 and self not in self.outer[0].chain
 
     @cached_property
     def _around(self) -> dict[NameSpace, dict[str, Entry | None]]:

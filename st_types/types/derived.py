@@ -19,6 +19,9 @@ V_co = TypeVar("V_co", covariant=True)
 MAX_SIZE = 0x7FFF_FFFF
 """Bytes; no variable of a 32-bit controller is larger."""
 
+MAX_EMPTY_ELEMENTS = 0x1_0000
+"""Elements of an ARRAY whose elements have no bytes; nothing else bounds it."""
+
 
 class Section(Enum):
     """The VAR section a member stands in; the values give the order within a data block."""
@@ -40,13 +43,16 @@ class Member(NamedTuple):
 
 
 class StringType(DataType[str]):
-    """STRING[length]: ``length`` one-byte characters and a terminator."""
+    """STRING[length]: ``length`` one-byte characters and a terminator.
+
+    STRING[0] holds the terminator only: interfaces of libraries have references to it.
+    """
 
     __slots__ = ("length",)
 
     def __init__(self, length: int) -> None:
-        if not 0 < length < MAX_SIZE:
-            raise DeclarationError(f"STRING[{length}]: the length must be above 0.")
+        if not 0 <= length < MAX_SIZE:
+            raise DeclarationError(f"STRING[{length}]: the length must be 0 or above.")
         super().__init__(f"STRING[{length}]", length + 1, 1)
         self.length = length
 
@@ -57,8 +63,8 @@ class WStringType(DataType[str]):
     __slots__ = ("length",)
 
     def __init__(self, length: int) -> None:
-        if not 0 < length < MAX_SIZE // 2:
-            raise DeclarationError(f"WSTRING[{length}]: the length must be above 0.")
+        if not 0 <= length < MAX_SIZE // 2:
+            raise DeclarationError(f"WSTRING[{length}]: the length must be 0 or above.")
         super().__init__(f"WSTRING[{length}]", 2 * (length + 1), 2)
         self.length = length
 
@@ -84,6 +90,8 @@ class ArrayType(DataType[V_co]):
         self.count = prod(high - low + 1 for low, high in bounds)
         if self.count * element.size > MAX_SIZE:
             raise DeclarationError(f"{name}: {self.count * element.size} bytes are too many.")
+        if not element.size and self.count > MAX_EMPTY_ELEMENTS:
+            raise DeclarationError(f"{name}: {self.count} elements are too many.")
         super().__init__(name, self.count * element.size, element.alignment)
 
     def index_of(self, *indices: int) -> int:

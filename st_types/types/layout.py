@@ -26,7 +26,7 @@ def align_up(offset: int, alignment: int) -> int:
 def lay_out(types: Iterable[DataType[object]]) -> Layout:
     """Lay members out one after another as a C compiler does on the 32-bit target.
 
-    An empty STRUCT takes 1 byte, so that each variable has an address of its own.
+    An empty STRUCT takes no byte, as in the C of gcc.
     """
     offsets = []
     end = 0
@@ -36,4 +36,4 @@ def lay_out(types: Iterable[DataType[object]]) -> Layout:
         end += -end % data_type.alignment
         offsets.append(end)
         end += data_type.size
-    return Layout(tuple(offsets), max(1, align_up(end, alignment)), alignment)
+    return Layout(tuple(offsets), align_up(end, alignment), alignment)

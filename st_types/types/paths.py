@@ -1,14 +1,23 @@
-"""Paths of variables: ``motor.axes[3].name``."""
+"""Paths of variables such as ``motor.axes[3].name``, and the walk through a type."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from itertools import product
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from st_types.types.derived import ArrayType, StructType, resolve_alias
+from st_types.types.derived import (
+    AliasType,
+    ArrayType,
+    DataBlockType,
+    ReferenceType,
+    StructType,
+    resolve_alias,
+)
+from st_types.types.elementary import DataType
 
 if TYPE_CHECKING:
-    from st_types.types.elementary import DataType
+    from collections.abc import Iterator
 
 _STEP = re.compile(r"\w+|\[[^][]*\]")
 _PATH = re.compile(rf"({_STEP.pattern})(\.\w+|\[[^][]*\])*")
@@ -58,3 +67,69 @@ def _member(data_type: StructType[Any], step: str) -> tuple[DataType[Any], int]:
         raise KeyError(f"{data_type} has no member {step}")
     member, offset = data_type.find(declared)
     return resolve_alias(member.data_type), offset
+
+
+class Part(NamedTuple):
+    """A variable inside a variable: path, type with aliases resolved, offset in bytes."""
+
+    path: str
+    data_type: DataType[Any]
+    offset: int
+
+
+def parts(
+    data_type: DataType[object],
+    path: str = "",
+    offset: int = 0,
+    *,
+    elements: bool = True,
+    blocks: bool = True,
+) -> Iterator[Part]:
+    """Yield a variable and all that lies in it, each before what it holds, in declared order.
+
+    Args:
+        data_type: its type.
+        path: of the variable.
+        offset: of its first byte.
+        elements: go into every element of an ARRAY; otherwise into the first one.
+        blocks: go into the data blocks of function blocks as well.
+    """
+    found = resolve_alias(data_type)
+    yield Part(path, found, offset)
+    if isinstance(found, StructType) and (blocks or not isinstance(found, DataBlockType)):
+        for member, at in zip(found.members, found.offsets, strict=True):
+            inner = f"{path}.{member.name}" if path else member.name
+            yield from parts(member.data_type, inner, offset + at, elements=elements, blocks=blocks)
+    elif isinstance(found, ArrayType):
+        ranges = (range(low, (high if elements else low) + 1) for low, high in found.bounds)
+        for number, index in enumerate(product(*ranges)):
+            inner = f"{path}[{','.join(map(str, index))}]"
+            at = offset + number * found.element.size
+            yield from parts(found.element, inner, at, elements=elements, blocks=blocks)
+
+
+def leaves(
+    data_type: DataType[object],
+    path: str = "",
+    offset: int = 0,
+    *,
+    elements: bool = True,
+    blocks: bool = True,
+) -> Iterator[Part]:
+    """Yield the `parts` that hold a value and no parts: no STRUCT, data block or ARRAY."""
+    for part in parts(data_type, path, offset, elements=elements, blocks=blocks):
+        if not isinstance(part.data_type, StructType | ArrayType):
+            yield part
+
+
+def inner_types(data_type: DataType[object]) -> Iterator[DataType[object]]:
+    """Yield the types that stand in the declaration of ``data_type``, aliases as they are."""
+    match data_type:
+        case AliasType(target=target):
+            yield target
+        case ArrayType(element=element):
+            yield element
+        case StructType(members=members):
+            yield from (member.data_type for member in members)
+        case ReferenceType(target=DataType() as target):
+            yield target

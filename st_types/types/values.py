@@ -213,8 +213,8 @@ def decode(data_type: DataType[object], data: bytes) -> object:
             return decode_wstring(data)
         case ArrayType(element=element):
             return [
-                decode(element, data[i : i + element.size])
-                for i in range(0, len(data), element.size)
+                decode(element, data[i * element.size : (i + 1) * element.size])
+                for i in range(data_type.count)
             ]
         case StructType(members=members, offsets=offsets):
             return {

@@ -62,8 +62,12 @@ def test_name_size_and_alignment(data_type, name, size, alignment):
 @pytest.mark.parametrize(
     ("declare", "message"),
     [
-        (lambda: STRING(0), "STRING[0]: the length must be above 0."),
-        (lambda: WSTRING(-3), "WSTRING[-3]: the length must be above 0."),
+        (
+            lambda: ARRAY(StructType("Empty", []), (1, 2**20)),
+            "ARRAY[1..1048576] OF Empty: 1048576 elements are too many.",
+        ),
+        (lambda: STRING(-1), "STRING[-1]: the length must be 0 or above."),
+        (lambda: WSTRING(-3), "WSTRING[-3]: the length must be 0 or above."),
         (
             lambda: ARRAY(INT, (2, 1)),
             "ARRAY[2..1] OF INT: each lower bound must not be above its upper bound.",

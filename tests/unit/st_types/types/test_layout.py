@@ -127,7 +127,8 @@ def test_data_block_is_the_generated_c_struct(name):
 @pytest.mark.parametrize(
     ("types", "offsets", "size", "alignment"),
     [
-        ((), (), 1, 1),
+        ((), (), 0, 1),
+        ((StructType("Empty", ()), BOOL), (0, 0), 1, 1),
         ((BOOL,), (0,), 1, 1),
         ((UDINT, UDINT), (0, 4), 8, 4),  # tcpLINGER_typ, tcpSO_ADDRESS_typ
         ((BOOL, UDINT), (0, 4), 8, 4),

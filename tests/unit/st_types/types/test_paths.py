@@ -1,10 +1,19 @@
+from collections.abc import Iterable
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types import ARRAY, BOOL, INT, REAL, STRING, UINT, Struct, var
-from st_types.types.derived import AliasType, Member, StructType
-from st_types.types.paths import find
+from st_types.types.derived import (
+    AliasType,
+    ArrayType,
+    DataBlockType,
+    Member,
+    ReferenceType,
+    StructType,
+)
+from st_types.types.paths import Part, find, inner_types, leaves, parts
 from st_types.types.views import type_of
 
 
@@ -94,3 +103,68 @@ def test_any_text_is_a_path_or_a_key_error(path):
 def test_members_that_differ_in_case_only_are_two() -> None:
     limits = StructType("limits", [Member("A1", INT), Member("a1", INT), Member("V", INT)])
     assert (find(limits, "A1")[1], find(limits, "a1")[1], find(limits, "v")[1]) == (0, 2, 4)
+
+
+CELL = [
+    ("number", "INT", 0),
+    ("main", "Axis", 4),
+    ("main.on", "BOOL", 4),
+    ("main.speed", "REAL", 8),
+    ("axes", "ARRAY[1..3] OF Axis", 12),
+    ("axes[1]", "Axis", 12),
+    ("axes[1].on", "BOOL", 12),
+    ("axes[1].speed", "REAL", 16),
+]
+
+
+def shown(found: Iterable[Part]) -> list[tuple[str, str, int]]:
+    return [(part.path, part.data_type.name, part.offset) for part in found]
+
+
+def test_parts_come_before_what_they_hold() -> None:
+    found = shown(parts(type_of(Cell), elements=False))
+    assert found[0] == ("", "Cell", 0)
+    assert found[1:9] == CELL
+    assert found[9:] == [
+        ("grid", "ARRAY[0..1, -1..1] OF INT", 36),
+        ("grid[0,-1]", "INT", 36),
+        ("name", "STRING[5]", 48),
+    ]
+
+
+def test_every_part_is_found_by_its_path() -> None:
+    every = list(parts(type_of(Cell)))
+    assert len(every) == 23
+    for part in every:
+        assert find(type_of(Cell), part.path) == (part.data_type, part.offset)
+
+
+def test_leaves_hold_values() -> None:
+    found = leaves(AliasType("Alias", type_of(Cell)), "cell", 100, elements=False)
+    assert shown(found) == [
+        ("cell.number", "INT", 100),
+        ("cell.main.on", "BOOL", 104),
+        ("cell.main.speed", "REAL", 108),
+        ("cell.axes[1].on", "BOOL", 112),
+        ("cell.axes[1].speed", "REAL", 116),
+        ("cell.grid[0,-1]", "INT", 136),
+        ("cell.name", "STRING[5]", 148),
+    ]
+
+
+def test_data_blocks_can_be_left_alone() -> None:
+    block = DataBlockType("TON", [Member("IN", BOOL)])
+    both = StructType("S", [Member("t", block), Member("x", INT)])
+    assert [part.path for part in leaves(both)] == ["t.IN", "x"]
+    assert [part.path for part in leaves(both, blocks=False)] == ["x"]
+
+
+def test_types_inside_a_declaration() -> None:
+    alias = AliasType("Alias", INT)
+    array = ArrayType(alias, [(0, 1)])
+    struct = StructType("S", [Member("a", array), Member("r", ReferenceType(REAL))])
+    assert list(inner_types(alias)) == [INT]
+    assert list(inner_types(array)) == [alias]
+    assert next(iter(inner_types(struct))) is array
+    assert list(inner_types(struct.members[1].data_type)) == [REAL]
+    assert list(inner_types(INT)) == list(inner_types(ReferenceType(None))) == []

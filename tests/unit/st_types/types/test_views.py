@@ -354,7 +354,7 @@ def test_a_subclass_adds_methods_to_the_same_variables():
         drive.other = 1
 
 
-def test_a_struct_without_members_takes_one_byte():
+def test_a_struct_without_members_takes_no_byte():
     class Empty(Struct):
         pass
 
@@ -362,8 +362,14 @@ def test_a_struct_without_members_takes_one_byte():
         first = var(Empty)
         second = var(SINT)
 
-    assert (type_of(Empty).size, repr(Empty())) == (1, "Empty()")
-    assert type_of(Pair).offsets == (0, 1)
+    class Row(Struct):
+        axes = var(ARRAY(Empty, (0, 2)))
+        last = var(Empty)
+
+    assert (type_of(Empty).size, repr(Empty())) == (0, "Empty()")
+    assert (type_of(Pair).offsets, type_of(Pair).size) == ((0, 0), 1)
+    assert (len(Row().axes), repr(Row().last)) == (3, "Empty()")
+    assert decode(type_of(Row), b"") == {"axes": [{}, {}, {}], "last": {}}
     reset(Empty())
 
 
