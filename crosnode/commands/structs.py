@@ -13,7 +13,7 @@ from crosnode.messages.struct_declarations import (
     struct_declarations,
 )
 from crosnode.messages.struct_messages import messages_from_struct
-from plcsim.cli.type_commands import find_type
+from plcsim.cli.type_commands import find_types
 from plcsim.core.errors import PlcError
 from st_types.types.derived import StructType, resolve_alias
 
@@ -52,8 +52,9 @@ def _write(file: Path, text: str) -> None:
 
 def to_ros(options: argparse.Namespace) -> None:
     """Print the messages of a STRUCT, those that it contains first."""
-    data_type = resolve_alias(find_type(options.paths, options.type))
-    if not isinstance(data_type, StructType):
-        raise PlcError(f"{options.type} is no STRUCT.")
-    for name, text in messages_from_struct(data_type, options.package).items():
-        sys.stdout.write(f"# {name}\n{text}\n")
+    for title, found in find_types(options.paths, options.type):
+        data_type = resolve_alias(found)
+        if not isinstance(data_type, StructType):
+            raise PlcError(f"{title} is no STRUCT.")
+        for name, text in messages_from_struct(data_type, options.package).items():
+            sys.stdout.write(f"# {name}\n{text}\n")

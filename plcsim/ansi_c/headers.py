@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from st_types.writers.c_header import C_TYPES, c_header
+from st_types.writers.c_header import C_TYPES, Header, c_header
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,23 +42,18 @@ def program_headers(
         libraries: in the order in which they are included.
     """
     headers: dict[str, str] = {}
-    known: list[Scope] = []
-    for library in libraries:
-        headers[f"{library.name}.h"] = _header(library, known)
-        known.append(library)
+    known: list[Header] = []
+    scopes = [(f"{library.name}.h", library, "") for library in libraries]
     if project is not None:
-        headers["plcsim_project.h"] = _header(project, known, "_GLOBAL")
-        known.append(project)
-    headers["plcsim_program.h"] = _header(local, known, "_LOCAL")
+        scopes.append(("plcsim_project.h", project, "_GLOBAL"))
+    for name, scope, variables in (*scopes, ("plcsim_program.h", local, "_LOCAL")):
+        c_types = {**C_TYPES, **_LAYOUT}
+        known.append(Header(scope, known, variables=variables, c_types=c_types))
+        headers[name] = c_header(known[-1], scope.name)
     default = [*headers]
     includes = "".join(f"#include <{name}>\n" for name in ("bur/plctypes.h", *default))
     headers["AsDefault.h"] = f"#ifndef _ASDEFAULT_H_\n#define _ASDEFAULT_H_\n{includes}#endif\n"
     return headers
-
-
-def _header(scope: Scope, known: Sequence[Scope], variables: str = "") -> str:
-    c_types = {**C_TYPES, **_LAYOUT}
-    return c_header(scope, scope.name, c_types=c_types, variables=variables, known=known)
 
 
 def write_headers(headers: Mapping[str, str], parent: Path | None) -> Path:

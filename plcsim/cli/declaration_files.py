@@ -12,7 +12,6 @@ from rich.progress import track
 
 from plcsim.core.errors import PlcError
 from st_types.errors import SourceError
-from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
 
@@ -22,9 +21,6 @@ if TYPE_CHECKING:
     from st_types.syntax.tree import DeclarationFile
 
 SUFFIXES = frozenset([".typ", ".var", ".fun"])
-
-LIBRARY = Path(__file__).parents[1] / "library"
-"""Declarations of the controller libraries that plcsim has."""
 
 MANY_FILES = 50
 """From as many files on, progress is shown."""
@@ -65,13 +61,13 @@ class Reading:
     Attributes:
         files: parsed files.
         failures: a line for each file that could not be read.
-        lines: lines of text in all files.
+        notes: a line for what is not there or is left out, but is no error.
     """
 
     def __init__(self) -> None:
         self.files: list[DeclarationFile] = []
         self.failures: list[str] = []
-        self.lines = 0
+        self.notes: list[str] = []
 
     def read(self, path: Path) -> None:
         """Parse one file."""
@@ -82,7 +78,6 @@ class Reading:
         except SourceError as err:
             self.failures.append(str(err))
         else:
-            self.lines += source.line_count
             self.files.append(parse_declarations(source))
 
 
@@ -99,31 +94,3 @@ def shown_progress(paths: Sequence[Path]) -> Iterable[Path]:
     if len(paths) < MANY_FILES or not sys.stderr.isatty():
         return paths
     return track(paths, "reading", console=Console(stderr=True), transient=True)
-
-
-def library_scopes() -> list[Scope]:
-    """Return the controller libraries that plcsim has; each sees the others."""
-    libraries: list[Scope] = []
-    for folder, files in _by_folder(read_files(find_files([LIBRARY])).files).items():
-        libraries.append(Scope(folder.name, files, libraries))
-    return libraries
-
-
-def folder_scopes(files: Iterable[DeclarationFile], *, strict: bool = False) -> list[Scope]:
-    """Return a scope for each folder that holds declaration files, outer folders first.
-
-    A folder sees the folders around it, the nearest first, then the controller libraries.
-    """
-    libraries = library_scopes()
-    scopes: dict[Path, Scope] = {}
-    for folder, inside in sorted(_by_folder(files).items()):
-        around = [scopes[parent] for parent in folder.parents if parent in scopes]
-        scopes[folder] = Scope(folder.name, inside, around or libraries, strict=strict)
-    return list(scopes.values())
-
-
-def _by_folder(files: Iterable[DeclarationFile]) -> dict[Path, list[DeclarationFile]]:
-    folders: dict[Path, list[DeclarationFile]] = {}
-    for file in files:
-        folders.setdefault(Path(file.path).resolve().parent, []).append(file)
-    return folders

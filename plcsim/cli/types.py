@@ -39,8 +39,16 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     layout = _add(commands, "layout", "show where the members of a type lie", "type")
     layout.add_argument("--deep", action="store_true", help="show members of inner STRUCTs too")
     header = _add(commands, "header", "write the C header that Automation Studio would generate")
-    header.add_argument("--name", default="", help="name for the guard; default: the first path's")
-    _add(commands, "python", "write a Python module of typed views")
+    header.add_argument("--name", default="", help="name for the guard; default: the file's")
+    module = _add(commands, "python", "write a Python module of typed views")
+    for parser in (header, module):
+        parser.add_argument(
+            "-o",
+            "--output",
+            type=Path,
+            metavar="FOLDER",
+            help="write a file there for each program, package, library",
+        )
     _add(commands, "print", "write the declarations again, in Automation Studio's shape")
     register_installed(TYPE_COMMANDS, commands)
 
@@ -55,7 +63,7 @@ def _add(
         name, help=text, description=_sentence(text), examples=EXAMPLES[name], epilog=EPILOG
     )
     for argument in arguments:
-        parser.add_argument(argument, metavar=argument.upper(), help="name, in any case")
+        parser.add_argument(argument, metavar=argument.upper(), help="its name")
     parser.add_argument(
         "paths",
         nargs="+" if name == "check" else "*",

@@ -1,12 +1,14 @@
-"""The C header of declarations, in the shape Automation Studio generates it.
+"""The C header of a scope, in the shape Automation Studio generates it.
 
-Constants, then types in the order in which C needs them, then prototypes. STRUCTs keep their order,
-data blocks have that of their layout, with the section of each group in a comment. The header needs
-``bur/plctypes.h``: Automation Studio's own, or on a host the one in ``st_types/include``.
+Types in the order in which C needs them, then constants, variables, prototypes. STRUCTs keep their
+order, data blocks have that of their layout, with the section of each group in a comment. The
+header needs ``bur/plctypes.h``: Automation Studio's own, or on a host the one in
+``st_types/writers/include``.
 
 Names that C does not allow get an underscore at their end, and so do names that are taken already.
-An ARRAY whose lower bound is not 0 starts at index 0 in C, as a comment beside it says; Automation
-Studio leaves out types with such arrays.
+A member whose name only C++ does not allow has the underscore in C++ only. An ARRAY whose lower
+bound is not 0 starts at index 0 in C, as a comment beside it says; Automation Studio leaves out
+types with such arrays.
 """
 
 from __future__ import annotations
@@ -30,11 +32,13 @@ from st_types.types.derived import (
     resolve_alias,
 )
 from st_types.types.elementary import DataType, ElementaryType
+from st_types.types.paths import inner_types
+from st_types.writers.plan import is_generic, lacks_types, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from st_types.resolve.declared import Function, Variable
+    from st_types.resolve.declared import Variable
     from st_types.resolve.scope import Scope
 
 C_TYPES = {
@@ -66,12 +70,30 @@ C_KEYWORDS = frozenset(
         *("else", "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long"),
         *("register", "restrict", "return", "short", "signed", "sizeof", "static", "struct"),
         *("switch", "typedef", "union", "unsigned", "void", "volatile", "while", "asm"),
-        *("typeof", "bool", "class", "delete", "friend", "new", "operator", "private"),
-        *("protected", "public", "template", "this", "throw", "true", "false", "try"),
-        *("catch", "virtual", "using", "namespace", "linux", "unix", "i386"),
+        *("typeof", "bool", "true", "false", "linux", "unix", "i386"),
     ]
 )
-"""Words of C and C++, and macros of gcc, that cannot be names."""
+"""Words of C, and macros of gcc, that cannot be names."""
+
+CPP_KEYWORDS = frozenset(
+    [
+        *("and", "and_eq", "bitand", "bitor", "compl", "not", "not_eq", "or", "or_eq", "xor"),
+        *("xor_eq", "alignas", "alignof", "catch", "char8_t", "char16_t", "char32_t", "class"),
+        *("concept", "consteval", "constexpr", "constinit", "const_cast", "co_await"),
+        *("co_return", "co_yield", "decltype", "delete", "dynamic_cast", "explicit", "export"),
+        *("friend", "mutable", "namespace", "new", "noexcept", "nullptr", "operator", "private"),
+        *("protected", "public", "reinterpret_cast", "requires", "static_assert"),
+        *("static_cast", "template", "this", "thread_local", "throw", "try", "typeid"),
+        *("typename", "using", "virtual", "wchar_t"),
+    ]
+)
+"""Words that only C++ does not allow as names."""
+
+_RESERVED = C_KEYWORDS | CPP_KEYWORDS
+
+GLOBAL = "_GLOBAL"
+LOCAL = "_BUR_LOCAL"
+"""What stands before the variables of a project and of a program."""
 
 _SECTIONS = {
     Section.INPUT: "VAR_INPUT",
@@ -81,77 +103,78 @@ _SECTIONS = {
 }
 
 
-def c_header(
-    scope: Scope,
-    name: str,
-    *,
-    c_types: Mapping[str, str] = C_TYPES,
-    variables: str = "",
-    known: Sequence[Scope] = (),
-) -> str:
-    """Return the header of all types, constants and functions of ``scope``.
+def c_header(header: Header, name: str, includes: Sequence[str] = ()) -> str:
+    """Return the text of a header file.
 
     Args:
-        scope: the declarations; what has no layout is left out.
-        name: of the library or program, for the guard.
-        c_types: C type of each elementary type.
-        variables: what stands before each variable that is no constant, such as ``_GLOBAL``; with
-            "" there are none.
-        known: scopes whose types have headers of their own, included before this one.
+        header: what it declares; what has no layout is left out.
+        name: of the library or the program, for the guard.
+        includes: the files of the headers that ``header`` rests on.
     """
     guard = f"_{''.join(c if c.isalnum() else '_' for c in name).upper()}_H_"
     head = f"/* {name}: written by plcsim types header */\n\n#ifndef {guard}\n#define {guard}\n"
-    head += '\n#include <bur/plctypes.h>\n\n#ifdef __cplusplus\nextern "C" {\n#endif\n'
+    head += "\n#include <bur/plctypes.h>\n" + "".join(f'#include "{file}"\n' for file in includes)
+    head += '\n#ifdef __cplusplus\nextern "C" {\n#endif\n'
     tail = f"\n#ifdef __cplusplus\n}}\n#endif\n\n#endif /* {guard} */\n"
-    header = Header(scope, c_types, known)
-    lines = [*header.lines(), *(header.variables(variables) if variables else ())]
-    return head + "".join(line + "\n" for line in lines) + tail
+    return head + "".join(line + "\n" for line in header.lines()) + tail
 
 
 class Header:
-    """Writes C declarations.
+    """Writes the C declarations of a scope.
+
+    Args:
+        scope: the declarations.
+        included: the headers that it includes, and those that they include.
+        variables: what stands before a variable: ``_GLOBAL``, in a program ``_BUR_LOCAL`` or
+            ``_LOCAL``; with "" only constants are written.
+        c_types: C type of each elementary type.
 
     Attributes:
-        names: typedef name of each type that is written.
+        names: typedef name of each type that is written or included.
     """
 
     def __init__(
         self,
         scope: Scope,
+        included: Sequence[Header] = (),
+        *,
+        variables: str = GLOBAL,
         c_types: Mapping[str, str] = C_TYPES,
-        known: Sequence[Scope] = (),
     ) -> None:
         self._scope = scope
+        self._storage = variables
         self._c_types = c_types
-        self._taken: set[str] = set(C_KEYWORDS)
+        self._taken: set[str] = set(_RESERVED)
         self.names: dict[DataType[object], str] = {}
         self._tags: dict[DataType[object], str] = {}
         self._written: set[DataType[object]] = set()
         self._complete: set[DataType[object]] = set()
-        for data_type in (t for other in known for t in other.data_types()):
-            self._name(data_type)
-            self._written.add(data_type)
-            self._complete.add(data_type)
+        for other in included:
+            self._taken |= other._taken
+            self.names |= other.names
+            self._tags |= other._tags
+            self._written |= other._written
+            self._complete |= other._complete
 
     def lines(self) -> Iterator[str]:
         """Yield the lines between the head and the tail of the header."""
         types = list(self._scope.data_types())
         for data_type in types:
             self._name(data_type)
-        constants = list(self._constants())
-        yield from constants
         for data_type in types:
             yield from self._type(data_type)
+        for used in self._used_types():
+            if used is not None:
+                yield from self._needed(used)
+        yield from self._constants()
+        yield from self._variables()
         yield from self._prototypes(types)
 
-    def variables(self, storage: str) -> Iterator[str]:
-        """Yield the declarations of the variables that are no constants."""
-        found = [v for v in self._scope.variables if not v.is_constant and v.data_type]
-        if found:
-            yield from ("", "/* Variables */")
-        for variable in found:
-            assert variable.data_type is not None
-            yield f"{storage} {self._declarator(variable.data_type, self._free(variable.name))};"
+    def _used_types(self) -> Iterator[DataType[object] | None]:
+        yield from (variable.data_type for variable in self._scope.variables)
+        for function in self._scope.functions:
+            yield function.result
+            yield from (variable.data_type for variable in parameters_of(function))
 
     def _name(self, data_type: DataType[object]) -> str:
         if data_type not in self.names:
@@ -168,17 +191,39 @@ class Header:
         return name
 
     def _constants(self) -> Iterator[str]:
-        found = [v for v in self._scope.variables if v.is_constant]
-        named = [(self._free(v.name), v) for v in found if _value(v) and v.data_type]
-        if not named:
+        found = [v for v in self._scope.variables if v.is_constant and v.data_type is not None]
+        named = [(self._free(v.name), v) for v in found]
+        simple = [(name, v) for name, v in named if _value(v)]
+        others = [(name, v) for name, v in named if not _value(v)]
+        if named:
+            yield from ("", "/* Constants */")
+        if simple:
+            yield "#ifdef _REPLACE_CONST"
+            yield from (f"#define {name} {_value(variable)}" for name, variable in simple)
+            yield "#else"
+            yield from (self._constant(name, variable) for name, variable in simple)
+            yield "#endif"
+        yield from (self._constant(name, variable) for name, variable in others)
+
+    def _constant(self, name: str, variable: Variable) -> str:
+        assert variable.data_type is not None
+        mark = "_LOCAL_CONST" if self._storage == LOCAL else "_GLOBAL_CONST"
+        return f"{mark} {self._declarator(variable.data_type, name)};"
+
+    def _variables(self) -> Iterator[str]:
+        found = [v for v in self._scope.variables if not v.is_constant and v.data_type is not None]
+        if not found or not self._storage:
             return
-        yield from ("", "/* Constants */", "#ifdef _REPLACE_CONST")
-        yield from (f"#define {name} {_value(variable)}" for name, variable in named)
-        yield "#else"
-        for name, variable in named:
-            if variable.data_type is not None:
-                yield f"_GLOBAL_CONST {self._declarator(variable.data_type, name)};"
-        yield "#endif"
+        yield from ("", "/* Variables */")
+        taken: set[str] = set()  # not those of other headers: a local variable hides a global one
+        for variable in found:
+            assert variable.data_type is not None
+            name = variable.name
+            while name in self._taken or name in taken:
+                name += "_"
+            taken.add(name)
+            retain = "_RETAIN" if "RETAIN" in variable.block.qualifiers else ""
+            yield f"{self._storage}{retain} {self._declarator(variable.data_type, name)};"
 
     def _type(self, data_type: DataType[object]) -> Iterator[str]:
         """Yield the declaration of a named type, after those of the types that lie in it."""
@@ -187,8 +232,8 @@ class Header:
         self._written.add(data_type)
         match data_type:
             case StructType():
-                for member in data_type.members:
-                    yield from self._needed(member.data_type)
+                for inner in inner_types(data_type):
+                    yield from self._needed(inner)
                 yield from self._struct(data_type)
                 self._complete.add(data_type)
             case EnumerationType():
@@ -235,13 +280,22 @@ class Header:
             while member_name in taken:
                 member_name += "_"
             taken.add(member_name)
-            yield f"\t{self._declarator(member.data_type, member_name)};{_lower_bounds(member)}"
-        if not data_type.members:
-            yield "\tplcbit empty; /* a STRUCT without members takes one byte */"
+            yield from self._member(member, member_name)
         yield f"}} {name};"
 
+    def _member(self, member: Member, name: str) -> Iterator[str]:
+        line = f"\t{self._declarator(member.data_type, name)};{_lower_bounds(member)}"
+        if name not in CPP_KEYWORDS:
+            yield line
+            return
+        yield from ("#ifdef __cplusplus", f"\t{self._declarator(member.data_type, name + '_')};")
+        yield from ("#else", line, "#endif")
+
     def _declarator(self, data_type: DataType[object], name: str) -> str:
-        """Return the C declaration of ``name`` without its semicolon."""
+        """Return the C declaration of ``name`` without its semicolon, of the type without one."""
+        return self._declared(data_type, name).rstrip()
+
+    def _declared(self, data_type: DataType[object], name: str) -> str:
         match data_type:
             case ElementaryType():
                 return f"{self._c_types[data_type.name]} {name}"
@@ -273,10 +327,10 @@ class Header:
             case ArrayType() as array:
                 inner = _innermost(array)
                 if isinstance(inner, StructType) and inner not in self._complete:
-                    return self._declarator(inner, f"*{name}")  # C wants complete elements
+                    return f"{self._declarator(inner, '')}* {name}"  # C wants complete elements
                 return self._declarator(array, f"(*{name})")
             case other:
-                return self._declarator(other, f"*{name}")
+                return f"{self._declarator(other, '')}* {name}"
 
     def _prototypes(self, types: Sequence[DataType[object]]) -> Iterator[str]:
         blocks = [data_type for data_type in types if isinstance(data_type, DataBlockType)]
@@ -286,25 +340,57 @@ class Header:
         for block in blocks:
             yield f"_BUR_PUBLIC void {self._tags[block]}(struct {self._tags[block]}* inst);"
         for function in functions:
-            parameters = ", ".join(self._parameter(v) for v in _parameters(function)) or "void"
+            if lacks_types(function):
+                continue
+            if is_generic(function.node.result):
+                yield f"/* {function.name} gives any type: C has no prototype for it */"
+                continue
+            parameters = ", ".join(self._parameter(v) for v in parameters_of(function)) or "void"
             name = self._free(function.name)
-            yield f"_BUR_PUBLIC {self._result(function, f'{name}({parameters})')};"
+            yield f"_BUR_PUBLIC {self._result(function.result, f'{name}({parameters})')};"
 
     def _parameter(self, variable: Variable) -> str:
-        data_type = variable.data_type
-        name = variable.name + "_" if variable.name in C_KEYWORDS else variable.name
-        if data_type is None:
-            return f"unsigned long {name}"
-        is_scalar = isinstance(resolve_alias(data_type), _SCALARS)
-        if is_scalar and variable.block.section == "VAR_INPUT":
-            return self._declarator(data_type, name)
-        return self._pointer(data_type, name)
+        """Return a parameter as Automation Studio's headers have it.
 
-    def _result(self, function: Function, call: str) -> str:
-        result = resolve_alias(function.result) if function.result is not None else None
-        if result is None:
+        What is no scalar goes by its address, and so does the REFERENCE TO a STRUCT or a STRING.
+        """
+        name = variable.name + "_" if variable.name in _RESERVED else variable.name
+        declared = variable.data_type
+        if declared is None:
+            return f"unsigned long {name}"
+        data_type = resolve_alias(declared)
+        is_input = variable.block.section == "VAR_INPUT"
+        match data_type:
+            case ArrayType() | StringType() | WStringType() if isinstance(declared, AliasType):
+                return self._declarator(declared, name)
+            case ArrayType():
+                return self._declarator(_of_addresses(data_type), name)
+            case ReferenceType(target=DataType() as target) if is_input:
+                inner = resolve_alias(target)
+                if isinstance(inner, ArrayType):
+                    return self._pointer(_of_addresses(inner), name)
+                is_address = isinstance(inner, StructType | StringType | WStringType)
+                return self._pointer(data_type if is_address else inner, name)
+        is_scalar = isinstance(data_type, _SCALARS)
+        return (
+            self._declarator(declared, name)
+            if is_scalar and is_input
+            else self._pointer(declared, name)
+        )
+
+    def _result(self, declared: DataType[object] | None, call: str) -> str:
+        if declared is None:
             return f"void {call}"
-        return self._declarator(result, call) if isinstance(result, _SCALARS) else f"void* {call}"
+        is_scalar = isinstance(resolve_alias(declared), _SCALARS)
+        return self._declarator(declared, call) if is_scalar else f"void* {call}"
+
+
+def _of_addresses(array: ArrayType[object]) -> ArrayType[object]:
+    """Return an ARRAY as a parameter: of STRINGs it holds addresses."""
+    element = resolve_alias(array.element)
+    if isinstance(element, StringType | WStringType):
+        return ArrayType(ReferenceType(element), array.bounds)
+    return array
 
 
 _SCALARS = (ElementaryType, EnumerationType, SubrangeType, ReferenceType)
@@ -334,10 +420,6 @@ def _lower_bounds(member: Member) -> str:
     return (
         f" /* index 0 here is {', '.join(map(str, lows))} in {member.name} */" if any(lows) else ""
     )
-
-
-def _parameters(function: Function) -> list[Variable]:
-    return [v for v in function.variables if v.block.section in ("VAR_INPUT", "VAR_IN_OUT")]
 
 
 def _value(variable: Variable) -> str:

@@ -1,14 +1,16 @@
-"""A Python module of typed views from declarations, for programs, editors and mypy.
+"""A Python module of typed views from the declarations of a scope, for programs, editors and mypy.
 
 Each STRUCT becomes a `Struct` class, each function block's data a `DataBlock` class, an enumeration
-an IntEnum, a constant a module constant, the variables of VAR blocks a class ``Variables``. The
-module imports only `st_types` and passes ``mypy --strict``.
+an IntEnum, a constant a module constant, the variables of VAR blocks a class ``Variables``. A
+function block that something executes is that class, imported. What other scopes declare comes from
+their modules. Apart from those the module imports only `st_types`, and it passes ``mypy --strict``.
 """
 
 from __future__ import annotations
 
 import keyword
 import re
+import textwrap
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
@@ -27,9 +29,10 @@ from st_types.types.derived import (
     resolve_alias,
 )
 from st_types.types.elementary import ELEMENTARY, DataType, ElementaryType
+from st_types.types.values import decode, initial_image
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from st_types.resolve.declared import Variable
     from st_types.resolve.scope import Scope
@@ -53,53 +56,86 @@ _RESERVED = frozenset([*dir(IntEnum), *keyword.kwlist, "name", "value", "mro"])
 """Names that an IntEnum cannot give to its members."""
 
 
+_STANDARD_MODULES = frozenset(["enum", "typing"])
+
+MAX_CONSTANT = 0x1_0000
+"""Bytes of a constant without a value that is written out."""
+
 _QUOTED = "'[^']*'"
 
 
-def python_source(scope: Scope, title: str) -> str:
-    """Return the text of a module with views of all declarations of ``scope``.
+def python_source(module: Module, title: str) -> str:
+    """Return the text of a module.
 
     Args:
-        scope: the declarations; what has no layout is left out.
+        module: what it declares; what has no layout is left out.
         title: first line of the module's docstring.
     """
-    module = _Module(scope)
     body = "".join(f"\n\n{block}\n" for block in module.blocks())
     head = f'"""{_one_line(title)}"""\n\nfrom __future__ import annotations\n'
     return head + _imports(module.imports) + body
 
 
 def _imports(used: set[tuple[str, str]]) -> str:
-    """Return the import statements, those of the standard library first."""
-    groups = {True: "", False: ""}
+    """Return the import statements: the standard library's, others, the modules beside."""
+    groups = {"": "", "_": "", ".": ""}
     for place in sorted({place for place, _ in used}):
         names = sorted(name for found, name in used if found == place)
         line = f"from {place} import {', '.join(names)}\n"
         if len(line) > 100:
             line = f"from {place} import (\n" + "".join(f"    {n},\n" for n in names) + ")\n"
-        groups[place.startswith("st_types")] += line
-    return "".join("\n" + groups[ours] for ours in (False, True) if groups[ours])
+        kind = "." if place.startswith(".") else "" if place in _STANDARD_MODULES else "_"
+        groups[kind] += line
+    return "".join("\n" + text for text in groups.values() if text)
 
 
 def _one_line(text: str) -> str:
     return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'").rstrip(".") + "."
 
 
-class _Module:
-    """Writes the blocks of a module and remembers what they import."""
+class Module:
+    """Writes the blocks of a module and remembers what they import.
 
-    def __init__(self, scope: Scope) -> None:
+    Args:
+        name: of the module.
+        scope: the declarations.
+        included: the modules of the scopes whose declarations these need.
+        executed: where the class lies that executes a function block, as module and name, by the
+            block's data type.
+
+    Attributes:
+        name: of the module.
+        names: Python name of each type that is written here.
+        imports: module and name of all that is imported.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        scope: Scope,
+        included: Sequence[Module] = (),
+        executed: Mapping[DataType[object], tuple[str, str]] | None = None,
+    ) -> None:
+        self.name = name
         self._scope = scope
-        self._names: dict[DataType[object], str] = {}
+        self._included = included
+        self._executed = executed or {}
         self._taken: set[str] = set(keyword.kwlist) | _IMPORTED
         self.imports: set[tuple[str, str]] = set()
+        self._imported: dict[DataType[object], str] = {}
+        self.names: dict[DataType[object], str] = {}
+        self._constants = {
+            v.name: (self._free(v.name), v)
+            for v in scope.variables
+            if v.is_constant and v.data_type is not None
+        }
+        self._own = {data_type: self._free(data_type.name) for data_type in scope.data_types()}
 
     def blocks(self) -> Iterator[str]:
         """Yield constants, then types in the order they need one another, then variables."""
-        constants = [v for v in self._scope.variables if v.is_constant]
-        if lines := [line for v in constants if (line := self._constant(v))]:
+        if lines := [self._constant(*pair) for pair in self._constants.values()]:
             yield "\n".join(lines)
-        for data_type in self._scope.data_types():
+        for data_type in list(self._own):
             yield from self._named(data_type)
         variables = [v for v in self._scope.variables if not v.is_constant]
         members = [Member(v.name, v.data_type, v.initial) for v in variables if v.data_type]
@@ -108,6 +144,14 @@ class _Module:
         if members:
             doc = "Variables of the VAR blocks."
             yield self._class(self._free("Variables"), "Struct", doc, members)
+        if self._scope.functions:
+            names = ", ".join(function.name for function in self._scope.functions)
+            yield textwrap.fill(
+                f"Functions, which Python cannot call: {names}.",
+                width=98,
+                initial_indent="# ",
+                subsequent_indent="# ",
+            )
 
     def _use(self, name: str, place: str = "st_types") -> str:
         self.imports.add((place, name))
@@ -119,11 +163,12 @@ class _Module:
         self._taken.add(name)
         return name
 
-    def _constant(self, variable: Variable) -> str:
-        if not isinstance(variable.initial, bool | int | float | str):
-            return ""
-        final = self._use("Final", "typing")
-        return f"{self._free(variable.name)}: {final} = {variable.initial!r}"
+    def _constant(self, name: str, variable: Variable) -> str:
+        assert variable.data_type is not None
+        value = variable.initial
+        if value is None and variable.data_type.size <= MAX_CONSTANT:
+            value = decode(variable.data_type, initial_image(variable.data_type))
+        return f"{name}: {self._use('Final', 'typing')} = {_literal(value)}"
 
     def _needed(self, data_type: DataType[object]) -> Iterator[str]:
         """Yield the types that must stand before a member of ``data_type``."""
@@ -135,16 +180,17 @@ class _Module:
 
     def _named(self, data_type: DataType[object]) -> Iterator[str]:
         """Yield the declaration of a type, after those that it needs."""
-        if data_type in self._names:
+        if data_type in self.names or self._import(data_type):
             return
         match data_type:
+            case DataBlockType() if data_type in self._executed:
+                self._import_block(data_type)
             case StructType():
                 for member in data_type.members:
                     yield from self._needed(member.data_type)
-                name = self._names[data_type] = self._free(data_type.name)
+                name = self.names[data_type] = self._name(data_type)
                 base = "DataBlock" if isinstance(data_type, DataBlockType) else "Struct"
-                kind = "Data block" if base == "DataBlock" else "STRUCT"
-                yield self._class(name, base, f"{kind} {data_type.name}.", data_type.members)
+                yield self._class(name, base, _description(data_type), data_type.members)
             case EnumerationType():
                 yield self._enumeration(data_type)
             case AliasType(target=target):
@@ -153,8 +199,34 @@ class _Module:
             case SubrangeType():
                 yield self._assignment(data_type, self._subrange(data_type))
 
+    def _name(self, data_type: DataType[object]) -> str:
+        """Return the name a type gets here: its own, unless that is taken."""
+        return self._own.get(data_type) or self._free(data_type.name)
+
+    def _import(self, data_type: DataType[object]) -> bool:
+        """Import a type from the module that declares it; False if there is none."""
+        if data_type in self._imported:
+            return True
+        owner = next((each for each in self._included if data_type in each.names), None)
+        if owner is None:
+            return False
+        name = owner.names[data_type]
+        self._imported[data_type] = self._import_as(name, f".{owner.name}")
+        return True
+
+    def _import_as(self, name: str, place: str) -> str:
+        here = self._free(name)
+        self._use(name if here == name else f"{name} as {here}", place)
+        return here
+
+    def _import_block(self, data_type: DataType[object]) -> None:
+        place, name = self._executed[data_type]
+        here = self._name(data_type)
+        self._use(f"{name} as {here}", place)  # "as" makes it a name of this module for mypy too
+        self.names[data_type] = here
+
     def _assignment(self, data_type: DataType[object], value: str) -> str:
-        name = self._names[data_type] = self._free(data_type.name)
+        name = self.names[data_type] = self._name(data_type)
         return f"{name} = {value}"
 
     def _enumeration(self, data_type: EnumerationType[object]) -> str:
@@ -163,10 +235,10 @@ class _Module:
             value = f"{made}[int]({data_type.name!r}, {dict(data_type.values)!r})"
             return self._assignment(data_type, value)
         base = self._use("IntEnum", "enum")
-        name = self._free(data_type.name)
+        name = self._name(data_type)
         lines = [f"class {name}({base}):", f'    """Enumeration {data_type.name}."""', ""]
         lines += [f"    {key} = {value}" for key, value in data_type.values.items()]
-        type_name = self._names[data_type] = self._free(f"{name}_TYPE")
+        type_name = self.names[data_type] = self._free(f"{name}_TYPE")
         return "\n".join([*lines, "", "", f"{type_name} = {self._use('ENUM')}({name})"])
 
     def _alias(self, data_type: AliasType[object]) -> str:
@@ -187,7 +259,7 @@ class _Module:
                 given = link.initial | given
             link = link.target
         members = [m._replace(initial=given.get(m.name, m.initial)) for m in target.members]
-        name = self._names[data_type] = self._free(data_type.name)
+        name = self.names[data_type] = self._name(data_type)
         base = "DataBlock" if isinstance(target, DataBlockType) else "Struct"
         return self._class(name, base, f"{data_type.name}: as {target.name}.", members)
 
@@ -215,8 +287,9 @@ class _Module:
 
     def _type(self, data_type: DataType[object]) -> str:
         """Return a Python expression for a type."""
-        if data_type in self._names:
-            return self._names[data_type]
+        known = self.names.get(data_type) or self._imported.get(data_type)
+        if known is not None:
+            return known
         match data_type:
             case ElementaryType(name=name):
                 return self._use(name)
@@ -238,6 +311,12 @@ class _Module:
         made = self._use("SubrangeType", "st_types.types.derived")
         bounds = f"{data_type.minimum}, {data_type.maximum}"
         return f"{made}({data_type.name!r}, {self._use(data_type.base.name)}, {bounds})"
+
+
+def _description(data_type: StructType[object]) -> str:
+    if isinstance(data_type, DataBlockType):
+        return f"Data block of {data_type.name}; nothing executes it here: it cannot be called."
+    return f"STRUCT {data_type.name}."
 
 
 def _renamed(text: str, name: str, new_name: str) -> str:

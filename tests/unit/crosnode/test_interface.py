@@ -15,7 +15,7 @@ from st_types.types.derived import ArrayType, StructType, resolve_alias
 from st_types.types.elementary import ELEMENTARY, UDINT, DataType
 from st_types.writers.c_header import Header, c_header
 from st_types.writers.c_types import c_type_block
-from st_types.writers.python_source import python_source
+from st_types.writers.python_source import Module, python_source
 
 ROOT = Path(__file__).parents[3]
 FILES = sorted(
@@ -108,7 +108,7 @@ def test_the_fundamental_types_are_those_of_the_table_in_st_types(table: Scope) 
 
 def test_a_python_program_sees_the_node(table: Scope) -> None:
     module: dict[str, object] = {"__name__": "cros_types"}
-    exec(compile(python_source(table, "cROS"), "cros_types", "exec"), module)
+    exec(compile(python_source(Module("cros", table), "cROS"), "cros_types", "exec"), module)
     node = module["CrosNode"]()  # type: ignore[operator]  # mypy does not know what was executed
     assert node.log_level == 2
     node.pubs[4].topic_name = "/joint_states"
@@ -120,8 +120,7 @@ def test_a_python_program_sees_the_node(table: Scope) -> None:
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not here")
 def test_the_header_compiles_and_lies_as_laid_out(table: Scope, tmp_path: Path) -> None:
     header = Header(table)
-    list(header.lines())
-    lines = [c_header(table, "CrosNode"), "#include <stddef.h>"]
+    lines = [c_header(header, "CrosNode"), "#include <stddef.h>"]
     for data_type, name in header.names.items():
         lines.append(f'_Static_assert(sizeof({name}) == {data_type.size}, "{name}");')
         if isinstance(data_type, StructType):

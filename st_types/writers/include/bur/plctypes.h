@@ -36,6 +36,9 @@ typedef unsigned short plcwstring, WSTRING;
 #define _EXIT
 #define _LOCAL
 #define _LOCAL_RETAIN
+#define _LOCAL_CONST extern const
+#define _BUR_LOCAL extern
+#define _BUR_LOCAL_RETAIN extern
 #define _GLOBAL extern
 #define _GLOBAL_RETAIN extern
 #define _GLOBAL_CONST extern const

@@ -1,12 +1,11 @@
 import argparse
-import ast
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from plcsim.cli import types
-from plcsim.cli.declaration_files import LIBRARY
+from plcsim.cli.declaration_scopes import LIBRARY
 from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
 from st_types.syntax.declarations import parse_text
@@ -91,8 +90,8 @@ def test_check_of_nothing_is_an_error(run: Run, tmp_path: Path) -> None:
 
 
 def test_layout(run: Run, project: Path) -> None:
-    assert run("layout", "axis", project)[1] == (
-        "axis: 32 bytes, alignment 4\n"
+    assert run("layout", "Axis", project)[1] == (
+        "Axis: 32 bytes, alignment 4\n"
         "  offset     bytes  member  type\n"
         "       0         8  pos     LREAL\n"
         "       8        20  timer   TON\n"
@@ -119,23 +118,15 @@ def test_errors_in_other_types_do_not_keep_a_layout_back(run: Run, project: Path
         run("layout", "A", project)
 
 
-def test_header(run: Run, project: Path) -> None:
-    out = run("header", "--name", "Cell", project)[1]
-    assert "#ifndef _CELL_H_" in out
-    assert "typedef struct Axis {\n\tdouble pos;\n\tstruct TON timer;\n\tplcbit on;\n} Axis;" in out
-
-
-def test_python(run: Run, project: Path) -> None:
-    out = run("python", project)[1]
-    names = [node.name for node in ast.parse(out).body if isinstance(node, ast.ClassDef)]
-    assert names == ["TON", "Axis", "Variables"]
-
-
-def test_commands_refuse_wrong_declarations(run: Run, project: Path) -> None:
-    (project / "Bad.typ").write_text("TYPE A : INT := 'x'; END_TYPE")
-    for command in ("header", "python"):
-        with pytest.raises(PlcError, match="1 error in the declarations"):
-            run(command, project)
+def test_types_of_one_name_are_all_shown(run: Run, project: Path) -> None:
+    for name in ("Belt", "Pump"):
+        (project / name).mkdir()
+        (project / name / "x.typ").write_text(f"TYPE T : STRING[{len(name)}]; {name} : T; END_TYPE")
+    (project / "Pump" / "x.typ").write_text("TYPE T : INT; END_TYPE")
+    assert run("layout", "T", project)[1] == (
+        "T in folder Belt: 5 bytes, alignment 1\nT in folder Pump: 2 bytes, alignment 2\n"
+    )
+    assert run("layout", "T", project / "Pump")[1] == "T: 2 bytes, alignment 2\n"
 
 
 def test_print_gives_the_same_declarations(run: Run, project: Path) -> None:

@@ -11,7 +11,7 @@ from st_types.syntax.declarations import parse_declarations, parse_text
 from st_types.syntax.source import Source
 from st_types.types.derived import StructType
 from st_types.types.elementary import ELEMENTARY
-from st_types.writers.c_header import C_TYPES, Header, c_header
+from st_types.writers.c_header import C_TYPES, LOCAL, Header, c_header
 
 from ..checked import checked
 
@@ -55,8 +55,7 @@ def assertions(table: Scope, names: dict[object, str]) -> str:
 
 def check(folder: Path, table: Scope) -> None:
     header = Header(table)
-    list(header.lines())
-    text = c_header(table, "Check") + assertions(table, header.names)
+    text = c_header(header, "Check") + assertions(table, header.names)
     assert compile_m32(folder, text) == ""
 
 
@@ -87,7 +86,10 @@ VAR CONSTANT
     RATE : REAL := 0.5;
     YES : BOOL := TRUE;
     LIST : ARRAY[0..1] OF INT := [1, 2];
+    START : Mode := on;
 END_VAR
+VAR count : UINT; mode : Mode; low : USINT(1..3); block : Block; END_VAR
+VAR RETAIN saved : ARRAY[0..3] OF Point; END_VAR
 FUNCTION_BLOCK Block
     VAR_INPUT e : BOOL; p : Point; END_VAR
     VAR_OUTPUT q : BOOL; n : SINT; END_VAR
@@ -107,7 +109,7 @@ def test_every_kind_of_type_compiles_and_lies_as_laid_out(folder: Path) -> None:
     table = checked([file], strict=True)
     assert file.diagnostics.records == []
     check(folder, table)
-    text = c_header(table, "Check")
+    text = c_header(Header(table), "Check")
     for options in (["-D_REPLACE_CONST"], ["-x", "c++"]):
         assert compile_m32(folder, text, *options) == ""
 
@@ -119,7 +121,7 @@ def test_the_library_compiles_and_lies_as_laid_out(folder: Path) -> None:
 
 
 def test_constants_have_their_values(folder: Path) -> None:
-    text = c_header(checked([parse_text(EVERY_KIND)]), "Check")
+    text = c_header(Header(checked([parse_text(EVERY_KIND)])), "Check")
     text += (
         '_Static_assert(LIMIT == 5 && LOWEST < 0 && YES == 1 && RATE == 0.5, "");\n'
         '_Static_assert(BIG == 18446744073709551615ULL && SMALL == -9000000000LL, "");\n'
@@ -141,8 +143,8 @@ def test_the_shape_of_a_data_block() -> None:
         "\t/* VAR_INPUT (analog) */",
         "\tunsigned short n;",
         "\t/* VAR_IN_OUT (analog and digital) */",
-        "\tsigned short *count;",
-        "\tplcbit *go;",
+        "\tsigned short* count;",
+        "\tplcbit* go;",
         "\t/* VAR (analog) */",
         "\tplcstring text[4];",
         "\t/* VAR_INPUT (digital) */",
@@ -160,10 +162,64 @@ def test_the_shape_of_a_data_block() -> None:
 
 def test_names_that_c_does_not_allow() -> None:
     file = parse_text("TYPE int : STRUCT long : INT; END_STRUCT; E : (red, int); END_TYPE")
-    text = c_header(checked([file]), "my lib")
+    text = c_header(Header(checked([file])), "my lib")
     assert "typedef struct int_ {\n\tsigned short long_;\n} int_;" in text
     assert "\tint__ = 1,\n} E;" in text
     assert "#ifndef _MY_LIB_H_" in text
+
+
+def test_parameters_are_those_of_automation_studios_headers() -> None:
+    """Each line stands so, but for its names, in headers that Automation Studio generated."""
+    file = parse_text(
+        "TYPE S : STRUCT x : INT; END_STRUCT; E : (a, b); Id : DINT; Guid : ARRAY[0..3] OF BYTE; "
+        "END_TYPE FUNCTION F : E VAR_INPUT s : S; t : STRING[9]; e : E; i : Id; g : Guid; "
+        "a : ARRAY[0..2, 1..4] OF LREAL; b : ARRAY[0..1] OF S; c : ARRAY[0..1] OF STRING[5]; "
+        "END_VAR END_FUNCTION FUNCTION G : BOOL VAR_INPUT s : REFERENCE TO S; "
+        "t : REFERENCE TO STRING[9]; n : REFERENCE TO UINT; e : REFERENCE TO E; "
+        "a : REFERENCE TO ARRAY[0..2] OF S; c : REFERENCE TO ARRAY[0..1] OF STRING[5]; END_VAR "
+        "END_FUNCTION "
+        "FUNCTION H VAR_IN_OUT s : S; t : STRING[9]; n : UINT; a : ARRAY[0..2] OF BYTE; END_VAR "
+        "END_FUNCTION FUNCTION K : Lib END_FUNCTION FUNCTION L : ANY_NUM END_FUNCTION"
+    )
+    first = "_BUR_PUBLIC enum E F(struct S* s, plcstring* t, enum E e, Id i, Guid g, "
+    first += "double a[3][4], struct S b[2], plcstring* c[2]);"
+    second = "_BUR_PUBLIC plcbit G(struct S** s, plcstring** t, unsigned short* n, enum E* e, "
+    second += "struct S (*a)[3], plcstring* (*c)[2]);"
+    lines = list(Header(checked([file])).lines())
+    assert lines[lines.index("/* Prototypes */") + 1 :] == [
+        *(first, second),
+        "_BUR_PUBLIC void H(struct S* s, plcstring* t, unsigned short* n, plcbyte a[3]);",
+        "/* L gives any type: C has no prototype for it */",
+    ]
+
+
+def test_words_that_only_cpp_does_not_allow(folder: Path) -> None:
+    text = "FUNCTION F VAR_INPUT new : INT; END_VAR END_FUNCTION TYPE S : STRUCT xor : BOOL; "
+    text += "class : ARRAY[0..2] OF INT; END_STRUCT; END_TYPE"
+    header = c_header(Header(checked([parse_text(text)])), "Check")
+    assert "\tplcbit xor;\n" in header
+    use = "int f(S* s) { return s->xor%s + s->class%s[0]; }\n"
+    assert compile_m32(folder, header + use.replace("%s", "")) == ""
+    assert compile_m32(folder, header + use.replace("%s", "_"), "-x", "c++") == ""
+
+
+def test_a_header_rests_on_those_it_includes() -> None:
+    outer = checked([parse_text("TYPE S : STRUCT x : INT; END_STRUCT; E : (a, b); END_TYPE")])
+    inner = checked(
+        [
+            parse_text(
+                "TYPE S : INT; T : STRUCT e : E; s : S; END_STRUCT; END_TYPE VAR a : T; END_VAR"
+            )
+        ],
+        [outer],
+    )
+    around = Header(outer)
+    list(around.lines())
+    assert list(Header(inner, [around], variables=LOCAL).lines()) == [
+        *("", "typedef signed short S_;"),
+        *("", "typedef struct T {", "\tenum E e;", "\tS_ s;", "} T;"),
+        *("", "/* Variables */", "_BUR_LOCAL struct T a_;"),
+    ]
 
 
 def test_every_elementary_type_has_a_c_type() -> None:

@@ -14,7 +14,7 @@ from st_types.syntax.declarations import parse_text
 from st_types.types.derived import Section, StructType, resolve_alias
 from st_types.types.values import initial_image
 from st_types.types.views import type_of
-from st_types.writers.python_source import python_source
+from st_types.writers.python_source import Module, python_source
 
 from ..checked import checked
 
@@ -57,7 +57,7 @@ def table_of(text: str) -> Scope:
 
 def check(table: Scope) -> ModuleType:
     """Import the module and compare each class with the type it was made from."""
-    module = module_of(python_source(table, "Test"))
+    module = module_of(python_source(Module("test", table), "Test"))
     for declared in table.data_types():
         data_type = resolve_alias(declared)
         if isinstance(data_type, StructType):
@@ -78,7 +78,7 @@ def test_views_lie_as_declared_and_start_with_the_declared_values() -> None:
     assert variables.copies[9].m is module.Mode.on
     assert getattr(variables.Block.s, "class") is True
     assert (module.MAX, module.NAME, module.RATE) == (2, "a$", 0.5)
-    assert not hasattr(module, "LIST")
+    assert module.LIST == [1, 2]
 
 
 def test_a_member_does_not_hide_what_members_below_it_need() -> None:
@@ -104,7 +104,7 @@ def test_names_that_the_module_needs_itself(name: str) -> None:
         "VAR CONSTANT K : INT := 1; END_VAR FUNCTION_BLOCK F VAR_INPUT i : INT; END_VAR "
         f"VAR r : REFERENCE TO INT; s : {name}; END_VAR END_FUNCTION_BLOCK"
     )
-    module = module_of(python_source(table, "Test"))
+    module = module_of(python_source(Module("test", table), "Test"))
     assert getattr(module, f"{name}_")().x == module.F().s.x == 7
 
 
@@ -125,13 +125,15 @@ def test_a_var_in_out_is_an_address() -> None:
 
 
 def test_the_docstring_is_one_line() -> None:
-    text = python_source(table_of(""), 'Types of "a"\n\\b.')
+    text = python_source(Module("test", table_of("")), 'Types of "a"\n\\b.')
     assert text == '"""Types of \'a\' \\\\b."""\n\nfrom __future__ import annotations\n'
     assert module_of(text).__doc__ == "Types of 'a' \\b."
 
 
 def test_mypy_knows_the_members(tmp_path: Path) -> None:
-    (tmp_path / "cell_types.py").write_text(python_source(table_of(DECLARATIONS), "Test"))
+    (tmp_path / "cell_types.py").write_text(
+        python_source(Module("test", table_of(DECLARATIONS)), "Test")
+    )
     (tmp_path / "use.py").write_text(
         "from cell_types import Cell, Mode, Variables\n"
         "def read(v: Variables) -> float:\n"
@@ -158,6 +160,53 @@ def test_mypy_knows_the_members(tmp_path: Path) -> None:
     assert lines[0].startswith("use.py:7: error: Incompatible return value type"), done.stdout
     assert lines[1].startswith('use.py:9: error: "Cell" has no attribute "nothing"'), done.stdout
     assert lines[2] == "Found 2 errors in 1 file (checked 2 source files)"
+
+
+def test_constants_of_every_kind() -> None:
+    module = module_of(
+        python_source(
+            Module(
+                "test",
+                table_of(
+                    "VAR CONSTANT a : INT; p : Point := (x := 2); l : ARRAY[0..2] OF Point; "
+                    "m : Mode := on; END_VAR TYPE Point : STRUCT x : INT; y : INT := 3; "
+                    "END_STRUCT; Mode : (off, on := 4); END_TYPE"
+                ),
+            ),
+            "Test",
+        )
+    )
+    assert (module.a, module.p, module.m) == (0, {"x": 2}, 4)
+    assert module.l == [{"x": 0, "y": 3}] * 3
+
+
+def test_what_other_modules_declare_is_imported() -> None:
+    outer = table_of("TYPE S : STRUCT x : INT; END_STRUCT; Mode : (off, on); END_TYPE")
+    inner = checked(
+        [parse_text("TYPE S : BOOL; END_TYPE VAR m : Mode; s : S; END_VAR")], [outer], strict=True
+    )
+    project = Module("project", outer)
+    python_source(project, "Project")
+    text = python_source(Module("program", inner, [project]), "Program")
+    assert "\nfrom .project import Mode_TYPE\n" in text
+    assert "    m = var(Mode_TYPE)\n    s = var(S)\n" in text
+    second = checked([parse_text("TYPE T : INT; END_TYPE VAR T : T; s : U; END_VAR")])
+    assert 'T = AliasType("T", INT)'.replace('"', "'") in python_source(Module("x", second), "X")
+
+
+def test_a_block_that_is_executed_is_imported_and_others_say_that_they_are_not() -> None:
+    scope = table_of(
+        "FUNCTION_BLOCK A VAR x : INT; END_VAR END_FUNCTION_BLOCK FUNCTION_BLOCK B VAR a : A; "
+        "END_VAR END_FUNCTION_BLOCK FUNCTION F : INT END_FUNCTION"
+    )
+    block = scope.find_type("A")
+    assert block is not None
+    text = python_source(Module("test", scope, (), {block: ("some.library", "A")}), "Test")
+    assert "\nfrom some.library import A as A\n" in text
+    assert "Data block of B; nothing executes it here: it cannot be called." in text
+    assert "    a = var(A)\n" in text
+    assert "class A" not in text
+    assert "\n# Functions, which Python cannot call: F.\n" in text
 
 
 NAMES = ["A", "B", "var", "INT", "from", "x", "Struct"]
