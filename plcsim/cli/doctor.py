@@ -141,6 +141,8 @@ def _facts(host: Host, rights: Rights) -> Iterator[tuple[str, str]]:
     yield "kernel", f"{host.kernel}, preemption: {host.preemption}"
     isolated = f", isolated: {host.isolated}" if host.isolated else ", none isolated"
     yield "CPUs", f"{host.cpus}, {host.allowed} allowed{isolated}  {host.cpu_model}".rstrip()
+    if host.isolated:
+        yield "measured on", f"CPU {host.cpu}; cpu = {host.cpu} in plc.toml lets a scan run there"
     yield "governor", ", ".join(host.governors) or "none (frequencies are not scaled here)"
     yield "machine", f"guest of {host.hypervisor}" if host.hypervisor else "real hardware"
     yield "container", "yes" if host.container else "no"

@@ -38,7 +38,12 @@ def advise(host: Host, rights: Rights, comparisons: Sequence[Comparison]) -> lis
 
 def _about_rights(host: Host, rights: Rights) -> Iterator[str]:
     refused = {right.partition(":")[0] for right in rights.refused}
-    if "SCHED_FIFO" in refused:
+    if "SCHED_FIFO" in refused and host.fifo_share_is_0:
+        yield (
+            "cgroup: this one gives no time to SCHED_FIFO (cpu.rt_runtime_us is 0), so no other "
+            "right helps; docker run --cpu-rt-runtime=950000 gives some"
+        )
+    elif "SCHED_FIFO" in refused:
         if host.container:
             yield "container: start it with --cap-add SYS_NICE, or with --ulimit rtprio=98"
         yield (

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+from plcsim.host import processors
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -36,7 +38,9 @@ class Host:
         governors: frequency governors in use; empty where the kernel does not scale frequencies.
         hypervisor: what the machine is a guest of, "" on real hardware.
         container: whether this process runs in a container.
+        cpu: the one that is measured, with real-time rights; None for any.
         quota_percent: CPU time a cgroup allows, 100 for one processor; None without a quota.
+        fifo_share_is_0: a cgroup of version 1 gives no time to SCHED_FIFO, whoever asks.
         rtprio_limit: RLIMIT_RTPRIO, the highest SCHED_FIFO priority without privilege, -1 for any.
         memlock_limit: RLIMIT_MEMLOCK in bytes, -1 for no limit.
         load: programs that want to run, mean of the last minute.
@@ -52,7 +56,9 @@ class Host:
     governors: tuple[str, ...]
     hypervisor: str
     container: bool
+    cpu: int | None
     quota_percent: int | None
+    fifo_share_is_0: bool
     rtprio_limit: int
     memlock_limit: int
     load: float
@@ -84,7 +90,9 @@ def read_host(root: Path = ROOT) -> Host:
         governors=governors(root),
         hypervisor=hypervisor(root),
         container=any((root / file).exists() for file in _CONTAINER_FILES),
+        cpu=processors.free_cpu(),
         quota_percent=quota_percent(root),
+        fifo_share_is_0=fifo_share_is_0(root),
         rtprio_limit=resource.getrlimit(resource.RLIMIT_RTPRIO)[0],
         memlock_limit=resource.getrlimit(resource.RLIMIT_MEMLOCK)[0],
         load=read_load(root),
@@ -131,6 +139,11 @@ def quota_percent(root: Path = ROOT) -> int | None:
     """Return the tightest CPU quota of the cgroups this process is in (cgroups(7), v1 and v2)."""
     shares = [share for folder in _cgroups(root) if (share := _quota_of(folder)) is not None]
     return min(shares, default=None)
+
+
+def fifo_share_is_0(root: Path = ROOT) -> bool:
+    """Return True where a cgroup forbids SCHED_FIFO: it then fails for root, too (sched(7))."""
+    return any(_text(folder / "cpu.rt_runtime_us") == "0" for folder in _cgroups(root))
 
 
 def _cgroups(root: Path) -> Iterator[Path]:

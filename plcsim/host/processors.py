@@ -13,6 +13,7 @@ import os
 from pathlib import Path
 
 FOLDERS = Path("/sys/devices/system/cpu")
+"""A folder for each processor, and the file ``isolated``."""
 
 
 UNKNOWN = -1
@@ -24,14 +25,14 @@ def claim(cpu: int | None) -> tuple[int | None, str]:
 
     Args:
         cpu: what was asked for; None, or one that is not there, takes the last that no other run
-            holds.
+            holds. One that is isolated is taken only where it was asked for.
 
     Returns:
         the processor, None where there is only one; and in words what stands in the way, "" for
         nothing.
     """
     allowed = sorted(os.sched_getaffinity(0))
-    if cpu in allowed:
+    if cpu is not None and cpu in {*allowed, *isolated()}:
         return cpu, "" if _lock(cpu) is not None else f"CPU {cpu}: another run has it as well"
     if len(allowed) == 1:
         return None, ""
@@ -41,9 +42,24 @@ def claim(cpu: int | None) -> tuple[int | None, str]:
     return allowed[-1], f"CPU {allowed[-1]}: every processor has another run on it"
 
 
+def isolated() -> list[int]:
+    """Return the processors that the kernel keeps free of other work (isolcpus).
+
+    A process is on none of them before it asks for one, so they are not among those allowed.
+    """
+    try:
+        text = (FOLDERS / "isolated").read_text("ascii").strip()
+    except OSError:
+        return []
+    ranges = [part.partition("-") for part in text.split(",") if part]
+    return [cpu for low, _, high in ranges for cpu in range(int(low), int(high or low) + 1)]
+
+
 def free_cpu() -> int | None:
-    """Return the processor that a scan would get now: the last that no run holds."""
+    """Return the best processor for a scan now: the last isolated one, or that no run holds."""
     allowed = sorted(os.sched_getaffinity(0))
+    if best := isolated()[-1:]:
+        return best[0]
     if len(allowed) == 1:
         return None
     for cpu in reversed(allowed):
@@ -72,7 +88,7 @@ def _lock(cpu: int) -> int | None:
 def missing_cpu(cpu: int | None) -> str:
     """Return in words that a processor is not there for this process, "" where it is."""
     allowed = sorted(os.sched_getaffinity(0))
-    if cpu is None or cpu in allowed:
+    if cpu is None or cpu in {*allowed, *isolated()}:
         return ""
     there = ", ".join(map(str, allowed))
     return f"there is no processor {cpu} for the scan, only {there}; one of them is taken"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.core.errors import Fault
 from plcsim.core.suggestion import did_you_mean
+from plcsim.core.text import escaped
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -99,5 +100,5 @@ def _text_of(error: BaseException) -> str:
         text = str(error)
     except Exception:  # a program's own exception may have a __str__ that fails
         return ""
-    line = " ".join(text[: 2 * LONGEST_TEXT].split())
+    line = escaped(" ".join(text[: 2 * LONGEST_TEXT].split()))
     return line if len(line) <= LONGEST_TEXT else f"{line[:LONGEST_TEXT]}..."

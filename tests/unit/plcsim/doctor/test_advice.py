@@ -37,6 +37,11 @@ def test_in_a_container_the_way_through_its_runtime_comes_first(host, punctual):
     assert subjects(lines) == ["container", "ulimit", "setcap"]
 
 
+def test_a_cgroup_that_forbids_it_to_everybody_is_named_alone(host, punctual):
+    lines = advise(replace(host, container=True, fifo_share_is_0=True), NONE, [punctual])
+    assert subjects(lines) == ["cgroup"]
+
+
 @pytest.mark.parametrize(
     ("refused", "expected"),
     [

@@ -6,6 +6,7 @@ import pytest
 
 from plcsim.doctor.host import (
     CpuTicks,
+    fifo_share_is_0,
     governors,
     hypervisor,
     preemption,
@@ -97,6 +98,14 @@ def test_no_quota_of_version_1_is_minus_1(tmp_path, show):
     show("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n")
     show("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n")
     assert quota_percent(tmp_path) is None
+
+
+@pytest.mark.parametrize(("runtime", "forbidden"), [("0\n", True), ("950000\n", False)])
+def test_a_cgroup_of_version_1_may_forbid_sched_fifo(tmp_path, show, runtime, forbidden):
+    assert not fifo_share_is_0(tmp_path)
+    show("proc/self/cgroup", "4:cpu:/docker/x\n")
+    show("sys/fs/cgroup/cpu/docker/x/cpu.rt_runtime_us", runtime)
+    assert fifo_share_is_0(tmp_path) is forbidden
 
 
 def test_stolen_time_is_the_eighth_figure_and_guest_time_is_not_counted_twice(tmp_path, show):

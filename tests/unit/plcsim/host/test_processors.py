@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from plcsim.host import processors
-from plcsim.host.processors import claim, free_cpu, keep_off, missing_cpu
+from plcsim.host.processors import claim, free_cpu, isolated, keep_off, missing_cpu
 
 CPUS = sorted(os.sched_getaffinity(0))
 
@@ -49,6 +49,26 @@ def test_one_that_is_not_there_is_said_and_another_taken(host):
         "there is no processor 7 for the scan, only 0, 1, 2; one of them is taken"
     )
     assert [missing_cpu(cpu) for cpu in (None, 0, 1, 2)] == [""] * 4
+
+
+def test_an_isolated_one_is_taken_where_it_was_asked_for(monkeypatch, tmp_path):
+    """A process is on none of them before it asks (isolcpus=2-3)."""
+    (tmp_path / "isolated").write_text("2-3\n")
+    (tmp_path / "cpu3").mkdir()
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1})
+    assert claim(3) == (3, "")
+    assert missing_cpu(3) == missing_cpu(2) == ""
+    assert missing_cpu(4) != ""
+    assert claim(None) == (1, "")
+    assert free_cpu() == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "cpus"), [("\n", []), ("1\n", [1]), ("0,2-4,7\n", [0, 2, 3, 4, 7])]
+)
+def test_isolated_processors_are_read(tmp_path, text, cpus):
+    (tmp_path / "isolated").write_text(text)
+    assert isolated() == cpus
 
 
 def test_the_only_one_is_not_claimed(monkeypatch):

@@ -123,6 +123,11 @@ def test_a_long_text_is_cut():
     assert describe(ValueError("x" * LONGEST_TEXT)) == "ValueError: " + "x" * LONGEST_TEXT
 
 
+def test_what_a_terminal_would_act_on_is_shown_as_a_number():
+    fault = fault_of(ValueError("\x1b[2Jgone\x9b"))
+    assert fault.reason == "ValueError: \\x1b[2Jgone\\x9b"
+
+
 def test_a_fault_tells_the_calls_that_led_to_it():
     source = "def outer():\n  inner()\ndef inner():\n  1 // 0\nouter()"
     fault = fault_of(raised_by(source, "/home/a/main.py"))
