@@ -16,8 +16,11 @@ Compiled programs have the same bytes at the same addresses, guarded by the proc
 
 from __future__ import annotations
 
-import ctypes
+import errno
+import gc
 import mmap
+import os
+import weakref
 from typing import TYPE_CHECKING, Any, TypeVar, cast, overload
 
 from plcsim.core.errors import ConfigurationError, PageFault
@@ -69,6 +72,7 @@ class Memory:
     Attributes:
         size: bytes for variables.
         system: the page at `SYSTEM_AREA`.
+        files: for a second mapping: descriptor, PLC address and bytes of each, later ones on top.
         stack: lowest address of the stack of compiled programs, which ends at `SYSTEM_AREA`.
     """
 
@@ -77,13 +81,22 @@ class Memory:
             raise ConfigurationError(
                 f"memory of {size} bytes: must be a multiple of {PAGE}, at most {MAX_SIZE}."
             )
-        self._map = mmap.mmap(-1, FIRST + size)
+        fd, self._map = _mapped(FIRST + size)
+        files = [(fd, 0, FIRST + size)]
         self._top = FIRST
         self._limit = FIRST
-        self._followers: list[Callable[[], None]] = []
+        self._followers: list[Callable[[Memory], None]] = []
         self.stack = SYSTEM_AREA
         self.size = size
-        self.system = SystemArea(system_fd)
+        if system_fd is None:
+            self.system = SystemArea(memoryview(self._map)[SYSTEM_AREA : SYSTEM_AREA + PAGE])
+            self.system.rearm()
+        else:
+            self.system = SystemArea.of_file(system_fd)
+            files.append((os.dup(system_fd), SYSTEM_AREA, PAGE))
+        self.files = tuple(files)
+        for fd, _, _ in files:
+            weakref.finalize(self, os.close, fd)
 
     @property
     def used(self) -> int:
@@ -124,17 +137,13 @@ class Memory:
         self.stack = min(self.stack, SYSTEM_AREA - align_up(size, PAGE))
         self._tell()
 
-    def follow(self, moved: Callable[[], None]) -> None:
-        """Have ``moved`` called whenever `limit` or `stack` has moved."""
+    def follow(self, moved: Callable[[Memory], None]) -> None:
+        """Have ``moved`` called with this memory whenever `limit` or `stack` has moved."""
         self._followers.append(moved)
 
     def _tell(self) -> None:
         for moved in self._followers:
-            moved()
-
-    def host_address(self) -> int:
-        """Return where address 0 lies in this process, for a second mapping of the memory."""
-        return ctypes.addressof(ctypes.c_char.from_buffer(self._map))
+            moved(self)
 
     def new(self, view: type[S], context: object = None) -> S:
         """Allocate a variable of a Struct class, give it its initial values, return its view."""
@@ -229,6 +238,30 @@ class Memory:
             ValueRangeError: the value does not fit the type.
         """
         self.write(address, encode(data_type, value))
+
+
+def _mapped(size: int) -> tuple[int, mmap.mmap]:
+    """Return a file in memory and its mapping.
+
+    Where no descriptor is left, controllers that nobody uses any more may still hold some.
+    """
+    try:
+        return _new_file(size)
+    except OSError as err:
+        if err.errno != errno.EMFILE:
+            raise
+    gc.collect()
+    return _new_file(size)
+
+
+def _new_file(size: int) -> tuple[int, mmap.mmap]:
+    fd = os.memfd_create("plcsim-memory")
+    try:
+        os.ftruncate(fd, size)
+        return fd, mmap.mmap(fd, size)
+    except OSError:
+        os.close(fd)
+        raise
 
 
 def adr(view: Struct | Array[Any], path: str = "") -> int:

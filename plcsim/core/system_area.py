@@ -7,9 +7,9 @@ ends them by writing it (docs/timing-model.md).
 
 from __future__ import annotations
 
-import ctypes
 import mmap
 import os
+from typing import Self
 
 SIZE = 0x1_0000
 """Bytes: a page of PLC memory."""
@@ -36,24 +36,26 @@ class SystemArea:
     """The page, in the scan process and in the process that watches it.
 
     Args:
-        fd: file made by `shared`; None keeps the page to this process.
+        page: its bytes.
 
     Attributes:
         cells: signed 64-bit numbers.
     """
 
-    def __init__(self, fd: int | None = None) -> None:
-        self._map = mmap.mmap(-1 if fd is None else fd, SIZE)
-        self.cells = memoryview(self._map).cast("q")
-        if fd is None:
-            self.rearm()
+    def __init__(self, page: mmap.mmap | memoryview) -> None:
+        self.cells = memoryview(page).cast("q")
 
-    @staticmethod
-    def shared() -> int:
+    @classmethod
+    def of_file(cls, fd: int) -> Self:
+        """Return the page in a file made by `shared_file`."""
+        return cls(mmap.mmap(fd, SIZE))
+
+    @classmethod
+    def shared_file(cls) -> int:
         """Return a file for a page that two processes see; the caller closes it."""
         fd = os.memfd_create("plcsim-system-area")
         os.ftruncate(fd, SIZE)
-        SystemArea(fd).rearm()
+        cls.of_file(fd).rearm()
         return fd
 
     def rearm(self) -> None:
@@ -69,7 +71,3 @@ class SystemArea:
         """Why the running program shall end, in words; "" where it may go on."""
         budget = self.cells[BUDGET]
         return REASONS.get(budget, REASONS[STALLED]) if budget < 0 else ""
-
-    def host_address(self) -> int:
-        """Return where the page lies in this process, for a second mapping of it."""
-        return ctypes.addressof(ctypes.c_char.from_buffer(self._map))

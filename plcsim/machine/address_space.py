@@ -8,7 +8,7 @@ Where the process may not have that many addresses (RLIMIT_AS), only the memory 
 compiled code compares each address with its end; nil and the limit are guarded by the processor
 there too.
 
-Source: mmap(2); mremap(2), of an old size 0 for a shared mapping.
+Source: mmap(2).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import resource
 from ctypes import c_int, c_long, c_size_t, c_void_p
 from typing import TYPE_CHECKING
 
-from plcsim.core.memory import FIRST, PAGE, SYSTEM_AREA
+from plcsim.core.memory import FIRST
 from plcsim.machine.errors import MachineError
 
 if TYPE_CHECKING:
@@ -33,15 +33,13 @@ GUARD = 64 << 20
 """Bytes behind it, for the offset of an instruction that comes on top of an address."""
 
 _MAP_NORESERVE = 0x4000
-_MREMAP_MAYMOVE, _MREMAP_FIXED = 1, 2
+_MAP_FIXED = 0x10
 _RIGHTS = mmap.PROT_READ | mmap.PROT_WRITE
 _FAILED = ctypes.c_void_p(-1).value
 
 _libc = ctypes.CDLL(None, use_errno=True)
 _libc.mmap.restype = c_void_p
 _libc.mmap.argtypes = [c_void_p, c_size_t, c_int, c_int, c_int, c_long]
-_libc.mremap.restype = c_void_p
-_libc.mremap.argtypes = [c_void_p, c_size_t, c_size_t, c_int, c_void_p]
 _libc.mprotect.argtypes = [c_void_p, c_size_t, c_int]
 _libc.munmap.argtypes = [c_void_p, c_size_t]
 
@@ -69,24 +67,23 @@ class AddressSpace:
     def __init__(self, memory: Memory, *, compare: bool = False) -> None:
         self.size = FIRST + memory.size
         self._length = self.size if compare else RESERVATION + GUARD
-        self._memory = memory
         self.base = _reserve(self._length)
-        self._map(memory.host_address(), 0, self.size)
-        self._map(memory.system.host_address(), SYSTEM_AREA, PAGE)
-        self._follow()
+        for file in memory.files:
+            self._map(*file)
+        self._follow(memory)
         memory.follow(self._follow)
 
-    def _map(self, source: int, address: int, size: int) -> None:
-        """Map pages of this process at a PLC address as well."""
-        flags = _MREMAP_MAYMOVE | _MREMAP_FIXED
-        if _libc.mremap(source, 0, size, flags, self.base + address) == _FAILED:
+    def _map(self, fd: int, address: int, size: int) -> None:
+        """Map a file at a PLC address as well."""
+        flags = mmap.MAP_SHARED | _MAP_FIXED
+        if _libc.mmap(self.base + address, size, _RIGHTS, flags, fd, 0) == _FAILED:
             raise MachineError(f"PLC memory cannot be mapped again: {_reason()}")
 
-    def _follow(self) -> None:
+    def _follow(self, memory: Memory) -> None:
         """Give rights to what is valid, and to nothing else."""
         if not self.base:
             return
-        stack, limit = self._memory.stack, self._memory.limit
+        stack, limit = memory.stack, memory.limit
         self._protect(0, stack, 0)
         self._protect(stack, limit, _RIGHTS)
         self._protect(limit, self.size, 0)

@@ -45,7 +45,8 @@ class Frame(NamedTuple):
         module: name of the module.
         function: name of the function, "" where it has none.
         number: of the function in its module.
-        offset: in the module's binary, of the instruction that trapped or called.
+        offset: in the module's binary, of the instruction that trapped or called; 0 where it is
+            not known, as at the entry of a function that finds no room on the stack.
     """
 
     module: str

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from plcsim.machine.engine import Engine
 
 _UNREACHABLE = 9
+_NO_OFFSET = (1 << 64) - 1
 
 _KINDS = {
     0: FaultKind.STACK_OVERFLOW,
@@ -189,9 +190,10 @@ def _fault(trap: int) -> MachineFault:
 
 def _frame(frame: int) -> Frame:
     api = library()
+    offset = api.wasm_frame_module_offset(frame)
     return Frame(
         text_of(api.wasmtime_frame_module_name(frame)),
         text_of(api.wasmtime_frame_func_name(frame)),
         api.wasm_frame_func_index(frame),
-        api.wasm_frame_module_offset(frame),
+        0 if offset == _NO_OFFSET else offset,
     )

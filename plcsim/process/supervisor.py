@@ -93,8 +93,8 @@ class Supervisor:
         self._classes = self._class_of_each_task(project)
         self._result_fd = os.memfd_create("plcsim-result")
         self._dump_fd = os.memfd_create("plcsim-dump")
-        self._system_fd = SystemArea.shared()
-        self._system = SystemArea(self._system_fd)
+        self._system_fd = SystemArea.shared_file()
+        self._system = SystemArea.of_file(self._system_fd)
         self.services = ServiceProcesses(
             {} if virtual else project.extensions, self.page, self._output, quiet=quiet
         )

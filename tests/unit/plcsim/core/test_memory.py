@@ -1,4 +1,6 @@
-import ctypes
+import mmap
+import subprocess
+import sys
 from itertools import pairwise
 
 import pytest
@@ -233,7 +235,7 @@ def test_an_impossible_stack_is_refused(memory, size):
 
 def test_followers_hear_when_the_valid_addresses_change(memory):
     heard = []
-    memory.follow(lambda: heard.append((memory.stack, memory.limit)))
+    memory.follow(lambda told: heard.append((told.stack, told.limit)))
     memory.allocate(1)
     memory.allocate(PAGE - 1)
     memory.allocate(1)
@@ -246,10 +248,28 @@ def test_followers_hear_when_the_valid_addresses_change(memory):
     ]
 
 
-def test_the_host_address_is_where_address_0_lies(memory):
+def test_the_file_holds_the_bytes_for_a_second_mapping(memory):
     address = memory.allocate(4)
     memory.write(address, b"plc!")
-    assert ctypes.string_at(memory.host_address() + address, 4) == b"plc!"
+    ((fd, start, size),) = memory.files
+    assert (start, size) == (0, FIRST + memory.size)
+    with mmap.mmap(fd, size) as second:
+        assert second[address : address + 4] == b"plc!"
+
+
+DESCRIPTORS = """
+import resource
+resource.setrlimit(resource.RLIMIT_NOFILE, (60, 60))
+from plcsim.core.memory import PAGE, Memory
+for _ in range(200):
+    memory = Memory(PAGE)
+    memory.itself = memory
+"""
+
+
+def test_memories_that_nobody_uses_take_no_descriptors():
+    """They may lie in cycles, which Python finds only when it looks for them."""
+    subprocess.run([sys.executable, "-c", DESCRIPTORS], check=True)
 
 
 # Variables

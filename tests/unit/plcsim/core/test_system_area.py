@@ -1,10 +1,10 @@
-import ctypes
+import mmap
 import os
 
 import pytest
 
 from plcsim.core.context import Context
-from plcsim.core.memory import PAGE, Memory
+from plcsim.core.memory import PAGE, SYSTEM_AREA, Memory
 from plcsim.core.system_area import (
     BUDGET,
     RELEASE,
@@ -22,7 +22,7 @@ def test_the_low_word_tells_whether_a_program_may_run():
 
 
 def test_a_new_page_lets_programs_run():
-    area = SystemArea()
+    area = Memory(PAGE).system
     assert (area.cells[BUDGET], area.verdict) == (UNLIMITED, "")
 
 
@@ -35,7 +35,7 @@ def test_a_new_page_lets_programs_run():
     ],
 )
 def test_a_program_is_asked_to_end_until_it_is_rearmed(why, text):
-    area = SystemArea()
+    area = Memory(PAGE).system
     area.end_program(why)
     assert area.verdict == text
     area.rearm()
@@ -43,9 +43,9 @@ def test_a_program_is_asked_to_end_until_it_is_rearmed(why, text):
 
 
 def test_a_shared_page_is_seen_from_both_sides():
-    fd = SystemArea.shared()
+    fd = SystemArea.shared_file()
     try:
-        scan, watchdog = SystemArea(fd), SystemArea(fd)
+        scan, watchdog = SystemArea.of_file(fd), SystemArea.of_file(fd)
     finally:
         os.close(fd)
     assert scan.verdict == ""
@@ -56,9 +56,9 @@ def test_a_shared_page_is_seen_from_both_sides():
 
 
 def test_a_memory_takes_a_shared_page():
-    fd = SystemArea.shared()
+    fd = SystemArea.shared_file()
     memory = Memory(PAGE, fd)
-    watchdog = SystemArea(fd)
+    watchdog = SystemArea.of_file(fd)
     os.close(fd)
     watchdog.end_program(STALLED)
     assert memory.system.verdict
@@ -72,8 +72,21 @@ def test_the_release_time_of_the_context_is_the_cell():
     assert (memory.system.cells[RELEASE], context.release_ns) == (2**62 + 1, 2**62 + 1)
 
 
-def test_the_host_address_is_where_the_cells_lie():
-    area = SystemArea()
-    area.cells[RELEASE] = -7
-    assert ctypes.c_int64.from_address(area.host_address() + 8 * RELEASE).value == -7
+def test_a_page_of_its_own_lies_in_the_memory_s_file():
+    memory = Memory(PAGE)
+    memory.system.cells[RELEASE] = -7
+    ((fd, _, size),) = memory.files
+    with mmap.mmap(fd, size) as second:
+        cell = second[SYSTEM_AREA + 8 * RELEASE :][:8]
+    assert int.from_bytes(cell, "little", signed=True) == -7
     assert SIZE == PAGE
+
+
+def test_a_shared_page_lies_on_top_of_the_memory_s_file():
+    fd = SystemArea.shared_file()
+    memory = Memory(PAGE, fd)
+    os.close(fd)
+    (_, _, _), (top, address, size) = memory.files
+    assert (address, size) == (SYSTEM_AREA, SIZE)
+    SystemArea.of_file(top).end_program(STALLED)
+    assert memory.system.verdict

@@ -27,21 +27,25 @@ def rights(space):
     return found
 
 
+@pytest.fixture
+def memory():
+    return Memory(4 * PAGE)
+
+
 @pytest.fixture(params=[False, True], ids=["guarded", "compared"])
-def space(request):
-    memory = Memory(4 * PAGE)
+def space(request, memory):
     space = AddressSpace(memory, compare=request.param)
     yield space
     space.close()
 
 
-def test_only_what_is_valid_has_rights(space):
+def test_only_what_is_valid_has_rights(space, memory):
     assert rights(space) == dict.fromkeys(ALWAYS, "rw-s")
-    space._memory.allocate(PAGE + 1)
-    space._memory.open_stack(1)
+    memory.allocate(PAGE + 1)
+    memory.open_stack(1)
     valid = [SYSTEM_AREA - PAGE, *ALWAYS, FIRST, FIRST + PAGE]
     assert rights(space) == dict.fromkeys(valid, "rw-s")
-    space._memory.allocate(3 * PAGE - 4)
+    memory.allocate(3 * PAGE - 4)
     assert max(rights(space)) == FIRST + 3 * PAGE
 
 
@@ -54,8 +58,7 @@ def test_what_was_allocated_before_is_valid_too():
     space.close()
 
 
-def test_both_mappings_are_the_same_bytes(space):
-    memory = space._memory
+def test_both_mappings_are_the_same_bytes(space, memory):
     address = memory.allocate(8)
     memory.write(address, b"to there")
     assert ctypes.string_at(space.base + address, 8) == b"to there"
@@ -82,10 +85,10 @@ def test_every_address_of_32_bits_is_reserved():
     space.close()
 
 
-def test_after_closing_the_memory_goes_on_alone(space):
+def test_after_closing_the_memory_goes_on_alone(space, memory):
     space.close()
     space.close()
-    space._memory.allocate(PAGE)
+    memory.allocate(PAGE)
     assert space.base == 0
 
 

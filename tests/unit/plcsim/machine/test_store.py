@@ -77,6 +77,14 @@ def test_a_fault_names_the_call_chain(rig):
     assert isinstance(inner, Frame)
 
 
+def test_where_the_stack_is_full_the_callers_are_told(rig):
+    with pytest.raises(MachineFault) as caught:
+        rig.load(FAULTS).function("recurse")()
+    full, caller, *_ = caught.value.frames
+    assert (full.function, caller.function) == ("recurse", "recurse")
+    assert full.offset == 0 < caller.offset < 1000
+
+
 def test_a_call_chain_over_two_modules_names_both(rig):
     library = rig.load(FAULTS)
     user = rig.load(
