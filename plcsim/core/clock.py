@@ -12,6 +12,8 @@ import time
 from resource import RUSAGE_THREAD, getrusage
 from typing import Protocol
 
+from plcsim.core.control import AS_FAST_AS_POSSIBLE, REAL_TIME
+
 LONGEST_SLEEP_NS = 100_000_000
 """A sleep is cut into pieces of this length, so that a stop request is seen in time."""
 
@@ -68,6 +70,8 @@ class VirtualClock:
 
     def __init__(self, start_ns: int = 1_000_000_000) -> None:
         self._now_ns = start_ns
+        self._speed = AS_FAST_AS_POSSIBLE
+        self._anchor_ns = (0, 0)
         self._cpu_ns = 0
         self._waits = 0
 
@@ -76,8 +80,33 @@ class VirtualClock:
         return self._now_ns
 
     def sleep_until_ns(self, until_ns: int) -> None:
-        """Jump to ``until_ns``; never back."""
-        self._now_ns = max(self._now_ns, until_ns)
+        """Jump to ``until_ns``; never back. With a speed, return early where it is not yet due."""
+        if self._speed == AS_FAST_AS_POSSIBLE or self._is_due(until_ns):
+            self._now_ns = max(self._now_ns, until_ns)
+
+    def pace(self, speed: int) -> None:
+        """Run at a speed from now on.
+
+        What happens at which virtual time stays the same; only the waiting between is real.
+
+        Args:
+            speed: in millionths of real time (`plcsim.core.control.REAL_TIME`), or
+                `AS_FAST_AS_POSSIBLE`.
+        """
+        self._speed = speed
+        self._anchor_ns = (time.monotonic_ns(), self._now_ns)
+
+    def _is_due(self, until_ns: int) -> bool:
+        """Wait, at most `LONGEST_SLEEP_NS`; return whether ``until_ns`` has come at this speed."""
+        real_ns, virtual_ns = self._anchor_ns
+        due_ns = real_ns + (until_ns - virtual_ns) * REAL_TIME // self._speed
+        rest_ns = due_ns - time.monotonic_ns()
+        if rest_ns > 0:
+            time.sleep(min(rest_ns, LONGEST_SLEEP_NS) / 1e9)
+            return rest_ns <= LONGEST_SLEEP_NS
+        if rest_ns < -LONGEST_SLEEP_NS:  # too slow, or just gone on after a pause: no burst
+            self._anchor_ns = (time.monotonic_ns(), until_ns)
+        return True
 
     def cpu_ns(self) -> int:
         """Return the CPU time spent so far, as told by `spend_ns`."""

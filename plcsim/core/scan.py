@@ -134,6 +134,12 @@ class Scan:
         """End this `run` after the current cycle; the next `run` goes on from there."""
         self.paused = True
 
+    def resume(self) -> None:
+        """Go on after a pause: grid points that have passed meanwhile are not missed."""
+        now_ns = self._clock.now_ns()
+        for task_class in self.classes:
+            task_class.skip_to(now_ns)
+
     def halt(self) -> None:
         """End `run` at once: no other program starts any more."""
         self.running = False

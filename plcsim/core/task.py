@@ -210,6 +210,13 @@ class TaskClass:
                 (own if task in self.tasks else others)[task] = ns
         return own, others, self._used_ns.get(None, 0)
 
+    def skip_to(self, now_ns: int) -> None:
+        """Go to the first grid point that has not passed, without missing any."""
+        passed = -(-(now_ns - self.release_ns) // self.cycle_ns)
+        if passed > 0:
+            self.release_ns += passed * self.cycle_ns
+        self._used_ns.clear()
+
     def advance(self, end_ns: int) -> None:
         """Go to the first grid point after the current one that is not before ``end_ns``.
 

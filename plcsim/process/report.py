@@ -10,6 +10,7 @@ from plcsim.core.statistics import Summary
 
 if TYPE_CHECKING:
     from plcsim.core.controller import Controller
+    from plcsim.core.logbook import Entry
     from plcsim.core.statistics import Histogram
     from plcsim.core.task import TaskClass, Violation
 
@@ -74,6 +75,11 @@ def fault_report(fault: ProgramError | Violation | None) -> dict[str, Any] | Non
     return {"kind": "cycle_time_violation", **violation_report(fault)}
 
 
+def entry_report(entry: Entry) -> dict[str, Any]:
+    """Return an entry of the logbook."""
+    return {**entry._asdict(), "severity": entry.severity.value}
+
+
 def report(controller: Controller, name: str, elapsed_ns: int, rights: list[str]) -> dict[str, Any]:
     """Return the report of a run.
 
@@ -94,9 +100,7 @@ def report(controller: Controller, name: str, elapsed_ns: int, rights: list[str]
         "memory_bytes": controller.memory.used,
         "task_classes": [class_report(c) for c in controller.classes],
         "violations": [violation_report(v) for v in controller.violations],
-        "logbook": [
-            {**entry._asdict(), "severity": entry.severity.value} for entry in controller.logbook
-        ],
+        "logbook": [entry_report(entry) for entry in controller.logbook],
         "logbook_dropped": controller.logbook.dropped,
         "output_lost_bytes": 0,
     }

@@ -24,6 +24,7 @@ from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.process import printing
+from plcsim.process.operation import Operation
 from plcsim.process.report import report
 from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load
 from plcsim.project.plc_toml import FILE_NAME, Project
@@ -156,7 +157,10 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         realtime.settle()
     controller.start()
     origin_ns = page.origin_ns = controller.scan.origin_ns
-    controller.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
+    operation = Operation(
+        controller, pacer=clock if isinstance(clock, VirtualClock) else None, beat=page.beat
+    )
+    operation.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
     elapsed_ns = clock.now_ns() - origin_ns
     controller.shutdown()
     return report(controller, project.name, elapsed_ns, list(rights.granted))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -9,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from plcsim.process.service_main import ServiceOrder
 from plcsim.project.extension import services_of
+from plcsim.shared_image import ImageNotReady, ImageReader
+from plcsim.shared_image.guest import tidy
 from plcsim.shared_image.layout import HEADER_SIZE, make_file
 from plcsim.shared_image.status_page import ServiceState
 
@@ -26,6 +29,9 @@ FIRST_PAUSE_NS = 100_000_000
 
 LONGEST_PAUSE_NS = 10_000_000_000
 """The pause doubles up to here for a service that gives up by itself, with exit code 1."""
+
+TIDY_NS = 1_000_000_000
+"""Between two looks at what guests that have died have left."""
 
 STOP_S = 2.0
 """A service has this long to end by itself."""
@@ -119,6 +125,9 @@ class ServiceProcesses:
         self, settings: Mapping[str, Any], page: StatusPage, output: Output, *, quiet: bool = False
     ) -> None:
         self.image_fd = make_file()
+        self._is_laid_out = False
+        self._image: ImageReader | None = None
+        self._tidy_ns = 0
         modules = services_of(settings)
         self.wake_fds = [os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC) for _ in modules]
         self._services = [
@@ -135,9 +144,24 @@ class ServiceProcesses:
 
     def tend(self, now_ns: int) -> None:
         """Start what is not running, once the scan process has laid the image out."""
-        if self._services and os.fstat(self.image_fd).st_size > HEADER_SIZE:
-            for service in self._services:
-                service.tend(now_ns)
+        if not self._is_laid_out:
+            self._is_laid_out = os.fstat(self.image_fd).st_size > HEADER_SIZE
+        if not self._is_laid_out:
+            return
+        for service in self._services:
+            service.tend(now_ns)
+        if now_ns >= self._tidy_ns:
+            self._tidy_ns = now_ns + TIDY_NS
+            if self.image is not None:
+                tidy(self.image, self.image_fd)
+
+    @property
+    def image(self) -> ImageReader | None:
+        """The shared image, None until the scan process has laid it out."""
+        if self._image is None:
+            with contextlib.suppress(ImageNotReady):
+                self._image = ImageReader(self.image_fd)
+        return self._image
 
     @property
     def pids(self) -> set[int]:

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Self
 from plcsim.core import system_area
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import Fault, PlcError, ProgramError
+from plcsim.core.logbook import LENGTH
 from plcsim.core.system import State
 from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
@@ -29,7 +30,7 @@ from plcsim.host.processors import keep_off
 from plcsim.process import watchdog
 from plcsim.process.orphans import Orphans, end_group
 from plcsim.process.output import Output
-from plcsim.process.report import SCHEMA, fault_report
+from plcsim.process.report import SCHEMA, entry_report, fault_report
 from plcsim.process.run_file import Run, announce, withdraw
 from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
@@ -40,6 +41,7 @@ from plcsim.shared_image.status_page import StatusPage
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from plcsim.core.logbook import Entry
     from plcsim.process.output import ChildOutput
     from plcsim.project.plc_toml import Project
     from plcsim.project.tables import TaskClassEntry
@@ -353,6 +355,7 @@ class Supervisor:
             "source": fault.program if fault else "system",
             "text": str(fault) if fault else "stopped while the programs were being loaded",
         }
+        entries, dropped = self._last_entries()
         return {
             "schema": SCHEMA,
             "project": self._project.name,
@@ -364,10 +367,19 @@ class Supervisor:
             "memory_bytes": 0,
             "task_classes": [],
             "violations": [],
-            "logbook": [entry],
-            "logbook_dropped": 0,
+            "logbook": [*map(entry_report, entries), entry],
+            "logbook_dropped": dropped,
             "output_lost_bytes": 0,
         }
+
+    def _last_entries(self) -> tuple[list[Entry], int]:
+        """Return what the scan process wrote into the logbook, and how many entries are missing."""
+        image = self.services.image
+        if image is None:
+            return [], 0
+        logbook = image.logbook()
+        entries = logbook.read()
+        return entries[-LENGTH:], logbook.lost + len(entries[:-LENGTH])
 
     def _location_of_death(self) -> str:
         """Return "file:line" of the innermost frame of the project's own files."""

@@ -10,7 +10,7 @@ from plcsim.core.logbook import Entry, Severity
 from plcsim.core.task import Cause, Violation
 
 if TYPE_CHECKING:
-    from plcsim.shared_image.stream import Record
+    from plcsim.shared_image.stream import Record, StreamReader
 
 _SEVERITIES = tuple(Severity)
 _CAUSES = tuple(Cause)
@@ -73,3 +73,26 @@ def violation_of(record: Record) -> Violation:
         number, program, cycle, _CAUSES[cause], release_ns, response_ns, own_ns, others_ns,
         controller_ns, limit_ns, location,
     )  # fmt: skip
+
+
+class LogbookReader:
+    """The logbook of a controller that runs in another process.
+
+    Args:
+        events: a reader of what happens.
+    """
+
+    def __init__(self, events: StreamReader) -> None:
+        self._events = events
+
+    @property
+    def lost(self) -> int:
+        """Entries, and violations between them, that were overwritten before they were read."""
+        return self._events.lost
+
+    def read(self) -> list[Entry]:
+        """Return the entries that are new, the oldest first."""
+        entries: list[Entry] = []
+        while records := self._events.read():
+            entries += (entry_of(r) for r in records if r.kind == Kind.ENTRY.value)
+        return entries

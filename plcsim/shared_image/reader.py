@@ -17,6 +17,7 @@ from plcsim.shared_image.command import (
 )
 from plcsim.shared_image.directory import directory_from, hash_of
 from plcsim.shared_image.errors import CommandRefused, ImageError, ImageNotReady
+from plcsim.shared_image.events import LogbookReader
 from plcsim.shared_image.force_list import ForcedTag, read_forces
 from plcsim.shared_image.ring import Producer
 from plcsim.shared_image.stream import StreamReader
@@ -124,6 +125,10 @@ class ImageReader:
         """
         region = self._view[self._regions.events :][: layout.EVENTS_SIZE]
         return StreamReader(self._cells, region, layout.EVENT_CELLS, from_oldest=from_oldest)
+
+    def logbook(self, *, from_oldest: bool = True) -> LogbookReader:
+        """Return a reader of the logbook; it sees what `Logbook` keeps, and more."""
+        return LogbookReader(self.events(from_oldest=from_oldest))
 
     def samples(self) -> StreamReader:
         """Return a reader of the samples that this service asks for from now on.

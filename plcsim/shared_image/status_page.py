@@ -115,6 +115,10 @@ class StatusPage:
             if count:
                 cells[at + _CELL_OF_CAUSE[cause]] = count
 
+    def beat(self) -> None:
+        """Note that the scan is alive, though nothing runs."""
+        self._cells[_HEARTBEAT] += 1
+
     def changed(self, state: State) -> None:
         """Note a new system state."""
         self._cells[_ACTIVE] = 0

@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plcsim.core import clock as clock_module
 from plcsim.core.clock import LONGEST_SLEEP_NS, MonotonicClock, VirtualClock
+from plcsim.core.control import AS_FAST_AS_POSSIBLE, REAL_TIME
 
 MS = 1_000_000
 
@@ -90,3 +92,42 @@ def test_the_virtual_clock_moves_only_when_told(acts):
 
 def test_virtual_time_does_not_begin_at_0():
     assert VirtualClock().now_ns() > 0  # ROS takes 0 for "no time yet"
+
+
+def test_a_virtual_clock_with_a_speed_waits_as_long_as_that_takes(monkeypatch):
+    slept = []
+    now_ns = [5_000 * MS]
+
+    def sleep(seconds):
+        slept.append(round(seconds * 1e9))
+        now_ns[0] += round(seconds * 1e9)
+
+    monkeypatch.setattr(clock_module.time, "sleep", sleep)
+    monkeypatch.setattr(clock_module.time, "monotonic_ns", lambda: now_ns[0])
+    clock = VirtualClock()
+    start_ns = clock.now_ns()
+    clock.pace(10 * REAL_TIME)
+    clock.sleep_until_ns(start_ns + 100 * MS)
+    assert (clock.now_ns() - start_ns, slept) == (100 * MS, [10 * MS])
+    clock.pace(REAL_TIME // 10)
+    clock.sleep_until_ns(start_ns + 115 * MS)  # 150 ms of real time, in two pieces
+    assert (clock.now_ns() - start_ns, slept[1:]) == (100 * MS, [100 * MS])
+    clock.sleep_until_ns(start_ns + 115 * MS)
+    assert (clock.now_ns() - start_ns, slept[2:]) == (115 * MS, [50 * MS])
+    clock.pace(AS_FAST_AS_POSSIBLE)
+    clock.sleep_until_ns(start_ns + 10_000 * MS)
+    assert (clock.now_ns() - start_ns, slept[3:]) == (10_000 * MS, [])
+
+
+def test_a_virtual_clock_that_fell_behind_its_speed_does_not_rush(monkeypatch):
+    slept = []
+    now_ns = [0]
+    monkeypatch.setattr(clock_module.time, "sleep", lambda s: slept.append(round(s * 1e9)))
+    monkeypatch.setattr(clock_module.time, "monotonic_ns", lambda: now_ns[0])
+    clock = VirtualClock()
+    start_ns = clock.now_ns()
+    clock.pace(REAL_TIME)
+    now_ns[0] = 1_000 * MS  # a pause, or programs that take longer than that
+    clock.sleep_until_ns(start_ns + 10 * MS)
+    clock.sleep_until_ns(start_ns + 20 * MS)
+    assert slept == [10 * MS]

@@ -75,3 +75,12 @@ def test_use_is_counted_from_the_release_on_and_by_program():
     assert task_class.used_by_own_and_others() == ({own: 10}, {other: 20}, 3)
     task_class.advance(100)
     assert task_class.used_by_own_and_others() == ({}, {}, 0)
+
+
+def test_after_a_pause_the_grid_is_as_before_and_nothing_was_missed():
+    task_class = TaskClass(1, 100, 0, [])
+    task_class.lay_grid(0)
+    for now_ns, release_ns in ((0, 50), (50, 50), (51, 150), (150, 150), (1000, 1050)):
+        task_class.skip_to(now_ns)
+        assert task_class.release_ns == release_ns
+    assert task_class.missed == 0
