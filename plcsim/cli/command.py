@@ -9,7 +9,19 @@ import sys
 from importlib.metadata import version
 from typing import TYPE_CHECKING, TextIO
 
-from plcsim.cli import check, completion, doctor, new, report, run, st, types, watch
+from plcsim.cli import (
+    check,
+    completion,
+    doctor,
+    logbook,
+    new,
+    operate,
+    report,
+    run,
+    st,
+    types,
+    watch,
+)
 from plcsim.cli.console import print_error
 from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.installed import COMMANDS, register_installed
@@ -35,7 +47,19 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (new, check, run, watch, types, st, doctor, report, completion):
+    for command in (
+        new,
+        check,
+        run,
+        watch,
+        operate,
+        logbook,
+        types,
+        st,
+        doctor,
+        report,
+        completion,
+    ):
         command.register(subparsers)
     register_installed(COMMANDS, subparsers)
     return parser

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.core.errors import TagError
 from plcsim.core.suggestion import did_you_mean
 from st_types.errors import ValueRangeError
-from st_types.types.derived import ArrayType, DataBlockType, StructType, resolve_alias
+from st_types.types.derived import ArrayType, DataBlockType, Section, StructType, resolve_alias
 from st_types.types.paths import find
 from st_types.types.values import encode
 
@@ -130,6 +131,7 @@ def leaves(
     *,
     blocks: bool = True,
     elements: bool = True,
+    internals: bool = True,
 ) -> Iterator[Tag]:
     """Iterate over the tags below one variable.
 
@@ -139,20 +141,21 @@ def leaves(
         address: PLC address of its first byte.
         blocks: go into the data blocks of function blocks as well.
         elements: go into every element of an ARRAY; otherwise into the first one.
+        internals: go into the internal variables of function blocks as well.
     """
     data_type = resolve_alias(data_type)
+    further = partial(leaves, blocks=blocks, elements=elements, internals=internals)
     if isinstance(data_type, StructType):
-        if not blocks and isinstance(data_type, DataBlockType):
+        is_block = isinstance(data_type, DataBlockType)
+        if is_block and not blocks:
             return
         for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-            inner = f"{path}.{member.name}"
-            at = address + offset
-            yield from leaves(inner, member.data_type, at, blocks=blocks, elements=elements)
+            if internals or not is_block or member.section is not Section.INTERNAL:
+                yield from further(f"{path}.{member.name}", member.data_type, address + offset)
     elif isinstance(data_type, ArrayType):
         ranges = (range(low, (high if elements else low) + 1) for low, high in data_type.bounds)
         for place, index in enumerate(itertools.product(*ranges)):
             inner = f"{path}[{','.join(map(str, index))}]"
-            at = address + place * data_type.element.size
-            yield from leaves(inner, data_type.element, at, blocks=blocks, elements=elements)
+            yield from further(inner, data_type.element, address + place * data_type.element.size)
     else:
         yield Tag(path, data_type, address)

@@ -68,6 +68,14 @@ class Directory:
         """
         return find_tag(path, {area.path.upper(): area for area in self.areas})
 
+    def holds(self, tag: Tag) -> bool:
+        """Return True for a tag that every snapshot holds."""
+        try:
+            self.place_of(tag.address, tag.data_type.size)
+        except ImageError:
+            return False
+        return True
+
     def place_of(self, address: int, size: int) -> int:
         """Return where the bytes of a variable lie in a snapshot.
 

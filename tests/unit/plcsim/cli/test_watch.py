@@ -8,15 +8,15 @@ from pathlib import Path
 import pytest
 
 from plcsim import Program
+from plcsim.cli import watch
 from plcsim.cli.main import main
-from plcsim.core.clock import VirtualClock
-from plcsim.network import VirtualNetwork
+from plcsim.library.standard import TON
 from plcsim.process.run_file import Run, announce
-from plcsim.program.python.language import PythonCode
-from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
-from plcsim.shared_image import ImageWriter
-from plcsim.shared_image.layout import make_file
-from st_types import ARRAY, BOOL, BYTE, ENUM, REAL, STRING, UINT, Struct, var
+from st_types import ARRAY, BOOL, BYTE, ENUM, LREAL, REAL, STRING, UINT, Struct, var
+from st_types.types.derived import Section
+from st_types.types.views import type_of
+
+from .runs import cycling, run_of
 
 
 class Mode(IntEnum):
@@ -41,6 +41,22 @@ class Cell(Program):
 
 class Huge(Program):
     waste = var(ARRAY(BYTE, (0, 100_000)))
+    last = var(UINT, 4711)
+
+    def init(self) -> None:
+        for place in range(100_000):
+            self.waste[place] = place % 256
+
+
+class Vast(Program):
+    waste = var(ARRAY(LREAL, (0, 140_000)))
+
+
+class Timed(Program):
+    timer = var(TON)
+
+    def cyclic(self) -> None:
+        self.timer(IN=True, PT=1500)
 
 
 @pytest.fixture(autouse=True)
@@ -48,25 +64,10 @@ def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
 
 
-def running(folder: Path, program: type[Program]) -> int:
-    clock = VirtualClock()
-    network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
-    setup = Setup([TaskClassSetup(1, 1_000_000, [ProgramSetup("cell", PythonCode(program))])])
-    plc = make_controller(setup, network=network, clock=clock)
-    fd = make_file()
-    ImageWriter(fd, plc, project="cell", services={})
-    plc.boot()
-    plc.run(cycles=7)
-    (folder / "plc.toml").touch()
-    announce(folder, Run(os.getpid(), fd, fd))
-    return fd
-
-
 @pytest.fixture
 def project(tmp_path: Path) -> Iterator[Path]:
-    fd = running(tmp_path, Cell)
-    yield tmp_path
-    os.close(fd)
+    with run_of(tmp_path, Cell):
+        yield tmp_path
 
 
 def shown(capsys: pytest.CaptureFixture[str]) -> list[list[str]]:
@@ -122,9 +123,8 @@ def test_text_is_shown_as_it_is_however_narrow(
         a_name_that_is_longer_than_the_terminal = var(STRING(30), "[red] and :smile:")
 
     monkeypatch.setenv("COLUMNS", "20")
-    fd = running(tmp_path, Marked)
-    assert main(["watch", str(tmp_path)]) == 0
-    os.close(fd)
+    with run_of(tmp_path, Marked):
+        assert main(["watch", str(tmp_path)]) == 0
     row = capsys.readouterr().out.splitlines()[1]
     assert "cell.a_name_that_is_longer_than_the_terminal" in row
     assert "'[red] and :smile:'  STRING[30]" in row
@@ -147,12 +147,60 @@ def test_a_project_that_does_not_run_is_named(
     assert "is not running; start it with plcsim run" in capsys.readouterr().err
 
 
-def test_what_is_not_published_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    fd = running(tmp_path, Huge)
-    assert main(["watch", str(tmp_path), "cell.waste[5]"]) == 1
-    assert "cell.waste[5] is not published" in capsys.readouterr().err
-    assert main(["watch", str(tmp_path), "cell.waste"]) == 0
-    os.close(fd)
+def test_what_the_snapshot_does_not_hold_is_sampled(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with run_of(tmp_path, Huge, lambda plc: [plc.tags.find("cell.last")]) as plc, cycling(plc):
+        for tags in (["cell.waste[5]", "cell.last", "cell.waste[99999]"], ["cell.last"]):
+            assert main(["watch", str(tmp_path), *tags]) == 0
+            values = {"cell.waste[5]": "5", "cell.last": "4711", "cell.waste[99999]": "159"}
+            assert [line[:2] for line in shown(capsys)[1:]] == [[t, values[t]] for t in tags]
+
+
+def test_more_than_can_be_sampled_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with run_of(tmp_path, Vast) as plc, cycling(plc):
+        assert main(["watch", str(tmp_path)]) == 1
+    assert "too many tags are not in the snapshot; name fewer" in capsys.readouterr().err
+
+
+def test_a_scan_that_stands_still_gives_no_samples(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(watch, "PATIENCE_S", 0.05)
+    with run_of(tmp_path, Huge):
+        assert main(["watch", str(tmp_path), "cell.last"]) == 0
+    assert shown(capsys)[1:] == [["cell.last", "...", "UINT"]]
+
+
+def test_times_are_written_as_times_and_blocks_show_their_interface(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with run_of(tmp_path, Timed):
+        assert main(["watch", str(tmp_path)]) == 0
+        assert shown(capsys)[1:] == [
+            ["cell.timer.IN", "TRUE", "BOOL"],
+            ["cell.timer.PT", "T#1s500ms", "TIME"],
+            ["cell.timer.Q", "FALSE", "BOOL"],
+            ["cell.timer.ET", "T#6ms", "TIME"],
+        ]
+        inner = [m.name for m in type_of(TON).members if m.section is Section.INTERNAL]
+        assert main(["watch", str(tmp_path), f"cell.timer.{inner[0]}"]) == 0
+        assert shown(capsys)[1][0] == f"cell.timer.{inner[0]}"
+
+
+def test_forced_values_are_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with run_of(tmp_path, Cell) as plc:
+        plc.forces.force(plc.tags.find("cell.axes[2].speed"), b"\0\0\0\0", "test")
+        plc.run(cycles=1)
+        assert main(["watch", str(tmp_path), "cell.axes"]) == 0
+    assert [line[1:-1] for line in shown(capsys)[1:]] == [
+        ["1.5"],
+        ["TRUE"],
+        ["0", "forced"],
+        ["TRUE"],
+    ]
 
 
 def test_on_a_terminal_values_are_drawn_until_the_run_ends(
