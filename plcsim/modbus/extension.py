@@ -37,7 +37,7 @@ class ModbusExtension(Extension):
 
     def read(self, table: Table) -> ModbusProject:
         """Return the settings."""
-        return ModbusProject(read_settings(table, table.folder), table.folder)
+        return ModbusProject(read_settings(table), table.folder)
 
     def in_process(self, settings: ModbusProject, ip: str) -> ModbusProject:
         """Return the settings for where no service runs: the map is checked, no file is written."""

@@ -3,25 +3,44 @@
 from __future__ import annotations
 
 import ipaddress
-from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Mapping
+from dataclasses import asdict, field, replace
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
-from plcsim.modbus.map.point import ORDERS
+from plcsim.settings import Converted, Duration, Kind, Whole, settings
+from plcsim.settings.kinds import PathTo
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from pathlib import Path
 
-    from plcsim.settings.table import Table
+    from plcsim.settings import Table
 
 TAGS_FILE: Final = "tags.csv"
 AUDIT_FILE: Final = ".plcsim/modbus-audit.jsonl"
 MODBUS_PORT: Final = 502
 SECURE_PORT: Final = 802
-PERMISSIONS: Final = ("rw", "ro", "none")
 
 
-@dataclass(frozen=True)
+class _File(Kind):
+    """A file that must be there, as text: settings go to the service as JSON."""
+
+    def convert(self, value: object, folder: Path) -> str:
+        """Return the path."""
+        return str(PathTo("file").convert(value, folder.resolve()))
+
+
+def _address(text: str) -> str:
+    try:
+        return str(ipaddress.ip_address(text))
+    except ValueError:
+        raise ValueError(f"{text!r} is not an IP address") from None
+
+
+def _network(text: str) -> str:
+    return str(ipaddress.ip_network(text))
+
+
+@settings
 class TlsSettings:
     """Modbus/TCP Security: TLS with certificates on both sides, and what each role may do.
 
@@ -32,15 +51,15 @@ class TlsSettings:
         roles: "rw", "ro" or "none" by role; empty lets every known client read and write.
     """
 
-    certificate: str
-    key: str
-    clients: str
-    roles: Mapping[str, str] = field(default_factory=dict)
+    certificate: Annotated[str, _File()]
+    key: Annotated[str, _File()]
+    clients: Annotated[str, _File()]
+    roles: Mapping[str, Literal["rw", "ro", "none"]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@settings
 class ModbusSettings:
-    """What [modbus] says; paths are absolute.
+    """What [modbus] says; `read_settings` makes the paths absolute.
 
     Attributes:
         host: address to listen on.
@@ -59,19 +78,19 @@ class ModbusSettings:
         tls: None for plain TCP.
     """
 
-    host: str = "127.0.0.1"
-    port: int = MODBUS_PORT
+    host: Annotated[str, Converted(_address)] = "127.0.0.1"
+    port: Annotated[int, Whole(0, 65535)] = MODBUS_PORT
     tags: str = ""
     auto: bool = False
-    order: str = "ABCD"
+    order: Literal["ABCD", "CDAB", "BADC", "DCBA"] = "ABCD"
     strict_holes: bool = False
     read_only: bool = False
-    unit_ids: tuple[int, ...] = ()
-    allow: tuple[str, ...] = ()
-    connections: int = 64
-    idle_ns: int = 60_000_000_000
-    write_timeout_ns: int = 2_000_000_000
-    audit: str = ""
+    unit_ids: tuple[Annotated[int, Whole(0, 255)], ...] = ()
+    allow: tuple[Annotated[str, Converted(_network)], ...] = ()
+    connections: Annotated[int, Whole(1, 10_000)] = 64
+    idle_ns: Annotated[int, Duration(minimum_ns=1)] = 60_000_000_000
+    write_timeout_ns: Annotated[int, Duration(minimum_ns=1)] = 2_000_000_000
+    audit: str = AUDIT_FILE
     tls: TlsSettings | None = None
 
     def to_json(self) -> dict[str, Any]:
@@ -86,94 +105,27 @@ def settings_from(values: Mapping[str, Any]) -> ModbusSettings:
     return ModbusSettings(**{**values, **lists, "tls": TlsSettings(**tls) if tls else None})
 
 
-def read_settings(table: Table, folder: Path) -> ModbusSettings:
+def read_settings(table: Table) -> ModbusSettings:
     """Return the settings of the table [modbus] of a project.
 
     Raises:
-        ConfigurationError: a value is wrong; file and field are named.
+        ConfigurationError: values are wrong; file and field of each are named.
     """
-    folder = folder.resolve()
-    tls = _read_tls(table, folder) if "tls" in table else None
-    auto = table.take("auto", bool, False)  # noqa: FBT003  # the default of the key
-    order = table.convert("order", "ABCD", _order)
-    audit = table.take("audit", str, AUDIT_FILE)
-    return ModbusSettings(
-        host=table.convert("host", "127.0.0.1", _address),
-        port=table.number("port", SECURE_PORT if tls else MODBUS_PORT, 0, 65535),
-        tags=_tags_file(table, folder, auto=auto),
-        auto=auto,
-        order=order,
-        strict_holes=table.take("strict_holes", bool, False),  # noqa: FBT003  # likewise
-        read_only=table.take("read_only", bool, False),  # noqa: FBT003  # likewise
-        unit_ids=_unit_ids(table),
-        allow=_networks(table),
-        connections=table.number("connections", 64, 1, 10_000),
-        idle_ns=_positive_ns(table, "idle", 60_000_000_000),
-        write_timeout_ns=_positive_ns(table, "write_timeout", 2_000_000_000),
-        audit=str(folder / audit) if audit else "",
-        tls=tls,
+    folder = table.folder.resolve()
+    has_port = "port" in table
+    made = table.read(ModbusSettings)
+    return replace(
+        made,
+        port=SECURE_PORT if made.tls and not has_port else made.port,
+        tags=_tags_file(table, folder, made),
+        audit=str(folder / made.audit) if made.audit else "",
     )
 
 
-def _tags_file(table: Table, folder: Path, *, auto: bool) -> str:
-    named = "tags" in table
-    file = folder / table.take("tags", str, TAGS_FILE)
+def _tags_file(table: Table, folder: Path, made: ModbusSettings) -> str:
+    file = folder / (made.tags or TAGS_FILE)
     if file.is_file():
         return str(file)
-    if named or not auto:
+    if made.tags or not made.auto:
         raise table.error("tags", f"there is no file {file}; or give auto = true")
     return ""
-
-
-def _order(text: str) -> str:
-    if text not in ORDERS:
-        raise ValueError(f"{text!r} is not one of {', '.join(ORDERS)}")
-    return text
-
-
-def _address(text: str) -> str:
-    try:
-        return str(ipaddress.ip_address(text))
-    except ValueError:
-        raise ValueError(f"{text!r} is not an IP address") from None
-
-
-def _positive_ns(table: Table, key: str, default_ns: int) -> int:
-    value_ns = table.duration_ns(key, default_ns)
-    if value_ns <= 0:
-        raise table.error(key, "must be above 0")
-    return value_ns
-
-
-def _unit_ids(table: Table) -> tuple[int, ...]:
-    values = table.take("unit_ids", list, [])
-    for value in values:
-        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= 255:
-            raise table.error("unit_ids", f"{value!r} is not a number from 0 to 255")
-    return tuple(values)
-
-
-def _networks(table: Table) -> tuple[str, ...]:
-    networks = table.strings("allow")
-    for network in networks:
-        try:
-            ipaddress.ip_network(network)
-        except ValueError as err:
-            raise table.error("allow", str(err)) from None
-    return networks
-
-
-def _read_tls(table: Table, folder: Path) -> TlsSettings:
-    tls = table.table("tls")
-    files = {}
-    for key in ("certificate", "key", "clients"):
-        name = tls.take(key, str, "")
-        if not name or not (folder / name).is_file():
-            raise tls.error(key, f"there is no file {name!r}" if name else "a file is needed")
-        files[key] = str(folder / name)
-    roles = tls.take("roles", dict, {})
-    for role, permission in roles.items():
-        if permission not in PERMISSIONS:
-            raise tls.error(f"roles.{role}", f"{permission!r} is not one of rw, ro, none")
-    tls.finish()
-    return TlsSettings(**files, roles=roles)

@@ -113,9 +113,7 @@ def read_project(path: Path) -> Project:
         if name not in top:
             continue  # an extension that is not used is not imported
         with findings.gathered():
-            table = top.table(name)
-            settings[name] = extensions()[name].read(table)
-            table.finish()
+            settings[name] = extensions()[name].read(top.table(name))
     name = plc.name or file.parent.resolve().name
     project = Project(file.parent, name, plc, classes, libraries, settings)
     with findings.gathered():

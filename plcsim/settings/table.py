@@ -8,7 +8,6 @@ from enum import Enum
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import (
-    TYPE_CHECKING,
     Annotated,
     Any,
     Literal,
@@ -19,14 +18,10 @@ from typing import (
     get_origin,
 )
 
-from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.settings.declaration import beside, declared
 from plcsim.settings.kinds import Kind, OneOf, of_kind
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 T = TypeVar("T")
 
@@ -49,7 +44,6 @@ class Table:
         if not isinstance(values, dict):
             raise self.error("", f"{values!r} is not a table")
         self._values = dict(values)
-        self._known: list[str] = []
 
     @property
     def folder(self) -> Path:
@@ -65,7 +59,6 @@ class Table:
 
     def table(self, key: str) -> Table:
         """Return a table inside this one, empty where there is none."""
-        self._known.append(key)
         return Table(self._file, self._field(key), self._values.pop(key, {}))
 
     def tables(self) -> dict[str, Table]:
@@ -106,7 +99,6 @@ class Table:
                 told.
         """
         known = {setting.key: setting for setting in declared(cls)}
-        self._known += known
         findings = Findings()
         with findings.gathered():
             self.check_keys(*known)
@@ -156,75 +148,6 @@ class Table:
                 result[key] = self._value(key, hint, value)
         findings.check()
         return result
-
-    # key by key, for tables whose settings are not declared yet
-
-    def take(self, key: str, kind: type[T], default: T, example: str = "") -> T:
-        """Return the value of ``key``, or the default where there is none.
-
-        Args:
-            key: in this table.
-            kind: of the value.
-            default: where there is none.
-            example: of a value, as in plc.toml; named where the value is of another kind.
-
-        Raises:
-            ConfigurationError: the value is of another kind.
-        """
-        self._known.append(key)
-        value = self._values.pop(key, default)
-        try:
-            return of_kind(kind, value, example)
-        except ValueError as err:
-            raise self.error(key, str(err)) from None
-
-    def number(self, key: str, default: int, minimum: int, maximum: int) -> int:
-        """Return a whole number within bounds.
-
-        Raises:
-            ConfigurationError: it is not, or it is outside.
-        """
-        value = self.take(key, int, default)
-        if not minimum <= value <= maximum:
-            raise self.error(key, f"{value} is outside {minimum}..{maximum}")
-        return value
-
-    def convert(self, key: str, default: T, convert: Callable[[str], T], example: str = "") -> T:
-        """Return a string converted, or the default where there is none; for the rest see `take`.
-
-        Raises:
-            ConfigurationError: ``convert`` raised ValueError.
-        """
-        given = key in self._values
-        text = self.take(key, str, "", example)
-        try:
-            return convert(text) if given else default
-        except ValueError as err:
-            raise self.error(key, str(err)) from None
-
-    def duration_ns(self, key: str, default_ns: int) -> int:
-        """Return a time such as ``"10ms"`` in nanoseconds."""
-        return self.convert(key, default_ns, parse_duration_ns, '"10ms"')
-
-    def strings(self, key: str, default: tuple[str, ...] = ()) -> tuple[str, ...]:
-        """Return a list of strings.
-
-        Raises:
-            ConfigurationError: it is not one.
-        """
-        values = self.take(key, list, list(default))
-        for value in values:
-            if not isinstance(value, str):
-                raise self.error(key, f"{value!r} is not a string")
-        return tuple(values)
-
-    def finish(self, *more: str) -> None:
-        """Raise a ConfigurationError for the first key that nobody took.
-
-        Args:
-            more: keys that could have been there.
-        """
-        self.check_keys(*dict.fromkeys((*self._known, *more)))
 
 
 def _plain(hint: Any, value: object, folder: Path) -> object:

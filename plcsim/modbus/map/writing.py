@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.modbus.map.conversion import from_registers, wire_order
-from plcsim.modbus.map.errors import IllegalAddress
+from plcsim.modbus.map.errors import IllegalAddress, IllegalValue
 from plcsim.modbus.map.point import Area, Point
 from plcsim.shared_image.command import Mask, Store, merged
 
@@ -124,11 +124,30 @@ def _stores(point: Point, address: int, end: int, data: bytes) -> Iterator[Store
     elif first >= 0 and point.offset + point.registers <= end:
         yield Store(point.address, from_registers(point, data[first : first + 2 * point.registers]))
     elif point.partial:
-        for i, place in enumerate(wire_order(point.size, point.order)):
-            if 0 <= first + i < len(data):
-                yield Store(point.address + point.size - 1 - place, data[first + i : first + i + 1])
+        order = enumerate(wire_order(point.size, point.order))
+        part = {place: data[first + i] for i, place in order if 0 <= first + i < len(data)}
+        _check_exponent(point, part)
+        for place, value in part.items():
+            yield Store(point.address + point.size - 1 - place, bytes([value]))
     else:
         raise IllegalAddress(f"only part of {point.tag} is written")
+
+
+def _check_exponent(point: Point, part: dict[int, int]) -> None:
+    """Raise IllegalValue where a part of a REAL or LREAL makes it NaN or infinity.
+
+    All bits of the exponent lie in its highest register (IEEE 754), which is written whole: no
+    other part can.
+
+    Args:
+        point: the tag.
+        part: bytes by their place in the big-endian value.
+    """
+    if point.kind not in "fd" or 0 not in part:
+        return
+    mask = 0x7F80 if point.size == 4 else 0x7FF0
+    if (part[0] << 8 | part[1]) & mask == mask:
+        raise IllegalValue(f"{point.tag}: a number that is not finite")
 
 
 def _swapped(word: int) -> int:

@@ -108,7 +108,7 @@ def test_a_file_that_holds_nothing_is_named(
     assert str(project / bad) in capsys.readouterr().err
     (project / bad).unlink()
     assert main(["check", str(project)]) == 1
-    assert f"there is no file '{bad}'" in capsys.readouterr().err
+    assert f"there is no such file, '{project / bad}'" in capsys.readouterr().err
 
 
 def test_a_key_with_a_password_is_refused_not_asked_for(

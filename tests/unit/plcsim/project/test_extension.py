@@ -1,6 +1,6 @@
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import pytest
 
@@ -10,9 +10,14 @@ from plcsim.project import extension
 from plcsim.project import plc_toml as project
 from plcsim.project.extension import Attachment, Extension, check_settings, services_of
 from plcsim.project.plc_toml import read_project
-from plcsim.settings.table import Table
+from plcsim.settings import Table, Whole, settings
 
 TOML = '[task_class.1]\ncycle = "10ms"\nprograms = ["p"]\n'
+
+
+@settings
+class WebSettings:
+    port: Annotated[int, Whole(1, 65535)] = 80
 
 
 class Web(Extension):
@@ -20,7 +25,7 @@ class Web(Extension):
         return "service_for_tests"
 
     def read(self, table: Table) -> int:
-        return table.number("port", 80, 1, 65535)
+        return table.read(WebSettings).port
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
         return Attachment(settings)

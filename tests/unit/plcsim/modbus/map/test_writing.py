@@ -1,3 +1,4 @@
+import math
 import struct
 
 import pytest
@@ -5,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.modbus.map import Area, IllegalAddress, IllegalValue
+from plcsim.modbus.map.conversion import to_registers
 from plcsim.modbus.map.reading import Reads
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
@@ -94,6 +96,38 @@ def test_a_partial_tag_takes_a_register_in_every_order(order: str, register: int
 
     whole = reads.read(Area.HOLDING_REGISTERS, 0, 4, Memory(), ControllerStatus)
     assert whole.hex() == "".join("1234" if i == register else "0000" for i in range(4))
+
+
+@pytest.mark.parametrize("order", ["ABCD", "CDAB", "BADC", "DCBA"])
+@pytest.mark.parametrize(("tag", "code"), [("p.real", "f"), ("p.double", "d")])
+@given(number=st.integers(0, 2**64 - 1), start=st.integers(0, 2**64 - 1))
+def test_no_sequence_of_parts_makes_a_real_other_than_finite(
+    tag: str, code: str, order: str, number: int, start: int
+) -> None:
+    size = struct.calcsize(code)
+    row = f"{tag},hr,0,,,,,,,,,,,1"
+    writes = writes_of(row, order=order)
+    (point,) = points(PLC, row, order=order)
+    wanted = (number % (1 << 8 * size)).to_bytes(size, "big")
+    before = (start % (1 << 8 * size)).to_bytes(size, "big")
+    if not math.isfinite(struct.unpack(">" + code, before)[0]):
+        return
+    PLC.memory.write(address(tag), before[::-1])
+    wire = to_registers(point, wanted[::-1])
+    for register in range(size // 2):
+        try:
+            write = writes.registers(register, wire[2 * register : 2 * register + 2])
+        except IllegalValue:
+            assert not math.isfinite(struct.unpack(">" + code, wanted)[0])
+            continue
+        for operation in write.operations:
+            if isinstance(operation, Scatter):
+                for place, value in zip(operation.addresses, operation.data, strict=True):
+                    PLC.memory.write(place, bytes([value]))
+            elif isinstance(operation, Store):
+                PLC.memory.write(*operation)
+        value = struct.unpack("<" + code, PLC.memory.read(address(tag), size))[0]
+        assert math.isfinite(value)
 
 
 def test_bits_of_a_register_are_stored_one_by_one() -> None:

@@ -93,7 +93,7 @@ def authority(tmp_path: Path) -> Authority:
 
 def settings_of(authority: Authority, roles: dict[str, str]) -> TlsSettings:
     server = str(authority.issue("server"))
-    return TlsSettings(server, server, str(authority.file), roles)
+    return TlsSettings(certificate=server, key=server, clients=str(authority.file), roles=roles)
 
 
 def client_context(authority: Authority, own: Path | None) -> ssl.SSLContext:
@@ -177,7 +177,7 @@ def test_a_file_without_a_certificate_is_a_configuration_error(tmp_path: Path) -
     file = tmp_path / "empty.pem"
     file.touch()
     with pytest.raises(ConfigurationError, match=r"modbus\.tls: "):
-        server_context(TlsSettings(str(file), str(file), str(file)))
+        server_context(TlsSettings(certificate=str(file), key=str(file), clients=str(file)))
 
 
 def test_no_certificate_has_no_role_and_unknown_roles_no_rights() -> None:
