@@ -48,12 +48,14 @@ class DiagnosticLog:
         omitted: how many findings were made beyond that.
         error_count: all errors.
         warning_count: all warnings.
+        code: of findings that are given none.
     """
 
-    __slots__ = ("error_count", "omitted", "records", "source", "warning_count")
+    __slots__ = ("code", "error_count", "omitted", "records", "source", "warning_count")
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, code: str = "") -> None:
         self.source = source
+        self.code = code
         self.records: list[Diagnostic] = []
         self.omitted = 0
         self.error_count = 0
@@ -79,7 +81,9 @@ class DiagnosticLog:
         path, line, column = self.source.location(offset)
         excerpt, caret = excerpt_of(self.source.line_text(line), column)
         self.records.append(
-            Diagnostic(severity, path, line, column, message, hint, excerpt, caret, code)
+            Diagnostic(
+                severity, path, line, column, message, hint, excerpt, caret, code or self.code
+            )
         )
 
     def raise_errors(self) -> None:

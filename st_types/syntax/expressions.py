@@ -142,6 +142,9 @@ _ENDS = frozenset([";", ",", ")", "]", "THEN", "DO", "OF", "TO", ".."])
 _SIMPLE = frozenset([NAME, "literal"])
 _PREFIXES = frozenset(["-", "+", "NOT"])
 _ARGUMENT_SIGNS = (":=", "=>")
+FUNCTION_WORDS = frozenset(["AND", "OR", "XOR", "MOD"])
+"""Operators that are functions, too: ``AND(a, b)``."""
+
 _OPERATOR_WORDS = frozenset(["OR", "OR_ELSE", "XOR", "AND", "AND_THEN", "MOD", "NOT"])
 
 
@@ -241,7 +244,9 @@ class ExpressionParser(TokenReader):
         if key == "." and self.texts[at + 1][:1].isdecimal() and not self.tokens.trivia[at + 1]:
             self.index += 1
             return self.literal(f".{self.text}")
-        if key != text.upper() or not text.isidentifier() or key in self.reserved:
+        is_call = key in FUNCTION_WORDS and self.keys[at + 1] == "("
+        is_name = key == text.upper() and text.isidentifier() and key not in self.reserved
+        if not is_name and not is_call:
             self.fail("expected a value")
         self.index += 1
         return self.postfix(Name(at, text))  # a keyword as a name

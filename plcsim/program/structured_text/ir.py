@@ -432,8 +432,9 @@ Statement = (
 )
 
 FunctionKind = Literal["unit", "action", "block", "function", "helper"]
-"""``unit`` (INIT, CYCLIC, EXIT) and ``action`` take nothing. ``block`` takes the address of its
-data block; its own members are places based on local 0. ``helper`` is what the front makes."""
+"""``unit`` (INIT, CYCLIC, EXIT) takes nothing. ``block`` takes the address of its data block; its
+own members are places based on local 0. ``action`` takes nothing, that of a block the same address.
+``helper`` is what the front makes."""
 
 
 @dataclass(slots=True, eq=False)

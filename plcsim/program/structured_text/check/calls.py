@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from plcsim.core.suggestion import did_you_mean
 from plcsim.program.structured_text.check import builtins
-from plcsim.program.structured_text.check.codes import Code
 from plcsim.program.structured_text.check.expressions import ExpressionChecker
 from plcsim.program.structured_text.check.fits import are_alike
 from plcsim.program.structured_text.check.kinds import (
@@ -14,7 +13,6 @@ from plcsim.program.structured_text.check.kinds import (
     BOOL,
     UDINT,
     VOID,
-    Kind,
     kind_of,
     plain,
 )
@@ -22,27 +20,27 @@ from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING
 from plcsim.program.structured_text.check.typed import (
     PLACES,
     Address,
-    Assign,
     Bit,
     Call,
-    CallBlock,
     Constant,
     Edge,
     Element,
     Member,
-    SetAddress,
+    Symbol,
     Target,
-    Unary,
     Variable,
 )
+from plcsim.program.structured_text.codes import Code
 from st_types.syntax import expressions as syntax
-from st_types.types.derived import DataBlockType, ReferenceType, Section
+from st_types.types.derived import DataBlockType, ReferenceType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from plcsim.program.structured_text.check.findings import Findings
     from plcsim.program.structured_text.check.kinds import Type
-    from plcsim.program.structured_text.check.typed import Statement, Value
+    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.typed import Value
     from st_types.resolve.declared import Function
     from st_types.syntax.expressions import Expression
 
@@ -59,13 +57,15 @@ class Parameter(NamedTuple):
         section: VAR_INPUT, VAR_IN_OUT or VAR_OUTPUT.
         by_address: the address of a place goes over.
         is_optional: it has an initial value.
+        initial: that value, None for that of the type.
     """
 
     name: str
     type: Type | None
     section: str
     by_address: bool
-    is_optional: bool
+    is_optional: bool = False
+    initial: object = None
 
 
 def parameters_of(function: Function) -> tuple[Parameter, ...]:
@@ -79,7 +79,8 @@ def parameters_of(function: Function) -> tuple[Parameter, ...]:
                 data_type is not None and kind_of(data_type) in BY_ADDRESS
             )
             has_initial = variable.node.initial is not None
-            found.append(Parameter(variable.name, data_type, section, by_address, has_initial))
+            parameter = Parameter(variable.name, data_type, section, by_address, has_initial)
+            found.append(parameter._replace(initial=variable.initial))
     return tuple(found)
 
 
@@ -88,11 +89,24 @@ class CallChecker(ExpressionChecker):
 
     Attributes:
         edges: how many edge functions were met in the function block, for its zzEdge members.
+        called_functions: names of the functions that are called.
     """
 
     edges = 0
 
+    def __init__(self, names: Names, findings: Findings) -> None:
+        super().__init__(names, findings)
+        self.called_functions: set[str] = set()
+
     def _call(self, node: syntax.Call) -> Value:
+        found = self.called(node)
+        if type(found) is Call and found.type is VOID and found.function.node.result is None:
+            message = f"{found.function.name} gives no value"
+            self.error(node, Code.NO_VALUE, message)
+        return found
+
+    def called(self, node: syntax.Call) -> Value:
+        """Check a call; it may give nothing."""
         name = node.function
         if type(name) is not syntax.Name:
             return self._not_callable(node)
@@ -119,7 +133,7 @@ class CallChecker(ExpressionChecker):
 
     def _place_function(self, node: syntax.Call, name: str) -> Value:
         if len(node.arguments) != 1 or node.arguments[0].value is None:
-            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes one argument")
+            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes 1 argument")
             return NOTHING
         argument = node.arguments[0].value
         return self._size(argument) if name == "SIZEOF" else self.address(argument)
@@ -154,7 +168,7 @@ class CallChecker(ExpressionChecker):
 
     def _edge(self, node: syntax.Call, name: str) -> Value:
         if len(node.arguments) != 1 or node.arguments[0].value is None:
-            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes one argument")
+            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes 1 argument")
             return NOTHING
         argument = node.arguments[0].value
         value = self.value(argument)
@@ -176,8 +190,7 @@ class CallChecker(ExpressionChecker):
                 hint = "declare it as VAR : BOOL, as Automation Studio does when it builds"
                 self.error(node, Code.UNKNOWN_MEMBER, message, hint)
             return found or NOTHING
-        symbol = self.names.symbols.hide(f"edge {number}", BOOL)
-        return Variable(BOOL, symbol)
+        return Variable(BOOL, Symbol(f"edge {number}", BOOL, "hidden"))
 
     # Built-in functions
 
@@ -216,8 +229,10 @@ class CallChecker(ExpressionChecker):
         if named:
             found += [named[place] for place in sorted(named)]
         if not rule.least <= len(found) <= rule.most:
-            wanted = f"{rule.least}" if rule.least == rule.most else f"{rule.least} or more"
-            message = f"{name} takes {wanted} arguments, not {len(found)}"
+            wanted = (
+                _count(rule.least) if rule.least == rule.most else f"{rule.least} or more arguments"
+            )
+            message = f"{name} takes {wanted}, not {len(found)}"
             self.error(node, Code.WRONG_ARGUMENTS, message)
             return None
         return found
@@ -231,6 +246,7 @@ class CallChecker(ExpressionChecker):
         if function is None or hit is None:
             return self._no_function(node, name)
         self.names.check_case(name, hit)
+        self.called_functions.add(function.name)
         arguments = self._arguments_of(node, function)
         result = VOID if function.result is None else plain(function.result)
         if function.node.result is not None and function.result is None:
@@ -294,7 +310,7 @@ class CallChecker(ExpressionChecker):
             message = f"{name} has no parameter {argument.name}{near}"
             self.error(argument, Code.UNKNOWN_PARAMETER, message)
         else:
-            message = f"{name} takes {len(parameters)} arguments"
+            message = f"{name} takes {_count(len(parameters))}"
             self.error(argument, Code.WRONG_ARGUMENTS, message)
         if argument.value is not None:
             self.value(argument.value)
@@ -337,141 +353,9 @@ class CallChecker(ExpressionChecker):
         keep_address(value)
         return Address(UDINT, value)
 
-    # Function blocks
 
-    def block_call(self, node: syntax.Call, line: int) -> Statement | None:
-        """Check the call of a function block, None if it is none."""
-        instance = self._instance(node.function)
-        if instance is None:
-            return None
-        block = instance.type
-        assert isinstance(block, DataBlockType)
-        before: list[Statement] = []
-        after: list[Statement] = []
-        inputs = iter([member for member in block.members if member.section is Section.INPUT])
-        for argument in node.arguments:
-            name = argument.name
-            if not name:
-                member = next(inputs, None)
-                if member is None:
-                    message = f"{block} takes fewer arguments without a name"
-                    self.error(argument, Code.WRONG_ARGUMENTS, message)
-                    continue
-                name = member.name
-            self._block_argument(argument, name, instance, before, after, line)
-        return CallBlock(line, instance, block.name, before, after)
-
-    def _instance(self, node: Expression) -> Value | None:
-        if type(node) is syntax.Name and self.names.value(node) is None:
-            return None
-        value = self.value(node)
-        return value if isinstance(value.type, DataBlockType) else None
-
-    def bare_call(self, node: Expression, line: int) -> Statement | None:
-        """Check an instance as a statement, which is its call; None if it is none."""
-        instance = self._instance(node)
-        if instance is None:
-            return None
-        return CallBlock(line, instance, instance.type.name, (), ())
-
-    def _block_argument(
-        self,
-        argument: syntax.Argument,
-        name: str,
-        instance: Value,
-        before: list[Statement],
-        after: list[Statement],
-        line: int,
-    ) -> None:
-        block = instance.type
-        assert isinstance(block, DataBlockType)
-        spelling = block.spelling(name)
-        section = None if spelling is None else block.find(spelling)[0].section
-        wanted = (Section.OUTPUT,) if argument.is_output else (Section.INPUT, Section.IN_OUT)
-        if spelling is None or section not in wanted:
-            self._no_block_parameter(argument, name, block, wanted)
-            return
-        if argument.value is None:
-            return
-        if spelling != name:
-            message = f"{name} is declared as {spelling}"
-            self.findings.warning(argument, Code.OTHER_CASE, message)
-        member = self.member_of(instance, block, spelling)
-        if argument.is_output:
-            after += self._output(argument, member, line)
-        else:
-            before += self._input(argument, member, section, line)
-
-    def _no_block_parameter(
-        self,
-        argument: syntax.Argument,
-        name: str,
-        block: DataBlockType[Any],
-        wanted: tuple[Section, ...],
-    ) -> None:
-        names = [member.name for member in block.members if member.section in wanted]
-        kind = "output" if argument.is_output else "input"
-        message = f"{block} has no {kind} {name}{did_you_mean(name, names)}"
-        self.error(argument, Code.UNKNOWN_PARAMETER, message)
-        if argument.value is not None:
-            self.value(argument.value)
-
-    def _output(self, argument: syntax.Argument, member: Value, line: int) -> list[Statement]:
-        assert argument.value is not None
-        target = self.assigned(argument.value)
-        value: Value = Unary(BOOL, "NOT", member) if argument.is_negated else member
-        self.check_fit(argument.value, value, target.type)
-        return [Assign(line, target, value)]
-
-    def _input(
-        self, argument: syntax.Argument, member: Value, section: Section | None, line: int
-    ) -> list[Statement]:
-        assert argument.value is not None
-        if section is Section.IN_OUT:
-            assert isinstance(member, Target)
-            parameter = Parameter(argument.name, member.type, "VAR_IN_OUT", True, False)  # noqa: FBT003  # by address
-            value = self._argument(argument.value, parameter)
-            return [SetAddress(line, member.pointer, value)]
-        return [self.assignment(argument.value, member, self.value(argument.value), line)]
-
-    # Assignments, of statements and of inputs
-
-    def assigned(self, node: Expression) -> Value:
-        """Check what is assigned: a variable that is no constant."""
-        value = self.value(node)
-        if isinstance(value, PLACES):
-            symbol = root_of(value)
-            if symbol is not None and symbol.is_constant:
-                message = f"{symbol.name} is a constant"
-                self.error(node, Code.CONSTANT_ASSIGNED, message)
-            return value
-        if value.type is not VOID:
-            is_name = type(node) is syntax.Name
-            code = Code.CONSTANT_ASSIGNED if is_name else Code.NO_VARIABLE
-            message = "a constant cannot be assigned" if is_name else "this cannot be assigned"
-            self.error(node, code, message)
-        return NOTHING
-
-    def assignment(self, node: Expression, target: Value, value: Value, line: int) -> Statement:
-        """Return ``target := value``; ``node`` is the value.
-
-        An address goes into a reference itself, unless that refers to an integer of 32 bits: then
-        it goes there, as any other value does.
-        """
-        if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
-            value_type = UDINT if isinstance(value, Address) else value.type
-            if value_type is UDINT and _takes_address(target.type, value):
-                return SetAddress(line, target.pointer, value)
-        self.check_fit(node, value, target.type)
-        return Assign(line, target, value)
-
-
-def _takes_address(target: Type, value: Value) -> bool:
-    """Return whether an address goes into a reference to ``target`` itself, not where it leads."""
-    kind = kind_of(target)
-    if isinstance(value, Address):
-        return kind is not Kind.INTEGER or target.size != UDINT.size
-    return kind >= Kind.STRING
+def _count(number: int) -> str:
+    return f"{number} argument{'' if number == 1 else 's'}"
 
 
 def _place_of(name: str, rule: builtins.Rule) -> int | None:

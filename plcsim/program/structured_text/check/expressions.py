@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.suggestion import did_you_mean
 from plcsim.program.structured_text.check import operations
-from plcsim.program.structured_text.check.codes import Code
 from plcsim.program.structured_text.check.fits import fit
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
@@ -29,6 +28,7 @@ from plcsim.program.structured_text.check.typed import (
     Target,
     Unary,
 )
+from plcsim.program.structured_text.codes import Code
 from st_types.syntax import expressions as syntax
 from st_types.types.derived import (
     ArrayType,
@@ -195,7 +195,9 @@ class ExpressionChecker:
             self.error(node, Code.WRONG_INDEX, message)
             return NOTHING
         for each, index, (low, high) in zip(node.indices, indices, array.bounds, strict=True):
-            if type(index) is Constant and not low <= int(index.value) <= high:
+            if type(index) is not Constant or index.type is VOID:
+                continue
+            if not low <= int(index.value) <= high:
                 message = f"index {index.value} is outside {low}..{high}"
                 self.error(each, Code.INDEX_OUTSIDE, message)
         return followed(Element(plain(array.element), value, array, indices))

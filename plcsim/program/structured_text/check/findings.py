@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Collection
 
-    from plcsim.program.structured_text.check.codes import Code
+    from plcsim.program.structured_text.codes import Code
     from st_types.syntax.diagnostics import DiagnosticLog
     from st_types.syntax.expressions import Node
     from st_types.syntax.lexer import Tokens

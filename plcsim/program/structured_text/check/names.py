@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.structured_text.check.codes import Code
 from plcsim.program.structured_text.check.kinds import VOID, Kind, kind_of, plain
 from plcsim.program.structured_text.check.typed import Constant, Symbol, Target, Variable
+from plcsim.program.structured_text.codes import Code
 from st_types.resolve.constants import UnknownValueError
 from st_types.resolve.index import VariableEntry
 from st_types.resolve.scope import Hit
@@ -38,14 +38,10 @@ class Symbols:
 
     Args:
         storages: where the variables of a scope lie; those of others are global.
-
-    Attributes:
-        hidden: those that only the code knows, in order.
     """
 
     def __init__(self, storages: Mapping[Scope, Storage]) -> None:
         self.storages = dict(storages)
-        self.hidden: list[Symbol] = []
         self._symbols: dict[VariableEntry, Symbol] = {}
 
     def of(self, entry: VariableEntry) -> Symbol | None:
@@ -58,6 +54,11 @@ class Symbols:
             found = self._symbols[entry] = self._made(entry, plain(entry.data_type))
         return found
 
+    def is_used(self, entry: VariableEntry) -> bool:
+        """Return whether a body names a variable, or an edge needs it."""
+        found = self._symbols.get(entry)
+        return (found is not None and found.used) or entry.name.startswith("zzEdge")
+
     def _made(self, entry: VariableEntry, data_type: Type) -> Symbol:
         scope, section = entry.resolver.scope, entry.block.section
         storage = self.storages.get(scope, "global")
@@ -65,7 +66,6 @@ class Symbols:
         if entry.is_constant or section == "VAR_STAT":
             symbol.is_constant = entry.is_constant
             symbol.storage = "hidden"
-            self.hidden.append(symbol)
         elif section == "VAR_TEMP":
             symbol.storage = "frame"
         elif storage == "frame":
@@ -75,12 +75,6 @@ class Symbols:
         else:
             symbol.by_address = section in _REFERENCE_SECTIONS
         symbol.has_address = symbol.by_address
-        return symbol
-
-    def hide(self, name: str, data_type: Type, initial: object = None) -> Symbol:
-        """Return a new variable that only the code knows."""
-        symbol = Symbol(name, data_type, "hidden", initial=initial)
-        self.hidden.append(symbol)
         return symbol
 
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.check.codes import Code
 from plcsim.program.structured_text.check.findings import Findings
-from plcsim.program.structured_text.check.kinds import plain
-from plcsim.program.structured_text.check.names import Names, Symbols, named
+from plcsim.program.structured_text.check.kinds import kind_of, plain
+from plcsim.program.structured_text.check.names import BY_ADDRESS, Names, Symbols, named
 from plcsim.program.structured_text.check.statements import StatementChecker
+from plcsim.program.structured_text.codes import Code
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
     Configuration,
@@ -42,6 +42,9 @@ if TYPE_CHECKING:
     from st_types.resolve.declared import Function
     from st_types.syntax.tree import Item
     from st_types.types.derived import DataBlockType
+
+QUIET: Final = frozenset([Code.UNUSED_VARIABLE, Code.NARROWED])
+"""Warnings that are told on demand only: sound programs are full of what they mean."""
 
 UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
 """Units of a task by the names of Automation Studio; any other PROGRAM is the cyclic one."""
@@ -76,7 +79,7 @@ def check_program(
     files: Sequence[StructuredTextFile],
     scope: Scope,
     *,
-    hidden: Collection[Code] = frozenset(),
+    hidden: Collection[Code] = QUIET,
 ) -> typed.Program:
     """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
 
@@ -91,7 +94,10 @@ def check_program(
     checker = _ProgramChecker(scope, hidden)
     for file in files:
         checker.add(file)
-    return typed.Program(name, checker.bodies(), checker.symbols.hidden)
+    bodies = checker.bodies()
+    storages = checker.symbols.storages
+    own = [each for each, storage in storages.items() if storage == "program"]
+    return typed.Program(name, bodies, own)
 
 
 @dataclass(slots=True, eq=False)
@@ -115,6 +121,8 @@ class _Job:
     owner: _Owner
     function: Function | None = None
     is_needed: bool = True
+    calls: set[str] = field(default_factory=set)
+    body: typed.Body | None = None
 
 
 class _ProgramChecker:
@@ -124,13 +132,14 @@ class _ProgramChecker:
         self._hidden = hidden
         self._values: dict[Scope, dict[str, Value | None]] = {}
         self._jobs: list[_Job] = []
-        self._program = _Owner(scope)
+        self._program = self._owner = _Owner(scope)
         self._taken: set[tuple[str, str]] = set()
 
     def add(self, file: StructuredTextFile) -> None:
         """Take the units of a file."""
         self._file = file
         self._findings = Findings(file.tokens, file.diagnostics, self._hidden)
+        self._owner = self._program
         for unit in file.units:
             _RULES[type(unit)](self, unit)
 
@@ -151,7 +160,7 @@ class _ProgramChecker:
             file = DeclarationFile(unit.blocks, "", self._file.tokens, self._file.diagnostics)
             scope = Scope(unit.name, [file], (self._scope,), dialect=self._scope.dialect)
             self.symbols.storages[scope] = "program"
-            owner = _Owner(scope, actions=owner.actions)
+            self._owner = owner = _Owner(scope, actions=owner.actions)
         self._parts(unit.parts, owner)
         if self._is_new(unit, "unit", name):
             self._jobs.append(_Job(name, "unit", unit, unit.body, self._file, owner))
@@ -164,7 +173,8 @@ class _ProgramChecker:
                 self._refused(part)
 
     def _action(self, unit: ActionUnit) -> None:
-        self._add_action(unit, self._program)
+        """Take an action: behind a unit with variables of its own it belongs to that."""
+        self._add_action(unit, self._owner)
 
     def _add_action(self, unit: ActionUnit, owner: _Owner) -> None:
         block = "" if owner.block is None else f"{owner.block.name}."
@@ -194,7 +204,7 @@ class _ProgramChecker:
             self._undeclared(unit, "FUNCTION_BLOCK", name)
         elif self._is_new(unit, "block", name):
             self.symbols.storages[block.scope] = "instance"
-            owner = _Owner(block.scope, block.data_type)
+            self._owner = owner = _Owner(block.scope, block.data_type)
             self._parts(unit.parts, owner)
             self._jobs.append(_Job(name, "block", unit, unit.body, self._file, owner))
 
@@ -234,7 +244,36 @@ class _ProgramChecker:
                 findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
                 message = f"nothing calls the action {job.name}; it is not compiled"
                 findings.warning(job.unit, Code.NEVER_CALLED, message)
+        self._check_recursion()
+        self._check_used()
         return found
+
+    def _check_used(self) -> None:
+        """Tell which variables of the program, of functions and of blocks nothing names.
+
+        Parameters are there for others.
+        """
+        for scope in self.symbols.storages:
+            for entry in scope.index.variables:
+                if entry.block.section not in _OWN or self.symbols.is_used(entry):
+                    continue
+                file = entry.resolver.file
+                if Code.UNUSED_VARIABLE not in self._hidden:
+                    message = f"nothing uses {entry.name}"
+                    offset = file.tokens.offset(entry.node.at)
+                    file.diagnostics.warning(offset, message, "", Code.UNUSED_VARIABLE)
+
+    def _check_recursion(self) -> None:
+        """Refuse functions that call themselves and need memory for what lives in one call."""
+        functions = {job.name: job for job in self._jobs if job.function is not None}
+        for job in functions.values():
+            body = job.body
+            if body is None or not _needs_memory(body) or not _reaches(job, job.name, functions):
+                continue
+            message = f"{job.name} calls itself, and has variables that are no single values"
+            hint = "such variables of a FUNCTION exist once"
+            findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
+            findings.error(job.unit, Code.NOT_SUPPORTED, f"{message}: not supported", hint)
 
     def _check(self, job: _Job, into: list[typed.Body]) -> list[_Job]:
         """Check a body and return the actions that it is the first to call."""
@@ -251,7 +290,8 @@ class _ProgramChecker:
         if job.kind in ("function", "block"):
             body.parameters, body.locals = self._variables(owner.scope)
         into.append(body)
-        called = [owner.actions[name] for name in checker.called]
+        job.body, job.calls = body, checker.called_functions
+        called = [owner.actions[name] for name in checker.called_actions]
         found = [action for action in called if not action.is_needed]
         for action in found:
             action.is_needed = True
@@ -277,6 +317,29 @@ class _ProgramChecker:
                 (parameters if is_parameter else others).append(symbol)
         return parameters, others
 
+
+def _needs_memory(body: typed.Body) -> bool:
+    """Return True for a function with an array, a structure, a string, or an address taken."""
+    others = [*body.locals, *([body.result] if body.result is not None else [])]
+    addressed = [symbol for symbol in body.parameters if not symbol.by_address]
+    return any(
+        symbol.has_address or kind_of(symbol.type) in BY_ADDRESS for symbol in [*others, *addressed]
+    )
+
+
+def _reaches(job: _Job, name: str, functions: Mapping[str, _Job]) -> bool:
+    """Return True if a function calls ``name``, by whatever others."""
+    waiting, seen = [job], set[str]()
+    while waiting:
+        for called in waiting.pop().calls - seen:
+            seen.add(called)
+            if called in functions:
+                waiting.append(functions[called])
+    return name in seen
+
+
+_OWN = frozenset(["VAR", "VAR_TEMP", "VAR_STAT"])
+"""Sections whose variables are there for the bodies alone."""
 
 _PARAMETERS = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
 _RULES: Mapping[type, Callable[..., None]] = {

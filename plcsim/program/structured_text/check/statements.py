@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.check.calls import CallChecker
-from plcsim.program.structured_text.check.codes import Code
+from plcsim.program.structured_text.check.blocks import BlockChecker
 from plcsim.program.structured_text.check.kinds import BOOL, COUNTS, UDINT, VOID, kind_of
 from plcsim.program.structured_text.check.names import NOTHING
 from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
+from plcsim.program.structured_text.codes import Code
 from plcsim.program.structured_text.syntax import tree
 from st_types.resolve.constants import EvaluationError
 from st_types.syntax import expressions as syntax
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _LEAVING = (typed.Exit, typed.Continue, typed.Return)
 
 
-class StatementChecker(CallChecker):
+class StatementChecker(BlockChecker):
     """Checks the statements of one body.
 
     Args:
@@ -35,12 +35,12 @@ class StatementChecker(CallChecker):
         actions: names of the actions that it can call.
 
     Attributes:
-        called: names of the actions that it calls.
+        called_actions: names of the actions that it calls.
     """
 
     def __init__(self, names: Names, findings: Findings, actions: Collection[str]) -> None:
         super().__init__(names, findings)
-        self.called: set[str] = set()
+        self.called_actions: set[str] = set()
         self._actions = actions
         self._loops = 0
 
@@ -50,7 +50,6 @@ class StatementChecker(CallChecker):
         for node in nodes:
             if found and isinstance(found[-1], _LEAVING):
                 self.findings.warning(node, Code.UNREACHABLE, "this is never reached")
-                nodes = ()
             _RULES[type(node)](self, node, found)
         return found
 
@@ -147,11 +146,11 @@ class StatementChecker(CallChecker):
     def _action(self, node: Expression, name: str, line: int) -> Statement:
         if isinstance(node, syntax.Call) and node.arguments:
             self.error(node, Code.WRONG_ARGUMENTS, f"{name} is an action and takes no arguments")
-        self.called.add(name)
+        self.called_actions.add(name)
         return typed.CallAction(line, name)
 
     def _evaluated(self, node: Expression, line: int) -> Statement:
-        value = self.value(node)
+        value = self.called(node) if type(node) is syntax.Call else self.value(node)
         if isinstance(node, syntax.Binary) and node.operator == "=":
             message = "this compares; to assign, write :="
             self.findings.warning(node, Code.COMPARED, message)

@@ -7,7 +7,7 @@ are no statements may be shared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
@@ -396,9 +396,10 @@ class Program:
     Attributes:
         name: of the program or library.
         bodies: units, actions, functions and function blocks.
-        hidden: variables that only the code knows: memories of edges, constants with an address.
+        scopes: those whose variables lie with the program: its own, and of each PROGRAM with VAR
+            blocks beside its body.
     """
 
     name: str
     bodies: Sequence[Body]
-    hidden: Sequence[Symbol] = field(default_factory=list)
+    scopes: Sequence[Scope]

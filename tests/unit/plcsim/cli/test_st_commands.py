@@ -49,10 +49,10 @@ def test_findings_have_a_place_and_a_caret_and_make_the_exit_code(run: Run, proj
     code, out = run("check", "--syntax", path)
     assert code == 1
     assert out.splitlines() == [
-        f"{path}:2:8: error: expected ';' after the statement, found 'END_FUNCTION'",
+        f"{path}:2:8: error ST1001: expected ';' after the statement, found 'END_FUNCTION'",
         "     2 |  f := 1",
         "       |        ^",
-        f"{path}:4:15: error: expected a value, found ';'",
+        f"{path}:4:15: error ST1001: expected a value, found ';'",
         "     4 | ACTION a: x :=; END_ACTION",
         "       |               ^",
         (

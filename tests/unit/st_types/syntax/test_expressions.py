@@ -92,6 +92,7 @@ def literal(text: str) -> Literal:
         ("%IX0.1", DirectAddress(0, "%IX0.1")),
         ("Colour#red", MemberAccess(0, Name(0, "Colour"), "red")),
         ("f()", Call(0, Name(0, "f"), [])),
+        ("And(a)", Call(0, Name(0, "And"), [Argument(0, "", Name(0, "a"))])),
         ("ADR('x')", Call(0, Name(0, "ADR"), [Argument(0, "", literal("'x'"))])),
         (
             "fb(IN := a, PT := , Q => b, NOT M => c)",

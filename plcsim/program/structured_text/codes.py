@@ -10,9 +10,10 @@ from typing import Final, NamedTuple
 
 
 class Code(StrEnum):
-    """Kinds of findings; ST1 syntax, ST2 names, ST3 types, ST4 not supported, ST5 warnings."""
+    """Kinds of findings; ST1 text, ST2 names, ST3 types, ST4 not supported, ST5 warnings."""
 
     SYNTAX = "ST1001"
+    DECLARATION = "ST1002"
 
     UNKNOWN_NAME = "ST2001"
     UNKNOWN_MEMBER = "ST2002"
@@ -74,6 +75,12 @@ EXPLANATIONS: Final[dict[Code, Explanation]] = {
         "The message says what was expected. Statements before and behind it are checked all the "
         "same, so that one run finds all errors.",
         "a := ;",
+    ),
+    Code.DECLARATION: Explanation(
+        "A declaration is wrong",
+        "A type, a variable, a constant or an initial value that is declared in a file of "
+        "Structured Text; `plcsim types check` tells the same of .typ, .var and .fun files.",
+        "VAR a : Nowhere; END_VAR",
     ),
     Code.UNKNOWN_NAME: Explanation(
         "Nothing of this name is declared",

@@ -1,0 +1,173 @@
+"""Checking assignments and calls of function blocks, which assign inputs and outputs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from plcsim.core.suggestion import did_you_mean
+from plcsim.program.structured_text.check.calls import CallChecker, Parameter, root_of
+from plcsim.program.structured_text.check.kinds import (
+    BOOL,
+    UDINT,
+    VOID,
+    Kind,
+    kind_of,
+)
+from plcsim.program.structured_text.check.names import NOTHING
+from plcsim.program.structured_text.check.typed import (
+    PLACES,
+    Address,
+    Assign,
+    CallBlock,
+    SetAddress,
+    Target,
+    Unary,
+)
+from plcsim.program.structured_text.codes import Code
+from st_types.syntax import expressions as syntax
+from st_types.types.derived import DataBlockType, ReferenceType, Section
+
+if TYPE_CHECKING:
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.typed import Statement, Value
+    from st_types.syntax.expressions import Expression
+
+
+class BlockChecker(CallChecker):
+    """Checks assignments and calls of function blocks."""
+
+    # Function blocks
+
+    def block_call(self, node: syntax.Call, line: int) -> Statement | None:
+        """Check the call of a function block, None if it is none."""
+        instance = self._instance(node.function)
+        if instance is None:
+            return None
+        block = instance.type
+        assert isinstance(block, DataBlockType)
+        before: list[Statement] = []
+        after: list[Statement] = []
+        inputs = iter([member for member in block.members if member.section is Section.INPUT])
+        for argument in node.arguments:
+            name = argument.name
+            if not name:
+                member = next(inputs, None)
+                if member is None:
+                    message = f"{block} takes fewer arguments without a name"
+                    self.error(argument, Code.WRONG_ARGUMENTS, message)
+                    continue
+                name = member.name
+            self._block_argument(argument, name, instance, before, after, line)
+        return CallBlock(line, instance, block.name, before, after)
+
+    def _instance(self, node: Expression) -> Value | None:
+        if type(node) is syntax.Name and self.names.value(node) is None:
+            return None
+        value = self.value(node)
+        return value if isinstance(value.type, DataBlockType) else None
+
+    def bare_call(self, node: Expression, line: int) -> Statement | None:
+        """Check an instance as a statement, which is its call; None if it is none."""
+        instance = self._instance(node)
+        if instance is None:
+            return None
+        return CallBlock(line, instance, instance.type.name, (), ())
+
+    def _block_argument(
+        self,
+        argument: syntax.Argument,
+        name: str,
+        instance: Value,
+        before: list[Statement],
+        after: list[Statement],
+        line: int,
+    ) -> None:
+        block = instance.type
+        assert isinstance(block, DataBlockType)
+        spelling = block.spelling(name)
+        section = None if spelling is None else block.find(spelling)[0].section
+        wanted = (Section.OUTPUT,) if argument.is_output else (Section.INPUT, Section.IN_OUT)
+        if spelling is None or section not in wanted:
+            self._no_block_parameter(argument, name, block, wanted)
+            return
+        if argument.value is None:
+            return
+        if spelling != name:
+            message = f"{name} is declared as {spelling}"
+            self.findings.warning(argument, Code.OTHER_CASE, message)
+        member = self.member_of(instance, block, spelling)
+        if argument.is_output:
+            after += self._output(argument, member, line)
+        else:
+            before += self._input(argument, member, section, line)
+
+    def _no_block_parameter(
+        self,
+        argument: syntax.Argument,
+        name: str,
+        block: DataBlockType[Any],
+        wanted: tuple[Section, ...],
+    ) -> None:
+        names = [member.name for member in block.members if member.section in wanted]
+        kind = "output" if argument.is_output else "input"
+        message = f"{block} has no {kind} {name}{did_you_mean(name, names)}"
+        self.error(argument, Code.UNKNOWN_PARAMETER, message)
+        if argument.value is not None:
+            self.value(argument.value)
+
+    def _output(self, argument: syntax.Argument, member: Value, line: int) -> list[Statement]:
+        assert argument.value is not None
+        target = self.assigned(argument.value)
+        value: Value = Unary(BOOL, "NOT", member) if argument.is_negated else member
+        self.check_fit(argument.value, value, target.type)
+        return [Assign(line, target, value)]
+
+    def _input(
+        self, argument: syntax.Argument, member: Value, section: Section | None, line: int
+    ) -> list[Statement]:
+        assert argument.value is not None
+        if section is Section.IN_OUT:
+            assert isinstance(member, Target)
+            parameter = Parameter(argument.name, member.type, "VAR_IN_OUT", by_address=True)
+            value = self._argument(argument.value, parameter)
+            return [SetAddress(line, member.pointer, value)]
+        return [self.assignment(argument.value, member, self.value(argument.value), line)]
+
+    # Assignments, of statements and of inputs
+
+    def assigned(self, node: Expression) -> Value:
+        """Check what is assigned: a variable that is no constant."""
+        value = self.value(node)
+        if isinstance(value, PLACES):
+            symbol = root_of(value)
+            if symbol is not None and symbol.is_constant:
+                message = f"{symbol.name} is a constant"
+                self.error(node, Code.CONSTANT_ASSIGNED, message)
+            return value
+        if value.type is not VOID:
+            is_name = type(node) is syntax.Name
+            code = Code.CONSTANT_ASSIGNED if is_name else Code.NO_VARIABLE
+            message = "a constant cannot be assigned" if is_name else "this cannot be assigned"
+            self.error(node, code, message)
+        return NOTHING
+
+    def assignment(self, node: Expression, target: Value, value: Value, line: int) -> Statement:
+        """Return ``target := value``; ``node`` is the value.
+
+        An address goes into a reference itself, unless that refers to an integer of 32 bits: then
+        it goes there, as any other value does.
+        """
+        if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
+            value_type = UDINT if isinstance(value, Address) else value.type
+            if value_type is UDINT and _takes_address(target.type, value):
+                return SetAddress(line, target.pointer, value)
+        self.check_fit(node, value, target.type)
+        return Assign(line, target, value)
+
+
+def _takes_address(target: Type, value: Value) -> bool:
+    """Return whether an address goes into a reference to ``target`` itself, not where it leads."""
+    kind = kind_of(target)
+    if isinstance(value, Address):
+        return kind is not Kind.INTEGER or target.size != UDINT.size
+    return kind >= Kind.STRING

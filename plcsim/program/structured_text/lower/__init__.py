@@ -1,0 +1,1 @@
+"""From typed trees to the intermediate representation: here the semantics are decided."""

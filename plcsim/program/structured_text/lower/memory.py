@@ -1,0 +1,157 @@
+"""Where variables lie: segments, offsets, roots, and the segment that only the code knows."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from plcsim.program.structured_text import ir
+from plcsim.program.structured_text.check.kinds import ANY_REAL, Kind, kind_of
+from st_types.types.elementary import (
+    BOOL,
+    BYTE,
+    INT,
+    LINT,
+    LREAL,
+    LWORD,
+    REAL,
+    SINT,
+    UINT,
+    ULINT,
+    USINT,
+    WORD,
+)
+from st_types.types.values import encode
+
+if TYPE_CHECKING:
+    from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.typed import Symbol
+    from st_types.resolve.scope import Scope
+
+_WIDTHS: Final[Mapping[Type, ir.Width]] = {
+    BOOL: "u8",
+    SINT: "s8",
+    **dict.fromkeys((USINT, BYTE), "u8"),
+    INT: "s16",
+    **dict.fromkeys((UINT, WORD), "u16"),
+    **dict.fromkeys((LINT, ULINT, LWORD), "w64"),
+    REAL: "f32",
+    **dict.fromkeys((LREAL, ANY_REAL), "f64"),
+}
+SCALARS: Final = frozenset(
+    [Kind.BOOL, Kind.INTEGER, Kind.REAL, Kind.TIME, Kind.DATE, Kind.REFERENCE]
+)
+"""Kinds whose values fit into one value of the stack."""
+
+
+def width_of(data_type: Type) -> ir.Width:
+    """Return how a scalar lies in memory; an enumeration, a time and an address take 32 bits."""
+    return _WIDTHS.get(data_type, "w32")
+
+
+def is_scalar(data_type: Type) -> bool:
+    """Return True for what fits into one value of the stack."""
+    return kind_of(data_type) in SCALARS
+
+
+_CODES: Final[Mapping[ir.Width, str]] = {
+    "s8": "<b",
+    "u8": "<B",
+    "s16": "<h",
+    "u16": "<H",
+    "w32": "<i",
+    "w64": "<q",
+    "f32": "<f",
+    "f64": "<d",
+}
+
+
+def constant_of(data: bytes, width: ir.Width) -> ir.Const:
+    """Return the value that bytes in memory stand for."""
+    (value,) = struct.unpack(_CODES[width], data)
+    return ir.Const(ir.VALUE_TYPE[width], value)
+
+
+class Spot(NamedTuple):
+    """Where a variable lies: in which segment, and how many bytes from its start."""
+
+    segment: ir.Segment
+    offset: int
+
+
+Areas = Mapping["Scope", Mapping[str, Spot]]
+"""The places of declared variables, by scope and name; a constant may have none."""
+
+
+class Hidden:
+    """The segment of what only the code knows: edges, literals, constants, frames, results."""
+
+    def __init__(self) -> None:
+        self.segment = ir.Segment("hidden")
+        self._image = bytearray()
+        self._literals: dict[bytes, int] = {}
+
+    def place(self, size: int, alignment: int, data: bytes = b"") -> int:
+        """Return the offset of ``size`` new bytes that begin with ``data``, then zeros."""
+        self._image += bytes(-len(self._image) % alignment)
+        offset = len(self._image)
+        self._image += data[:size].ljust(size, b"\0")
+        return offset
+
+    def literal(self, data: bytes, alignment: int) -> int:
+        """Return the offset of bytes that nothing changes; equal ones are kept once."""
+        found = self._literals.get(data)
+        if found is None:
+            found = self._literals[data] = self.place(len(data), alignment, data)
+        return found
+
+    def finish(self) -> ir.Segment:
+        """Return the segment with all that was placed."""
+        self.segment.size = len(self._image)
+        self.segment.data = bytes(self._image)
+        return self.segment
+
+
+class Variables:
+    """The places of all variables of a module.
+
+    Args:
+        areas: where the variables of scopes lie.
+        hidden: takes what is declared nowhere.
+    """
+
+    def __init__(self, areas: Areas, hidden: Hidden) -> None:
+        self._areas = areas
+        self._hidden = hidden
+        self._places: dict[Symbol, ir.Place] = {}
+        self._roots = 0
+
+    def new_root(self) -> int:
+        """Return the number of a variable that overlaps no other."""
+        self._roots += 1
+        return self._roots
+
+    def place(self, symbol: Symbol) -> ir.Place:
+        """Return the place of a variable in a segment."""
+        found = self._places.get(symbol)
+        if found is None:
+            found = self._places[symbol] = self._made(symbol)
+        return found
+
+    def _made(self, symbol: Symbol) -> ir.Place:
+        scope, spot = symbol.scope, None
+        if scope is not None and scope in self._areas and symbol.storage != "frame":
+            spot = self._areas[scope].get(symbol.name)
+        is_own = symbol.storage != "global" and not symbol.has_address
+        if spot is None:
+            image = self.image(symbol)
+            offset = self._hidden.place(symbol.type.size, symbol.type.alignment, image)
+            spot = Spot(self._hidden.segment, offset)
+        return ir.Place(spot.segment, spot.offset, self.new_root() if is_own else 0)
+
+    @staticmethod
+    def image(symbol: Symbol) -> bytes:
+        """Return the bytes of a variable at its start."""
+        data_type: Any = symbol.type
+        return encode(data_type, symbol.initial)

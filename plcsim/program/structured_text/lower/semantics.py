@@ -1,0 +1,39 @@
+"""What the dialects of Structured Text do differently when they run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+
+@dataclass(frozen=True, slots=True)
+class Semantics:
+    """The rules of one dialect; the defaults are those of Automation Studio.
+
+    Attributes:
+        name: as it is shown.
+        narrow_results: arithmetic on 8 and 16 bits keeps to that width, a number with a point is
+            a REAL beside a REAL; else C's ``int`` and ``double`` hold what lies between.
+        limits_once: the limit and the step of FOR are evaluated once, before the loop.
+        short_circuit: AND and OR of BOOLs leave out the right side where the left one decides.
+        rounds_to_even: REAL to integer rounds halves to the even number, else away from zero.
+        checks_bounds: an index outside its bounds ends the program.
+    """
+
+    name: str = "Automation Studio"
+    narrow_results: bool = False
+    limits_once: bool = False
+    short_circuit: bool = False
+    rounds_to_even: bool = False
+    checks_bounds: bool = False
+
+
+AUTOMATION_STUDIO: Final = Semantics()
+IEC: Final = Semantics(
+    "IEC 61131-3",
+    narrow_results=True,
+    limits_once=True,
+    short_circuit=True,
+    rounds_to_even=True,
+    checks_bounds=True,
+)
