@@ -138,14 +138,21 @@ def _without_values(store: Store, call: Callable[[], Any]) -> Callable[[], int |
 
 
 def _one_address(store: Store, call: Callable[[int], Any]) -> Callable[[int, int, int], int | None]:
-    """Return the callback of what takes one address, as every block does."""
+    """Return the callback of what takes one address, as every block does.
+
+    The slots lie on the stack, from cycle to cycle mostly at the same place.
+    """
     from_address = c_uint32.from_address
     suspend = store.suspend
+    known, slot = 0, c_uint32()
 
     def callback(_env: int, _caller: int, slots: int) -> int | None:
+        nonlocal known, slot
         store.depth += 1
         try:
-            call(from_address(slots).value)
+            if slots != known:
+                known, slot = slots, from_address(slots)
+            call(slot.value)
         except BaseException as error:  # it must not get lost in ctypes
             return suspend(error)
         finally:
