@@ -15,6 +15,7 @@ from typing import Any
 from crosnode.graph.arguments import node_settings
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
+from crosnode.node.ros_time import Epoch
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
@@ -127,8 +128,8 @@ class Ros:
         context.release_ns = time.monotonic_ns()
         settings = node_settings(name, arguments, self.env)
         types = MessageTypes([PROGRAMS / "talker" / "packages"])
-        epoch_ns = time.time_ns() - context.release_ns
-        node = CrosNode(context, settings, types, NodeOptions(epoch_ns=epoch_ns))
+        epoch = Epoch(time.time_ns() - context.release_ns)
+        node = CrosNode(context, settings, types, NodeOptions(epoch=epoch))
         self._nodes.append((context, node))
         return node
 

@@ -3,6 +3,7 @@
 import argparse
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -27,7 +28,49 @@ def test_arguments() -> None:
     assert parse("decode", "x/Y", "00").hex == "00"
 
 
-@pytest.mark.parametrize("arguments", [[], ["md5"], ["show"], ["encode", "x/Y"], ["nonsense"]])
+def test_arguments_of_a_network() -> None:
+    options = parse("topic", "echo", "/x", "-n", "3", "--master", "http://a:1", "--path", "p")
+    assert (options.topic, options.count) == ("/x", 3)
+    assert (options.master, options.path) == ("http://a:1", [Path("p")])
+    assert parse("topic", "hz", "/x", "--for", "2s").for_ns == 2_000_000_000
+    options = parse("topic", "pub", "/x", "std_msgs/Int8", "7", "-r", "0.5")
+    assert (options.type, options.value, options.rate, options.once) == (
+        "std_msgs/Int8", "7", 0.5, False,
+    )  # fmt: skip
+    assert parse("topic", "pub", "/x", "std_msgs/Empty", "-1").value == "{}"
+    assert parse("service", "call", "/x", "{}").service == "/x"
+    assert parse("param", "set", "/x", "-1").value == "-1"
+    assert parse("node", "info", "/x").node == "/x"
+
+
+def test_every_command_has_an_act() -> None:
+    groups = {"topic": "list info echo hz pub", "node": "list info", "service": "list call"}
+    groups |= {"param": "list get set delete"}
+    values = {"pub": ["/x", "a/B"], "set": ["x", "1"]}
+    for group, names in groups.items():
+        for name in names.split():
+            arguments = [] if name == "list" else values.get(name, ["/x"])
+            act = parse(group, name, *arguments).func
+            module, function = (cell.cell_contents for cell in act.__closure__)
+            assert callable(getattr(import_module(module), function))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["md5"],
+        ["show"],
+        ["encode", "x/Y"],
+        ["nonsense"],
+        ["topic"],
+        ["topic", "echo"],
+        ["topic", "echo", "/x", "-n", "0"],
+        ["topic", "hz", "/x", "--for", "3"],
+        ["topic", "pub", "/x", "a/B", "-r", "0"],
+        ["param", "set", "/x"],
+    ],
+)
 def test_wrong_usage(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         parse(*arguments)
