@@ -89,6 +89,9 @@ CPP_KEYWORDS = frozenset(
 )
 """Words that only C++ does not allow as names."""
 
+MAX_REFERENCES = 8
+"""References to references that are followed; C has no type for those that end nowhere."""
+
 _RESERVED = C_KEYWORDS | CPP_KEYWORDS
 
 GLOBAL = "_GLOBAL"
@@ -149,6 +152,7 @@ class Header:
         self._tags: dict[DataType[object], str] = {}
         self._written: set[DataType[object]] = set()
         self._complete: set[DataType[object]] = set()
+        self._references = 0
         for other in included:
             self._taken |= other._taken
             self.names |= other.names
@@ -251,8 +255,10 @@ class Header:
                 yield from self._needed(element)
             case ReferenceType(target=DataType() as target):
                 inner = resolve_alias(target)
-                if not isinstance(inner, StructType):
+                if not isinstance(inner, StructType) and self._references < MAX_REFERENCES:
+                    self._references += 1
                     yield from self._needed(inner)
+                    self._references -= 1
             case StructType() | EnumerationType() | AliasType():
                 yield from self._type(data_type)
             case SubrangeType() if data_type in self.names:
@@ -317,6 +323,13 @@ class Header:
         return f"{keyword} {self._tags[data_type]} {name}"
 
     def _pointer(self, target: DataType[object] | None, name: str) -> str:
+        self._references += 1
+        known = target if self._references <= MAX_REFERENCES else None
+        declared = self._pointer_to(known, name)
+        self._references -= 1
+        return declared
+
+    def _pointer_to(self, target: DataType[object] | None, name: str) -> str:
         match resolve_alias(target) if target is not None else None:
             case None:
                 return f"void* {name}"

@@ -203,6 +203,15 @@ def test_words_that_only_cpp_does_not_allow(folder: Path) -> None:
     assert compile_m32(folder, header + use.replace("%s", "_"), "-x", "c++") == ""
 
 
+@pytest.mark.parametrize(
+    "declared", ["REFERENCE TO T{}", "STRUCT a : REFERENCE TO ARRAY[0..1] OF T{}; END_STRUCT"]
+)
+def test_references_that_go_on_and_on(folder: Path, declared: str) -> None:
+    types = [f"T{i} : {declared.format((i + 1) % 900)};" for i in range(900)]
+    scope = checked([parse_text(f"TYPE {' '.join(types)} END_TYPE")])
+    assert compile_m32(folder, c_header(Header(scope), "Check")) == ""
+
+
 def test_a_header_rests_on_those_it_includes() -> None:
     outer = checked([parse_text("TYPE S : STRUCT x : INT; END_STRUCT; E : (a, b); END_TYPE")])
     inner = checked(
