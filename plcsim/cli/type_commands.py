@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plcsim.cli.declaration_files import find_files, read_files
@@ -9,15 +10,15 @@ from plcsim.cli.declaration_scopes import read_declarations, report
 from plcsim.cli.type_writing import complain, header, python
 from plcsim.core.errors import PlcError
 from st_types.syntax.collector import collector_paused
-from st_types.syntax.printer import print_file
+from st_types.syntax.printer import print_bytes, print_file
 from st_types.writers.layout_table import Row, layout_rows
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
     from plcsim.cli.declaration_scopes import Declarations
+    from st_types.syntax.tree import DeclarationFile
     from st_types.types.elementary import DataType
 
 
@@ -102,16 +103,29 @@ def find_types(paths: Sequence[Path], name: str) -> list[tuple[str, DataType[obj
 
 
 def print_files(options: argparse.Namespace) -> int:
-    """Print the declarations again."""
+    """Print the declarations again, or write each file anew that has no errors."""
     reading = read_files(find_files(options.paths))
     for line in reading.failures:
         complain(line)
     for file in reading.files:
         for record in file.diagnostics.records:
             complain(record.render())
-        print(print_file(file), end="")
+        if not options.write:
+            print(print_file(file), end="")
+        elif not file.diagnostics.error_count:
+            _rewrite(file)
     errors = sum(file.diagnostics.error_count for file in reading.files)
     return 1 if errors or reading.failures else 0
+
+
+def _rewrite(file: DeclarationFile) -> None:
+    path, text = Path(file.path), print_bytes(file)
+    try:
+        if path.read_bytes() != text:
+            path.write_bytes(text)
+            print(path)
+    except OSError as err:
+        raise PlcError(f"{path}: {err.strerror or err}.") from err
 
 
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {

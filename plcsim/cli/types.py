@@ -17,9 +17,9 @@ EPILOG = epilog(DONE="", FAILED="errors were found", WRONG_USAGE="")
 EXAMPLES = {
     "check": (("plcsim types check Logical", "all files of an Automation Studio project"),),
     "layout": (("plcsim types layout Motor_typ my_plc", "offsets of its members, in bytes"),),
-    "header": (("plcsim types header my_plc > my_plc.h", ""),),
-    "python": (("plcsim types python my_plc > my_plc.py", ""),),
-    "print": (("plcsim types print Types.typ", ""),),
+    "header": (("plcsim types header -o include my_plc", ""),),
+    "python": (("plcsim types python -o my_plc_types my_plc", ""),),
+    "print": (("plcsim types print --write Types.typ", ""),),
 }
 
 
@@ -49,7 +49,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             metavar="FOLDER",
             help="write a file there for each program, package, library",
         )
-    _add(commands, "print", "write the declarations again, in Automation Studio's shape")
+    printed = _add(commands, "print", "write the declarations again, in Automation Studio's shape")
+    printed.add_argument(
+        "-w", "--write", action="store_true", help="into the files themselves, encoded as they are"
+    )
     register_installed(TYPE_COMMANDS, commands)
 
 

@@ -37,7 +37,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import DINT, DataType, ElementaryType
+from st_types.types.elementary import DINT, UNSUPPORTED_TYPES, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -165,7 +165,10 @@ class FileResolver(ConstantResolver):
 
     def _find_type(self, node: NamedType) -> Entry | None:
         entry = self.find("types", node.name, node.at)
-        if entry is None and node.name.upper() not in GENERIC_TYPES:
+        key = node.name.upper()
+        if entry is None and key in UNSUPPORTED_TYPES and not self.scope.dialect.case_sensitive:
+            self.error(node.at, f"{key} is not supported")
+        elif entry is None and key not in GENERIC_TYPES:
             hint = self.scope.hint("types", node.name)
             self.missing(node.at, f"no type is called {node.name}", hint)
         return entry
@@ -265,6 +268,8 @@ class FileResolver(ConstantResolver):
             values[item.name] = number
             known[key(item.name)] = number
         self.values = outer
+        if node.base and node.base.upper() != DINT.name:
+            self.warning(node, f"an enumeration is a DINT here, {node.base} is ignored")
         if not values:
             self.warning(node, "the enumeration has no values")
             return AliasType(name, DINT)

@@ -28,6 +28,9 @@ from st_types.syntax.trivia import open_comment, pragmas_in
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+UNSUPPORTED = frozenset(["CLASS", "INTERFACE", "NAMESPACE", "METHOD", "PROPERTY"])
+"""What IEC 61131-3 edition 3 and its followers have besides, up to ``END_CLASS`` and so on."""
+
 QUALIFIERS = frozenset(
     [
         *("CONSTANT", "RETAIN", "NON_RETAIN", "PERSISTENT", "PERMANENT"),
@@ -111,10 +114,18 @@ class DeclarationParser(SpecificationParser):
             self.index += 1
             return []
         rule = _ITEM_RULES.get(keyword)
+        if rule is None and keyword in UNSUPPORTED:
+            self._refuse(keyword)
+            return []
         if rule is None:
             hint = "a pragma ends with '}'" if keyword == "{" else ""
             self.fail("expected TYPE, VAR, FUNCTION or FUNCTION_BLOCK", hint)
         return [rule(self)]
+
+    def _refuse(self, keyword: str) -> None:
+        """Log an error at a construct that is not supported, and step over its end."""
+        self.diagnostics.error(self.here(), f"{keyword} is not supported here")
+        self.skip_behind(f"END_{keyword}")
 
     def _type_block(self) -> TypeBlock:
         at = self.index
@@ -171,6 +182,8 @@ class DeclarationParser(SpecificationParser):
         while not self.accept(end):
             if self.keyword in VARIABLE_SECTIONS:
                 blocks.append(self._variable_block())
+            elif self.keyword in UNSUPPORTED:
+                self._refuse(self.keyword)
             elif not self.accept(";"):
                 self.fail(f"expected VAR or {end} in {name}")
         return blocks

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
 
-from st_types.types.elementary import ELEMENTARY
+from st_types.types.elementary import ELEMENTARY, UNSUPPORTED_TYPES
 
 MAX_DIGITS = 400
 """Longest number that is read; the largest LREAL has 309 digits before its point."""
@@ -66,6 +66,8 @@ def parse_literal(text: str) -> Constant:
 def _typed(type_name: str, body: str) -> Constant:
     if type_name in _PARSERS:
         return Constant(type_name, _PARSERS[type_name](body))
+    if type_name in UNSUPPORTED_TYPES:
+        raise LiteralError(f"{type_name} is not supported")
     if type_name in _STRINGS and body[:1] in ("'", '"'):
         return Constant(type_name, _string(body))
     if type_name == "BOOL":

@@ -160,6 +160,8 @@ class SpecificationParser(InitialParser):
 
     def _others_and_address(self) -> tuple[list[tuple[int, str]], str]:
         """Parse ``, b, c`` and ``AT %IX0.0`` between the first name and the colon."""
+        if self.keyword == "EXTENDS":
+            self.fail("a STRUCT that EXTENDS another one is not supported")
         others = []
         while self.accept(","):
             others.append((self.index, self.expect_name("after ','")))
@@ -214,7 +216,25 @@ class SpecificationParser(InitialParser):
         self.expect("OF", "after the bounds of an array")
         return ArraySpecification(at, bounds, self.specification())
 
+    def skip_behind(self, end: str) -> None:
+        """Step behind the keyword ``end``, or to the end of the text if there is none."""
+        texts, index = self.texts, self.index + 1
+        while texts[index] and texts[index].upper() != end:
+            index += 1
+        self.index = index + bool(texts[index])
+
+    def _union(self) -> NamedType:
+        """Refuse a UNION; the name of a type is one, too."""
+        at, start = self.index, self.here()
+        self.index += 1
+        if self.text not in (";", ":="):
+            self.skip_behind("END_UNION")
+            raise UnexpectedTokenError(start, "UNION is not supported")
+        return NamedType(at, self.texts[at])
+
     def _bounds(self) -> tuple[Expression, Expression]:
+        if self.text == "*":
+            self.fail("ARRAYs without bounds are not supported")
         low = self.expression()
         self.expect("..", "between the bounds of an array")
         return low, self.expression()
@@ -290,6 +310,7 @@ _RULES: dict[str, Callable[[SpecificationParser], TypeSpecification]] = {
     "POINTER": SpecificationParser._reference_specification,
     "REF_TO": SpecificationParser._reference_specification,
     "STRUCT": SpecificationParser._struct_specification,
+    "UNION": SpecificationParser._union,
     "(": SpecificationParser._enumeration_specification,
 }
 _NOT_SHORT = frozenset(

@@ -111,3 +111,11 @@ ELEMENTARY: Final[dict[str, ElementaryType[bool] | ElementaryType[int] | Element
     "DT": DATE_AND_TIME,
 }
 """All elementary types by keyword, short forms included."""
+
+UNSUPPORTED_TYPES: Final = frozenset(
+    [
+        *("LTIME", "LT", "LDATE", "LD", "LTIME_OF_DAY", "LTOD", "LDATE_AND_TIME", "LDT"),
+        *("CHAR", "WCHAR"),
+    ]
+)
+"""Elementary types of IEC 61131-3 edition 3 that Automation Studio does not have, nor do we."""

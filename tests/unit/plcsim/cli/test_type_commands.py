@@ -142,5 +142,18 @@ def test_print_gives_the_same_declarations(run: Run, project: Path) -> None:
     assert "expected ':' after the name A" in err
 
 
+def test_print_writes_files_as_they_are_encoded(run: Run, project: Path) -> None:
+    (project / "Bad.typ").write_text("TYPE   A INT; END_TYPE")
+    data = (project / "Global.TYP").read_bytes()
+    (project / "Global.TYP").write_bytes(data.replace(b"pos : ", b"pos  :"))
+    (project / "Done.typ").write_text("TYPE\n\tA : INT;\nEND_TYPE\n")
+    code, out, _ = run("print", "--write", project)
+    assert code == 1
+    assert out.splitlines() == [f"{project}/Global.TYP", f"{project}/Main/Variables.var"]
+    assert (project / "Bad.typ").read_text() == "TYPE   A INT; END_TYPE"
+    assert (project / "Global.TYP").read_bytes() == data
+    assert run("print", "--write", project)[1] == ""
+
+
 def test_our_own_library_is_sound(run: Run) -> None:
     assert run("check", "--strict", LIBRARY)[0] == 0

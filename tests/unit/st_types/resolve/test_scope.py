@@ -375,6 +375,18 @@ def test_case_does_not_matter_in_iec() -> None:
     assert scope.files[0].diagnostics.records == []
 
 
+def test_types_of_the_standard_that_are_not_here_are_refused_by_name() -> None:
+    text = (
+        "VAR a : LTIME; b : WChar := 'x'; END_VAR TYPE LDATE : INT; END_TYPE VAR c : LDATE; END_VAR"
+    )
+    file = parse_text(text, "a")
+    checked([file], dialect=IEC)
+    assert [str(record) for record in file.diagnostics.records] == [
+        "a:1:9: error: LTIME is not supported",
+        "a:1:20: error: WCHAR is not supported",
+    ]
+
+
 def test_types_are_resolved_once() -> None:
     scope = Scope("test", [parse_text("TYPE A : STRUCT b : Lib; END_STRUCT; END_TYPE", "a.typ")])
     assert scope.find_type("A") is None
@@ -433,6 +445,10 @@ def test_an_unknown_name_is_a_warning_and_strictly_an_error() -> None:
         ("TYPE B : (x, y); A : B(0..1); END_TYPE", ["1:22: error: B cannot have a subrange"]),
         ("TYPE A : ARRAY[0..1/0] OF INT; END_TYPE", ["1:20: error: division by zero"]),
         ("TYPE A : (); END_TYPE", ["1:10: warning: the enumeration has no values"]),
+        (
+            "TYPE A : USINT (x, y); B : (x) DINT; END_TYPE",
+            ["1:10: warning: an enumeration is a DI"],
+        ),
         ("VAR CONSTANT A : INT := B; B : INT := A; END_VAR", ["1:25: error: B depends on itself"]),
         ("VAR CONSTANT A : INT := SIZEOF(x); END_VAR", ["1:31: warning: the value is not known"]),
     ],

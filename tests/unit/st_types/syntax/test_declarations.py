@@ -200,3 +200,31 @@ def test_hostile_text_takes_linear_time(unit: str, monkeypatch: pytest.MonkeyPat
     file = parse_declarations(Source("a.typ", "VAR " + unit * (500_000 // len(unit))))
     assert file.diagnostics.error_count
     assert time.process_time() - start < 5
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("CLASS A METHOD B END_METHOD END_CLASS", "1:1: error: CLASS"),
+        ("interface I end_interface", "1:1: error: INTERFACE"),
+        ("NAMESPACE N TYPE T : INT; END_TYPE END_NAMESPACE", "1:1: error: NAMESPACE"),
+        (
+            "FUNCTION_BLOCK F METHOD M VAR x : INT; END_VAR END_METHOD END_FUNCTION_BLOCK",
+            "1:18: error: METHOD",
+        ),
+        ("TYPE U : UNION a : INT; b : REAL; END_UNION; END_TYPE", "1:10: error: UNION"),
+        ("CLASS without an end", "1:1: error: CLASS"),
+    ],
+)
+def test_what_is_not_supported_is_refused_by_name_and_stepped_over(text: str, place: str) -> None:
+    file = parse_declarations(Source("a", f"{text} TYPE Behind : INT; END_TYPE"))
+    (record,) = file.diagnostics.records
+    assert str(record).startswith(f"a:{place} is not supported")
+    names = [
+        d.name for item in file.items if isinstance(item, TypeBlock) for d in item.declarations
+    ]
+    assert names[-1:] == ([] if "without" in text else ["Behind"])
+
+
+def test_a_type_may_be_called_union() -> None:
+    assert parse_text("VAR a : Union; b : UNION := (x := 1); END_VAR").diagnostics.records == []
