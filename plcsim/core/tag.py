@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.core.errors import TagError
 from plcsim.core.suggestion import did_you_mean
 from st_types.errors import ValueRangeError
-from st_types.types.derived import ArrayType, DataBlockType, Section, StructType, resolve_alias
-from st_types.types.paths import find
+from st_types.types import paths
 from st_types.types.values import encode
 
 if TYPE_CHECKING:
@@ -61,7 +58,7 @@ def locate(path: str, programs: Mapping[str, Tag]) -> Tag:
     if program is None:
         raise KeyError(f"no program {name!r} for tag {path!r}")
     try:
-        data_type, offset = find(program.data_type, rest)
+        data_type, offset = paths.find(program.data_type, rest)
     except KeyError as err:
         raise KeyError(f"no tag {path!r}: {err.args[0]}") from None
     return Tag(path, data_type, program.address + offset)
@@ -143,19 +140,7 @@ def leaves(
         elements: go into every element of an ARRAY; otherwise into the first one.
         internals: go into the internal variables of function blocks as well.
     """
-    data_type = resolve_alias(data_type)
-    further = partial(leaves, blocks=blocks, elements=elements, internals=internals)
-    if isinstance(data_type, StructType):
-        is_block = isinstance(data_type, DataBlockType)
-        if is_block and not blocks:
-            return
-        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-            if internals or not is_block or member.section is not Section.INTERNAL:
-                yield from further(f"{path}.{member.name}", member.data_type, address + offset)
-    elif isinstance(data_type, ArrayType):
-        ranges = (range(low, (high if elements else low) + 1) for low, high in data_type.bounds)
-        for place, index in enumerate(itertools.product(*ranges)):
-            inner = f"{path}[{','.join(map(str, index))}]"
-            yield from further(inner, data_type.element, address + place * data_type.element.size)
-    else:
-        yield Tag(path, data_type, address)
+    inside = paths.leaves(
+        data_type, path, address, blocks=blocks, elements=elements, internals=internals
+    )
+    return (Tag(part.path, part.data_type, part.offset) for part in inside)

@@ -7,24 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.memory import FIRST
-from plcsim.core.tag import Tag
+from plcsim.core.tag import leaves
 from plcsim.testing.errors import PlcTestError
 from st_types.types.derived import (
-    ArrayType,
     EnumerationType,
     StringType,
-    StructType,
     SubrangeType,
     WStringType,
-    resolve_alias,
 )
 from st_types.types.elementary import TIME, ElementaryType, Kind
 from st_types.types.values import decode
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from plcsim.core.tag import TagTable
+    from plcsim.core.tag import Tag, TagTable
     from st_types.types.elementary import DataType
 
 __tracebackhide__ = True
@@ -113,31 +108,8 @@ def leaves_of(tags: TagTable, path: str) -> list[Tag]:
         PlcTestError: there are more than `MOST_LEAVES`.
     """
     found: list[Tag] = []
-    for leaf in _leaves(tags.find(path)):
+    for leaf in leaves(*tags.find(path)):
         if len(found) == MOST_LEAVES:
             raise PlcTestError(f"{path} has more than {MOST_LEAVES} elements; name some of them")
         found.append(leaf)
     return found
-
-
-def _leaves(tag: Tag) -> Iterator[Tag]:
-    data_type = resolve_alias(tag.data_type)
-    if isinstance(data_type, StructType):
-        for member, offset in zip(data_type.members, data_type.offsets, strict=True):
-            inner = resolve_alias(member.data_type)
-            yield from _leaves(Tag(f"{tag.path}.{member.name}", inner, tag.address + offset))
-    elif isinstance(data_type, ArrayType):
-        element = resolve_alias(data_type.element)
-        for place in range(data_type.count):
-            path = f"{tag.path}[{_indices(data_type, place)}]"
-            yield from _leaves(Tag(path, element, tag.address + place * element.size))
-    else:
-        yield Tag(tag.path, data_type, tag.address)
-
-
-def _indices(data_type: ArrayType[Any], place: int) -> str:
-    indices: list[int] = []
-    for low, high in reversed(data_type.bounds):
-        place, index = divmod(place, high - low + 1)
-        indices.append(low + index)
-    return ",".join(str(index) for index in reversed(indices))

@@ -38,6 +38,14 @@ class DataType(Generic[V_co]):
         return f"<{self.name}>"
 
 
+INTEGER_RANGES: Final = {
+    code: (-(1 << bits - 1) if code.islower() else 0, (1 << bits - code.islower()) - 1)
+    for bits, codes in ((8, "bB"), (16, "hH"), (32, "iI"), (64, "qQ"))
+    for code in codes
+}
+"""Smallest and largest integer by the format character of the ``struct`` module."""
+
+
 class Kind(Enum):
     """What the bytes of an elementary type mean."""
 
@@ -66,9 +74,8 @@ class ElementaryType(DataType[V_co]):
         super().__init__(name, size, min(size, 4))
         self.code = code
         self.kind = kind
-        bits = 1 if kind is Kind.BOOL else 0 if kind is Kind.REAL else 8 * size
-        self.minimum = -(1 << bits - 1) if code in "bhiq" else 0
-        self.maximum = (1 << bits) - 1 + self.minimum
+        has_range = kind not in (Kind.BOOL, Kind.REAL)
+        self.minimum, self.maximum = INTEGER_RANGES[code] if has_range else (0, kind is Kind.BOOL)
 
     @property
     def is_integer(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,6 +12,7 @@ from st_types.types.derived import (
     ArrayType,
     DataBlockType,
     ReferenceType,
+    Section,
     StructType,
     resolve_alias,
 )
@@ -70,54 +72,70 @@ def _member(data_type: StructType[Any], step: str) -> tuple[DataType[Any], int]:
 
 
 class Part(NamedTuple):
-    """A variable inside a variable: path, type with aliases resolved, offset in bytes."""
+    """A variable inside a variable.
+
+    Attributes:
+        path: such as ``axes[3].name``.
+        data_type: aliases resolved.
+        offset: bytes from the start.
+        declared: its type as it is declared.
+    """
 
     path: str
     data_type: DataType[Any]
     offset: int
+    declared: DataType[Any]
 
 
 def parts(
-    data_type: DataType[object],
+    declared: DataType[Any],
     path: str = "",
     offset: int = 0,
     *,
     elements: bool = True,
     blocks: bool = True,
+    internals: bool = True,
 ) -> Iterator[Part]:
     """Yield a variable and all that lies in it, each before what it holds, in declared order.
 
     Args:
-        data_type: its type.
+        declared: its type.
         path: of the variable.
         offset: of its first byte.
         elements: go into every element of an ARRAY; otherwise into the first one.
         blocks: go into the data blocks of function blocks as well.
+        internals: go into the internal variables of function blocks as well.
     """
-    found = resolve_alias(data_type)
-    yield Part(path, found, offset)
-    if isinstance(found, StructType) and (blocks or not isinstance(found, DataBlockType)):
-        for member, at in zip(found.members, found.offsets, strict=True):
-            inner = f"{path}.{member.name}" if path else member.name
-            yield from parts(member.data_type, inner, offset + at, elements=elements, blocks=blocks)
-    elif isinstance(found, ArrayType):
-        ranges = (range(low, (high if elements else low) + 1) for low, high in found.bounds)
+    data_type = resolve_alias(declared)
+    yield Part(path, data_type, offset, declared)
+    further = partial(parts, elements=elements, blocks=blocks, internals=internals)
+    if isinstance(data_type, StructType):
+        is_block = isinstance(data_type, DataBlockType)
+        if is_block and not blocks:
+            return
+        for member, at in zip(data_type.members, data_type.offsets, strict=True):
+            if internals or not is_block or member.section is not Section.INTERNAL:
+                inner = f"{path}.{member.name}" if path else member.name
+                yield from further(member.data_type, inner, offset + at)
+    elif isinstance(data_type, ArrayType):
+        ranges = (range(low, (high if elements else low) + 1) for low, high in data_type.bounds)
         for number, index in enumerate(product(*ranges)):
             inner = f"{path}[{','.join(map(str, index))}]"
-            at = offset + number * found.element.size
-            yield from parts(found.element, inner, at, elements=elements, blocks=blocks)
+            yield from further(data_type.element, inner, offset + number * data_type.element.size)
 
 
 def leaves(
-    data_type: DataType[object],
+    data_type: DataType[Any],
     path: str = "",
     offset: int = 0,
     *,
     elements: bool = True,
     blocks: bool = True,
+    internals: bool = True,
 ) -> Iterator[Part]:
     """Yield the `parts` that hold a value and no parts: no STRUCT, data block or ARRAY."""
-    for part in parts(data_type, path, offset, elements=elements, blocks=blocks):
+    found = parts(data_type, path, offset, elements=elements, blocks=blocks, internals=internals)
+    for part in found:
         if not isinstance(part.data_type, StructType | ArrayType):
             yield part
 

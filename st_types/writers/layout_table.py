@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING, NamedTuple
 
-from st_types.types.derived import ArrayType, StructType, resolve_alias
+from st_types.types.paths import parts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,17 +28,6 @@ def layout_rows(data_type: DataType[object]) -> Iterator[Row]:
     The members of STRUCTs inside it follow theirs; of an ARRAY of STRUCTs those of the first
     element. A type without members has no rows.
     """
-    return _rows(data_type, 0, "")
-
-
-def _rows(declared: DataType[object], start: int, prefix: str) -> Iterator[Row]:
-    data_type = resolve_alias(declared)
-    if isinstance(data_type, ArrayType):
-        first = ", ".join(str(low) for low, _ in data_type.bounds)
-        yield from _rows(data_type.element, start, f"{prefix}[{first}]")
-    elif isinstance(data_type, StructType):
-        pairs = zip(data_type.offsets, data_type.members, strict=True)
-        for offset, member in sorted(pairs, key=lambda pair: pair[0]):
-            path = f"{prefix}.{member.name}" if prefix else member.name
-            yield Row(start + offset, member.data_type.size, path, member.data_type)
-            yield from _rows(member.data_type, start + offset, path)
+    found = [part for part in parts(data_type, elements=False) if part.path[-1:] not in ("", "]")]
+    for part in sorted(found, key=attrgetter("offset")):
+        yield Row(part.offset, part.data_type.size, part.path, part.declared)

@@ -5,23 +5,13 @@ from __future__ import annotations
 import math
 import struct
 from functools import cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from plcsim.modbus.map.errors import IllegalValue
+from st_types.types.elementary import INTEGER_RANGES
 
 if TYPE_CHECKING:
     from plcsim.modbus.map.point import Point
-
-INTEGER_RANGES: Final = {
-    "b": (-(1 << 7), (1 << 7) - 1),
-    "B": (0, (1 << 8) - 1),
-    "h": (-(1 << 15), (1 << 15) - 1),
-    "H": (0, (1 << 16) - 1),
-    "i": (-(1 << 31), (1 << 31) - 1),
-    "I": (0, (1 << 32) - 1),
-    "q": (-(1 << 63), (1 << 63) - 1),
-    "Q": (0, (1 << 64) - 1),
-}
 
 
 @cache

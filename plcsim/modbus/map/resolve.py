@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import TagError
 from plcsim.modbus.map import status_block
-from plcsim.modbus.map.conversion import INTEGER_RANGES
 from plcsim.modbus.map.errors import TagMapError
 from plcsim.modbus.map.point import (
     ADDRESSES,
@@ -25,7 +24,7 @@ from st_types.types.derived import (
     SubrangeType,
     resolve_alias,
 )
-from st_types.types.elementary import ElementaryType, Kind
+from st_types.types.elementary import INTEGER_RANGES, ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

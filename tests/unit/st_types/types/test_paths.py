@@ -11,6 +11,7 @@ from st_types.types.derived import (
     DataBlockType,
     Member,
     ReferenceType,
+    Section,
     StructType,
 )
 from st_types.types.paths import Part, find, inner_types, leaves, parts
@@ -157,6 +158,14 @@ def test_data_blocks_can_be_left_alone() -> None:
     both = StructType("S", [Member("t", block), Member("x", INT)])
     assert [part.path for part in leaves(both)] == ["t.IN", "x"]
     assert [part.path for part in leaves(both, blocks=False)] == ["x"]
+    section = DataBlockType("F", [Member("a", BOOL, None, Section.INPUT), Member("b", BOOL)])
+    assert [part.path for part in leaves(section, internals=False)] == ["a"]
+
+
+def test_a_part_knows_its_declared_type() -> None:
+    alias = AliasType("Speed", REAL)
+    (_, part) = parts(StructType("S", [Member("v", alias)]))
+    assert (part.data_type, part.declared) == (REAL, alias)
 
 
 def test_types_inside_a_declaration() -> None:

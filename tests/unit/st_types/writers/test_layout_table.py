@@ -22,8 +22,8 @@ def test_members_of_members() -> None:
         (2, 2, "p.a", "INT"),
         (4, 1, "p.b", "BOOL"),
         (6, 16, "n", "ARRAY[2..3, 1..2] OF P"),
-        (6, 2, "n[2, 1].a", "INT"),
-        (8, 1, "n[2, 1].b", "BOOL"),
+        (6, 2, "n[2,1].a", "INT"),
+        (8, 1, "n[2,1].b", "BOOL"),
     ]
 
 
