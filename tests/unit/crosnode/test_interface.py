@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 
 import st_types
+from crosnode.node import StatusKind
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.printer import print_item
 from st_types.syntax.source import Source
-from st_types.types.derived import ArrayType, StructType, resolve_alias
+from st_types.types.derived import ArrayType, EnumerationType, StructType, resolve_alias
 from st_types.types.elementary import ELEMENTARY, UDINT, DataType
 from st_types.writers.c_header import Header, c_header
 from st_types.writers.c_types import c_type_block
@@ -19,7 +20,7 @@ from st_types.writers.python_source import Module, python_source
 
 ROOT = Path(__file__).parents[3]
 FILES = sorted(
-    p for p in (ROOT / "crosnode" / "interface").iterdir() if p.suffix in (".typ", ".var")
+    p for p in (ROOT / "crosnode" / "interface").iterdir() if p.suffix in (".typ", ".var", ".fun")
 )
 LIBRARY = sorted((ROOT / "plcsim" / "library" / "astcp").glob("*.[ftv]*"))
 
@@ -104,6 +105,36 @@ def test_the_fundamental_types_are_those_of_the_table_in_st_types(table: Scope) 
     assert text.endswith("*)\n\n" + print_item(c_type_block()))
     select_timeout = struct(table, "CrosNode").find("select_timeout")[0].data_type
     assert resolve_alias(select_timeout) is ELEMENTARY["ULINT"]
+
+
+def test_news_are_those_of_the_node(table: Scope) -> None:
+    kinds = table.find_type("CrosNewsKind")
+    assert isinstance(kinds, EnumerationType)
+    assert dict(kinds.values) == {"CROS_NEWS_NONE": 0} | {
+        f"CROS_NEWS_{kind.name}": kind.value for kind in StatusKind
+    }
+
+
+def test_functions_take_and_give_handles(table: Scope) -> None:
+    """The names are those of cROS and of the thesis' figures 1.13 to 1.22, where it has them."""
+    functions = {function.name: function for function in table.functions}
+    for name in (
+        "cRosNodeCreate",
+        "cRosNodeDoEventsLoop",
+        "cRosNodeDestroy",
+        "cRosApiRegisterPublisher",
+        "cRosApiRegisterSubscriber",
+        "cRosApiRegisterServiceProvider",
+        "cRosMessageGetField",
+        "cRosMessageSetFieldValueString",
+    ):
+        assert name in functions
+    for name in functions:
+        assert len(name) <= 32  # as long as a name may be in Automation Studio 4
+    for function in functions.values():
+        first, *_ = function.variables
+        is_handle = resolve_alias(first.data_type) is UDINT
+        assert is_handle or (function.name, first.name) == ("cRosNodeCreate", "node_name")
 
 
 def test_a_python_program_sees_the_node(table: Scope) -> None:

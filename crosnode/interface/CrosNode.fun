@@ -1,0 +1,320 @@
+(* The node for Structured Text and C: the functions of the thesis (section 1.3), with handles where C
+   has pointers. A node, a publisher, a message, a field is a UDINT that only the node understands; 0
+   is none. A handle of a message is good until it is sent, answered or released; all others until
+   their node ends. Nothing here waits: what takes time is a function block with a status, or is asked
+   for again in the next cycle.
+
+   A status is 0, ERR_FUB_BUSY while it goes on, or one of crosERR_... *)
+
+(* The node *)
+
+FUNCTION cRosNodeCreate : UDINT (*makes a node in INIT; returns its handle, 0 where no port can be opened*)
+	VAR_INPUT
+		node_name : STRING[CROS_NAME_LENGTH]; (*such as /talker_cros*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNodeDoEventsLoop : UINT (*one bounded step: call it once a cycle*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNodeDestroy : UINT (*takes all back and closes, in EXIT*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNodeIsRegistered : BOOL (*the master knows all that was registered*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNodePopStatus : BOOL (*takes the oldest news; FALSE where there is none*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+	VAR_IN_OUT
+		news : CrosNodeNews;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNodeTime : BOOL (*ROS time of this cycle; FALSE while it is not known*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+	VAR_IN_OUT
+		time : CrosTime;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosLog : UINT (*publishes a line on /rosout*)
+	VAR_INPUT
+		node : UDINT;
+		level : CrosLogLevel;
+		msg : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+(* What a program registers, in INIT *)
+
+FUNCTION cRosApiRegisterPublisher : UDINT (*returns the handle of the publisher, 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		topic_name : STRING[CROS_NAME_LENGTH];
+		topic_type : STRING[CROS_NAME_LENGTH]; (*such as std_msgs/String*)
+		loop_period : DINT; (*ms after which cRosNextMsg gives a message to fill, -1 for never*)
+		latching : BOOL; (*a new subscriber gets the last message at once*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosApiRegisterSubscriber : UDINT (*returns the handle of the subscriber, 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		topic_name : STRING[CROS_NAME_LENGTH];
+		topic_type : STRING[CROS_NAME_LENGTH];
+		queue_size : UINT; (*messages that wait; the oldest is dropped*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosApiRegisterServiceProvider : UDINT (*returns the handle of the provider, 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		service_name : STRING[CROS_NAME_LENGTH];
+		service_type : STRING[CROS_NAME_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosApiRegisterServiceCaller : UDINT (*returns the handle of the caller, 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		service_name : STRING[CROS_NAME_LENGTH];
+		service_type : STRING[CROS_NAME_LENGTH];
+		persistent : BOOL; (*keep the connection from call to call*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosApiSubscribeParam : UDINT (*returns the handle of the parameter, 0 for a name that is none*)
+	VAR_INPUT
+		node : UDINT;
+		key : STRING[CROS_NAME_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosApiUnregister : UINT (*takes any of these back*)
+	VAR_INPUT
+		handle : UDINT;
+	END_VAR
+END_FUNCTION
+
+(* Messages *)
+
+FUNCTION cRosNextMsg : UDINT (*the message that is next: to fill for a publisher, received by a subscriber, the request of a provider, the reply of a caller; 0 where there is none*)
+	VAR_INPUT
+		handle : UDINT; (*publisher, subscriber, provider or caller*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosNewMsg : UDINT (*a message with defaults: of a publisher's topic, the response to a request, the request of a caller*)
+	VAR_INPUT
+		handle : UDINT; (*publisher, caller, or a request of a provider*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosSendMsg : UINT (*sends a message, calls with a request, answers with a response*)
+	VAR_INPUT
+		handle : UDINT; (*publisher, caller, or a request of a provider*)
+		msg : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosServiceFail : UINT (*answers a request with an error*)
+	VAR_INPUT
+		msg : UDINT; (*the request*)
+		reason : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMsgError : UINT (*0 where a reply is a response, else the error that came in its place*)
+	VAR_INPUT
+		msg : UDINT; (*the reply*)
+	END_VAR
+	VAR_IN_OUT
+		reason : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageFree : UINT (*releases a message that is not sent*)
+	VAR_INPUT
+		msg : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosQueueDropped : UDINT (*messages that were dropped since the start*)
+	VAR_INPUT
+		handle : UDINT; (*publisher or subscriber*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosPeers : UINT (*subscribers or publishers that are connected*)
+	VAR_INPUT
+		handle : UDINT; (*publisher or subscriber*)
+	END_VAR
+END_FUNCTION
+
+(* A whole message as the STRUCT that plcsim types from-ros makes of its type *)
+
+FUNCTION cRosMessageToStruct : UINT (*fills the STRUCT; lists and texts are cut to its bounds and counted*)
+	VAR_INPUT
+		msg : UDINT;
+		pStruct : UDINT; (*its address*)
+		sizeStruct : UDINT; (*its bytes*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageFromStruct : UINT (*fills the message*)
+	VAR_INPUT
+		msg : UDINT;
+		pStruct : UDINT; (*its address*)
+		sizeStruct : UDINT; (*its bytes*)
+	END_VAR
+END_FUNCTION
+
+(* A message field by field *)
+
+FUNCTION cRosMessageGetField : UDINT (*the field of a name, such as header.stamp or points[3].positions; 0 where there is none*)
+	VAR_INPUT
+		msg : UDINT;
+		field : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageGetFieldType : CrosMessageType (*type of a field, of an element where it is an array*)
+	VAR_INPUT
+		field : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageGetArraySize : DINT (*elements of an array, -1 for a field that is none*)
+	VAR_INPUT
+		field : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageSetArraySize : UINT (*makes an array without fixed length so long*)
+	VAR_INPUT
+		field : UDINT;
+		size : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageGetFieldInt : LINT (*an integer or a BOOL; of an array the element of an index*)
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageGetFieldReal : LREAL (*any number*)
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageGetFieldString : UINT (*a text, cut to the length of value*)
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+	END_VAR
+	VAR_IN_OUT
+		value : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageSetFieldInt : UINT
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+		value : LINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageSetFieldReal : UINT
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+		value : LREAL;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosMessageSetFieldValueString : UINT (*name of figure 1.22*)
+	VAR_INPUT
+		field : UDINT;
+		index : UDINT;
+		value : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+(* Parameters *)
+
+FUNCTION cRosParamInt : LINT (*value of a followed parameter, 0 where it is none*)
+	VAR_INPUT
+		param : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosParamReal : LREAL
+	VAR_INPUT
+		param : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosParamString : UINT
+	VAR_INPUT
+		param : UDINT;
+	END_VAR
+	VAR_IN_OUT
+		value : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosParamChanged : BOOL (*TRUE once for each change*)
+	VAR_INPUT
+		param : UDINT;
+	END_VAR
+END_FUNCTION
+
+{REDUND_UNREPLICABLE} FUNCTION_BLOCK cRosApiSetParam (*sets a parameter; asynchronous*)
+	VAR_INPUT
+		enable : BOOL; (*run the block; FALSE resets it*)
+		node : UDINT;
+		key : STRING[CROS_NAME_LENGTH];
+		value : STRING[CROS_TEXT_LENGTH]; (*a number, true, false, JSON, or a text*)
+	END_VAR
+	VAR_OUTPUT
+		status : UINT; (*0, ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE or crosERR_...*)
+	END_VAR
+	VAR
+		i_state : UINT;
+		i_call : UDINT;
+	END_VAR
+END_FUNCTION_BLOCK
+
+{REDUND_UNREPLICABLE} FUNCTION_BLOCK cRosApiGetParam (*asks for a parameter; asynchronous*)
+	VAR_INPUT
+		enable : BOOL; (*run the block; FALSE resets it*)
+		node : UDINT;
+		key : STRING[CROS_NAME_LENGTH];
+	END_VAR
+	VAR_OUTPUT
+		status : UINT; (*0, ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE or crosERR_...*)
+		value : STRING[CROS_TEXT_LENGTH]; (*as JSON*)
+	END_VAR
+	VAR
+		i_state : UINT;
+		i_call : UDINT;
+	END_VAR
+END_FUNCTION_BLOCK
