@@ -47,7 +47,7 @@ class OutgoingCall(NamedTuple):
     params: list[Value]
 
 
-class Answer(NamedTuple):
+class MasterAnswer(NamedTuple):
     """The reply to a request, and the calls that it causes."""
 
     reply: MethodResponse | MethodFault
@@ -97,7 +97,7 @@ class Master:
         for name, value in (parameters or {}).items():
             self._parameters.set(name, value)
 
-    def handle(self, call: MethodCall) -> Answer:
+    def handle(self, call: MethodCall) -> MasterAnswer:
         """Answer a request, ``system.multicall`` included."""
         self._calls = []
         if call.method == MULTICALL:
@@ -106,7 +106,7 @@ class Master:
             )
         else:
             reply = self._answer(call)
-        return Answer(reply, self._calls)
+        return MasterAnswer(reply, self._calls)
 
     def handle_reply(self, call: OutgoingCall, value: Value) -> None:
         """Take the reply to a call: a node that refuses a parameter is no longer told of it."""

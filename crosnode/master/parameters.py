@@ -23,7 +23,7 @@ MAX_DEPTH: Final = 30
 """Keys within each other; a deeper tree could not be sent in one XML-RPC document."""
 
 
-class Change(NamedTuple):
+class ParameterChange(NamedTuple):
     """What a subscriber is told: ``value`` is now at ``key``; an empty dictionary means deleted."""
 
     key: str
@@ -137,19 +137,19 @@ class ParameterTree:
         namespace[key] = value
 
 
-def changes_for(subscribed: str, name: str, value: Value) -> list[Change]:
+def changes_for(subscribed: str, name: str, value: Value) -> list[ParameterChange]:
     """Return what a subscriber to ``subscribed`` is told when ``name`` is set to ``value``.
 
     A name above hears the change as it is, a name below its own part of it.
     """
     above, below = path_of(subscribed), path_of(name)
     if below[: len(above)] == above:
-        return [Change(slashed(name), deepcopy(value))]
+        return [ParameterChange(slashed(name), deepcopy(value))]
     if above[: len(below)] != below:
         return []
     for key in above[len(below) :]:
         value = value.get(key, {}) if isinstance(value, dict) else {}
-    return [Change(slashed(subscribed), deepcopy(value))]
+    return [ParameterChange(slashed(subscribed), deepcopy(value))]
 
 
 def slashed(name: str) -> str:

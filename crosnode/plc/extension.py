@@ -14,7 +14,7 @@ from crosnode.messages import MessageTypes
 from crosnode.node.ros_time import Epoch
 from crosnode.plc.bridge import Bridge
 from crosnode.plc.master_watch import MasterWatch
-from crosnode.plc.project import MASTER_IP, Surroundings, surroundings
+from crosnode.plc.project import MASTER_IP, RosContext, surroundings
 from crosnode.plc.settings import RosSettings, read_settings
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.project.extension import Attachment, Extension
@@ -80,7 +80,7 @@ class RosExtension(Extension):
     def attach(self, settings: RosSettings, controller: Controller) -> Attachment:
         """Leave the settings for programs; step the bridge, and a master in the scan, with it."""
         clock, first = controller.clock, min(controller.classes, key=lambda each: each.cycle_ns)
-        found = Surroundings(settings, Epoch(), time.perf_counter_ns)
+        found = RosContext(settings, Epoch(), time.perf_counter_ns)
         if not clock.is_virtual:
             found.epoch.ns = time.time_ns() - clock.now_ns()
             controller.image.watchers.append(_NowAndThen(controller, first, _follow_wall_clock))

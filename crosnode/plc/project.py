@@ -30,7 +30,7 @@ MASTER_IP: Final = "192.168.0.1"
 """Where tests have the master, unless it is embedded (`crosnode.testing.Ros`)."""
 
 
-class Surroundings(NamedTuple):
+class RosContext(NamedTuple):
     """What the extension knows of the controller.
 
     Attributes:
@@ -48,9 +48,9 @@ class Surroundings(NamedTuple):
     beside: Callable[[], None] | None = None
 
 
-def surroundings(context: Context) -> Surroundings | None:
+def surroundings(context: Context) -> RosContext | None:
     """Return what the extension left, None where the project has no table [ros]."""
-    return context.settings(Surroundings)
+    return context.settings(RosContext)
 
 
 class SharedTypes(MessageTypes):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
+from plcsim.core.backoff import Backoff
 from plcsim.process.service_main import ServiceOrder
 from plcsim.project.extension import services_of
 from plcsim.shared_image import ImageNotReady, ImageReader
@@ -49,8 +50,7 @@ class _Service:
         self._output = output
         self.starts = 0
         self._process: subprocess.Popen[bytes] | None = None
-        self._next_ns = 0
-        self._pause_ns = FIRST_PAUSE_NS
+        self._backoff = Backoff(FIRST_PAUSE_NS, LONGEST_PAUSE_NS)
 
     def tend(self, now_ns: int) -> None:
         """Start the process, where it is not running and its pause is over."""
@@ -60,11 +60,10 @@ class _Service:
             gave_up = self._process.returncode == 1
             self._process = None
             self._page.note_service(self.order.number, ServiceState.FAILING)
-            self._pause_ns = (
-                min(2 * self._pause_ns, LONGEST_PAUSE_NS) if gave_up else FIRST_PAUSE_NS
-            )
-            self._next_ns = now_ns + self._pause_ns
-        if now_ns >= self._next_ns:
+            if not gave_up:
+                self._backoff.succeeded()
+            self._backoff.failed(now_ns)
+        if self._backoff.is_due(now_ns):
             self._start()
 
     def _start(self) -> None:

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from crosnode.master.parameters import MAX_DEPTH, Change, ParameterTree, _size, changes_for
+from crosnode.master.parameters import MAX_DEPTH, ParameterChange, ParameterTree, _size, changes_for
 
 
 def tree_of(**values: object) -> ParameterTree:
@@ -109,18 +109,18 @@ def test_size_is_that_of_the_tree_after_any_acts(acts: list[tuple[str, object]])
 @pytest.mark.parametrize(
     ("subscribed", "name", "value", "changes"),
     [
-        ("/p", "/p", 1, [Change("/p/", 1)]),
-        ("/p", "/p/q", 1, [Change("/p/q/", 1)]),
-        ("/", "/p/q", 1, [Change("/p/q/", 1)]),
+        ("/p", "/p", 1, [ParameterChange("/p/", 1)]),
+        ("/p", "/p/q", 1, [ParameterChange("/p/q/", 1)]),
+        ("/", "/p/q", 1, [ParameterChange("/p/q/", 1)]),
         ("/p", "/pother", 1, []),
         ("/pother", "/p", {"x": 1}, []),
-        ("/p/q", "/p", {"q": 1, "r": 2}, [Change("/p/q/", 1)]),
-        ("/p/q/r", "/p", {"q": {"r": {"s": 1}}}, [Change("/p/q/r/", {"s": 1})]),
-        ("/p/q", "/p", {"r": 2}, [Change("/p/q/", {})]),
-        ("/p/q", "/p", 5, [Change("/p/q/", {})]),
-        ("/p/q", "/p", {}, [Change("/p/q/", {})]),
-        ("/p", "/", {"p": 1}, [Change("/p/", 1)]),
+        ("/p/q", "/p", {"q": 1, "r": 2}, [ParameterChange("/p/q/", 1)]),
+        ("/p/q/r", "/p", {"q": {"r": {"s": 1}}}, [ParameterChange("/p/q/r/", {"s": 1})]),
+        ("/p/q", "/p", {"r": 2}, [ParameterChange("/p/q/", {})]),
+        ("/p/q", "/p", 5, [ParameterChange("/p/q/", {})]),
+        ("/p/q", "/p", {}, [ParameterChange("/p/q/", {})]),
+        ("/p", "/", {"p": 1}, [ParameterChange("/p/", 1)]),
     ],
 )
-def test_changes(subscribed: str, name: str, value: object, changes: list[Change]) -> None:
+def test_changes(subscribed: str, name: str, value: object, changes: list[ParameterChange]) -> None:
     assert changes_for(subscribed, name, value) == changes

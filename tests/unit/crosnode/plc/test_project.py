@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from crosnode.node.ros_time import Epoch
-from crosnode.plc.project import SharedTypes, Surroundings, create_node, surroundings
+from crosnode.plc.project import RosContext, SharedTypes, create_node, surroundings
 from crosnode.plc.settings import read_settings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
@@ -36,7 +36,7 @@ def test_the_namespace_of_the_table_goes_before_the_environment_that_before_the_
         context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
         values = {"namespace": namespace} if namespace else {}
         settings = read_settings(Table(Path("plc.toml"), "ros", values), environment)
-        context.give_settings(Surroundings(settings, Epoch(), lambda: 0))
+        context.give_settings(RosContext(settings, Epoch(), lambda: 0))
         return create_node(context, "x", namespace="/mine").name
 
     assert name("/table", {"ROS_NAMESPACE": "/desk"}) == "/table/x"
@@ -48,7 +48,7 @@ def test_beside_a_node_in_exit_goes_on_what_a_test_has_there() -> None:
     context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
     settings = read_settings(Table(Path("plc.toml"), "ros", {}), {})
     steps: list[int] = []
-    found = Surroundings(settings, Epoch(), lambda: 0)
+    found = RosContext(settings, Epoch(), lambda: 0)
     context.give_settings(found)
     node = create_node(context, "x")
     context.give_settings(found._replace(beside=lambda: steps.append(1)))
