@@ -288,8 +288,9 @@ class Scan:
         task_class.execution.record(self._own_ns)
         task_class.controller.record(controller_ns)
         task_class.response.record(response_ns)
-        for each in self.classes:
-            each.note_use(None, start_ns, end_ns, controller_ns)
+        if controller_ns:
+            for each in self.classes:
+                each.note_use(None, start_ns, end_ns, controller_ns)
         violation = None
         if response_ns > task_class.cycle_ns + task_class.tolerance_ns or self._aborted:
             violation = self._judge(task_class, response_ns)

@@ -76,6 +76,9 @@ _TEXTS: Final = {
 }
 
 
+_OUTCOMES: Final = tuple(Outcome)
+
+
 class Store(NamedTuple):
     """Store ``data`` at a PLC address."""
 
@@ -189,7 +192,7 @@ WRITE, _FORCED, _RELEASED, _CONTROLLED, _SAMPLED, _CANCELLED = _KINDS.values()
 
 def outcome_of(record: memoryview) -> Outcome:
     """Return what has become of a record of the ring."""
-    return Outcome(record[OUTCOME_AT])
+    return _OUTCOMES[record[OUTCOME_AT]]
 
 
 def note_time(record: memoryview, time_ns: int) -> None:
@@ -204,7 +207,7 @@ def answer_of(record: bytes) -> Answer:
         ValueError: the record makes no sense.
     """
     (applied_ns,) = _TIME.unpack_from(record, _TIME_AT)
-    return Answer(Outcome(record[OUTCOME_AT]), applied_ns, decode_command(record))
+    return Answer(_OUTCOMES[record[OUTCOME_AT]], applied_ns, decode_command(record))
 
 
 def merged(stores: Iterable[Operation]) -> tuple[Operation, ...]:

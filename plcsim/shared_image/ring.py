@@ -102,7 +102,7 @@ class Producer:
         """Return the answer of a record, once; None while it waits, or where it is forgotten."""
         if ticket in self._answers:
             return answer_of(self._answers.pop(ticket))
-        if ticket not in self._open or self.outcome(ticket) is Outcome.WAITING:
+        if ticket not in self._open or not self._ring[ticket % RING_SIZE + OUTCOME_AT]:
             return None
         return answer_of(self._record(ticket, self._open.pop(ticket)))
 

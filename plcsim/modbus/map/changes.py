@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.shared_image.command import Mask, Scatter, Store
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from plcsim.modbus.map.point import Point
     from plcsim.shared_image.command import Operation
@@ -31,7 +31,7 @@ class Change(NamedTuple):
 
 
 def changes(
-    points: Iterable[Point], stored: Sequence[Operation], before: Sequence[Operation]
+    points: Sequence[Point], stored: Sequence[Operation], before: Sequence[Operation]
 ) -> list[Change]:
     """Return a change for each point, in order; a tag at several addresses is told once.
 
@@ -40,6 +40,12 @@ def changes(
         stored: its operations.
         before: the same with what was there before (see `plcsim.shared_image.Answer`).
     """
+    if len(points) == len(stored) == 1:
+        (point,), (new_store,), (old_store,) = points, stored, before
+        if isinstance(new_store, Store) and isinstance(old_store, Store):  # what most requests are
+            data, was = new_store.data, old_store.data
+            if len(data) == point.size:
+                return [Change(point.tag, _decoded(point, data), _decoded(point, was))]
     new, old = _bytes_of(stored, before)
     found = {
         point.address: Change(point.tag, _value(point, new), _value(point, old))
@@ -75,6 +81,10 @@ def _value(point: Point, found: dict[int, int]) -> bool | float | str:
     data = bytes(found[place] for place in places if place in found)
     if len(data) < point.size:
         return f"16#{data.hex().upper()}"
+    return _decoded(point, data)
+
+
+def _decoded(point: Point, data: bytes) -> bool | float | str:
     if point.kind == "s":
         return data.partition(b"\0")[0].decode(_ENCODING)
     value: bool | float

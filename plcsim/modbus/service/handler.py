@@ -68,27 +68,26 @@ class Handler:
     def refuse(self, pdu: bytes, unit: int, code: Code) -> bytes:
         """Return an exception response; a write that is refused is noted."""
         if pdu[0] in codec.WRITE_FUNCTIONS:
-            self._device.audit.refused(self._origin(pdu, unit), pdu, code)
+            self._device.audit.refused(self._origin(pdu[0], unit), pdu, code)
         return codec.encode_exception(pdu[0], code)
 
-    def _origin(self, pdu: bytes, unit: int) -> Origin:
-        return Origin(self._peer, self._role, unit, pdu[0])
+    def _origin(self, function: int, unit: int) -> Origin:
+        return Origin(self._peer, self._role, unit, function)
 
     def _execute(self, request: codec.Request, pdu: bytes, unit: int) -> bytes | Waiting:
-        origin = self._origin(pdu, unit)
         match request:
             case codec.Read(function, area, address, quantity):
                 return codec.encode_read(function, self._device.read(area, address, quantity))
             case codec.WriteCoils(_, address, bits):
-                return self._write(request, origin, lambda writes: writes.coils(address, bits))
+                return self._write(request, unit, lambda writes: writes.coils(address, bits))
             case codec.WriteRegisters(_, address, data):
-                return self._write(request, origin, lambda writes: writes.registers(address, data))
+                return self._write(request, unit, lambda writes: writes.registers(address, data))
             case codec.MaskWrite(_, address, and_mask, or_mask):
                 return self._write(
-                    request, origin, lambda writes: writes.mask(address, and_mask, or_mask)
+                    request, unit, lambda writes: writes.mask(address, and_mask, or_mask)
                 )
             case codec.ReadWrite():
-                return self._read_write(request, origin)
+                return self._read_write(request, unit)
             case codec.ReturnQueryData():
                 return pdu
             case codec.ReportServerId():
@@ -99,16 +98,20 @@ class Handler:
     def _write(
         self,
         request: codec.WriteCoils | codec.WriteRegisters | codec.MaskWrite,
-        origin: Origin,
+        unit: int,
         make: Callable[[Writes], MapWrite],
     ) -> Waiting:
-        return Waiting(self._device.write(make, origin), lambda: codec.encode_write(request))
+        write = self._device.write(make, self._origin(request.function, unit))
+        return Waiting(write, lambda: codec.encode_write(request))
 
-    def _read_write(self, request: codec.ReadWrite, origin: Origin) -> Waiting:
+    def _read_write(self, request: codec.ReadWrite, unit: int) -> Waiting:
         """Refuse before writing what could not be read afterwards."""
         device, area = self._device, Area.HOLDING_REGISTERS
         device.check_read(area, request.read_address, request.read_quantity)
-        write = device.write(lambda writes: writes.registers(request.address, request.data), origin)
+        write = device.write(
+            lambda writes: writes.registers(request.address, request.data),
+            self._origin(request.function, unit),
+        )
 
         def answer() -> bytes:
             data = device.read(area, request.read_address, request.read_quantity)
