@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Value
     from st_types.syntax.expressions import Expression
 
+_LEAST, _BEYOND = -(1 << 63), 1 << 64
 _LITERAL_TYPES: Final[dict[str, Type]] = {**ELEMENTARY, "ANY_INT": ANY_INT, "ANY_REAL": ANY_REAL}
 
 
@@ -91,6 +92,10 @@ class ExpressionChecker:
         constant = node.constant
         found = _LITERAL_TYPES.get(constant.type_name)
         if found is not None:
+            value = constant.value
+            if isinstance(value, int) and not _LEAST <= value < _BEYOND:
+                self.error(node, Code.VALUE_OUTSIDE, f"{node.text[:40]} does not fit 64 bits")
+                return NOTHING
             return Constant(found, constant.value)
         text = str(constant.value)
         is_wide = constant.type_name == "WSTRING"

@@ -33,6 +33,7 @@ COMPARISONS: Final = frozenset(["=", "<>", "<", ">", "<=", ">="])
 CALCULABLE: Final = NUMBERS | {Kind.BOOL}
 """Kinds that calculations take; a BOOL counts as 0 or 1."""
 
+_SHORT = ("AND_THEN", "OR_ELSE")
 LOGIC: Final = frozenset(["AND", "OR", "XOR", "AND_THEN", "OR_ELSE"])
 
 
@@ -101,7 +102,9 @@ def operation(operator: str, left: Value, right: Value) -> Value | None:
     data_type = (
         _logic_type(left, right) if operator in LOGIC else _number_type(operator, left, right)
     )
-    return None if data_type is None else Binary(data_type, operator, left, right)
+    if data_type is None or (operator in _SHORT and data_type is not BOOL):
+        return None
+    return Binary(data_type, operator, left, right)
 
 
 def compared_type(left: Value, right: Value) -> Type | None:
@@ -156,7 +159,9 @@ def _number_type(operator: str, left: Value, right: Value) -> Type | None:
 
 
 def _power_type(base: Type, exponent: Type) -> Type:
-    return LREAL if LREAL in (base, exponent) or ANY_REAL in (base, exponent) else REAL
+    if LREAL in (base, exponent):
+        return LREAL
+    return REAL if REAL in (base, exponent) else ANY_REAL
 
 
 def _time_type(operator: str, a: Type, b: Type) -> Type | None:

@@ -136,6 +136,8 @@ class StatementParser(DeclarationParser):
         """Step behind the next semicolon, or to a keyword that starts a line or ends a list."""
         keys, trivia = self.keys, self.trivia
         index = max(self.index, start + 1)
+        if keys[index - 1] == ";" and keys[index] not in _RECOVERY:
+            index += 1  # the first token of a statement is what is wrong
         while (key := keys[index]) and keys[index - 1] != ";":
             if key in _RECOVERY and (key not in STATEMENT_STARTS or "\n" in trivia[index]):
                 break

@@ -1,5 +1,7 @@
 """Structured Text from its text to values in memory: compiled, linked, run."""
 
+from pathlib import Path
+
 from plcsim.core.memory import Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
@@ -23,6 +25,14 @@ SIZE = 1 << 16
 NOT_STORED = ("VAR_EXTERNAL", "VAR_TEMP")
 
 
+STANDARD = Path(__file__).parents[5] / "plcsim" / "library" / "standard" / "standard.fun"
+
+
+def standard(dialect):
+    """The scope of the library standard."""
+    return Scope("standard", [parse_declarations(Source.read(STANDARD))], dialect=dialect)
+
+
 def checked(
     text, declarations="", dialect=dialects.AUTOMATION_STUDIO, hidden=(Code.UNUSED_VARIABLE,)
 ):
@@ -31,7 +41,8 @@ def checked(
     file.diagnostics.raise_errors()
     declared = parse_declarations(Source("a.var", declarations))
     declared.diagnostics.raise_errors()
-    scope = Scope("program", [declared, declarations_of(file)], dialect=dialect)
+    files = [declared, declarations_of(file)]
+    scope = Scope("program", files, [standard(dialect)], dialect=dialect)
     program = check_program("program", [file], scope, hidden=hidden)
     found = [
         f"{record.line}:{record.column} {record.code} {record.message}"
