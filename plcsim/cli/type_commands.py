@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.cli.declaration_files import find_files, read_files
 from plcsim.cli.declaration_scopes import read_declarations, report
+from plcsim.cli.library_command import library
 from plcsim.cli.type_writing import complain, header, python
 from plcsim.core.errors import PlcError
 from st_types.syntax.collector import collector_paused
@@ -134,5 +135,6 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "header": header,
     "python": python,
     "print": print_files,
+    "library": library,
 }
 """What each command runs; the results are exit codes."""

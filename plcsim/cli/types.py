@@ -19,6 +19,7 @@ EXAMPLES = {
     "layout": (("plcsim types layout Motor_typ my_plc", "offsets of its members, in bytes"),),
     "header": (("plcsim types header -o include my_plc", ""),),
     "python": (("plcsim types python -o my_plc_types my_plc", ""),),
+    "library": (("plcsim types library my_lib", "its interface.py, for editors and mypy"),),
     "print": (("plcsim types print --write Types.typ", ""),),
 }
 
@@ -52,6 +53,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     printed = _add(commands, "print", "write the declarations again, in Automation Studio's shape")
     printed.add_argument(
         "-w", "--write", action="store_true", help="into the files themselves, encoded as they are"
+    )
+    library = _add(commands, "library", "write interface.py, what Python sees of a library")
+    library.add_argument(
+        "--check", action="store_true", help="write nothing; a file that is not fresh is an error"
     )
     register_installed(TYPE_COMMANDS, commands)
 

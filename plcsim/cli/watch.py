@@ -72,9 +72,8 @@ def _chosen(reader: ImageReader, paths: Sequence[str]) -> Iterator[Tag]:
 
     The internal variables of a function block are shown where they are named.
     """
-    for path in paths or [area.path for area in reader.directory.areas]:
-        tag = reader.directory.find(path)
-        yield from leaves(path, tag.data_type, tag.address, internals=False)
+    for tag in map(reader.directory.find, paths) if paths else reader.directory.areas:
+        yield from leaves(tag, internals=False)
 
 
 def _show(console: Console, run: Run, values: TagValues) -> None:

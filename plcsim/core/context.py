@@ -26,10 +26,19 @@ class Context:
     Attributes:
         memory: where all variables lie.
         network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
+        globals: a view of the global variables; None where the project has none.
         violation: the violation an exception program was called for, None before the first.
     """
 
-    __slots__ = ("_libraries", "_settings", "_system", "memory", "network", "violation")
+    __slots__ = (
+        "_libraries",
+        "_settings",
+        "_system",
+        "globals",
+        "memory",
+        "network",
+        "violation",
+    )
 
     def __init__(
         self,
@@ -39,6 +48,7 @@ class Context:
     ) -> None:
         self.memory = memory
         self.network = network
+        self.globals: Any = None
         self._system = memory.system.cells
         self.violation: Violation | None = None
         self._settings = {type(value): value for value in settings}

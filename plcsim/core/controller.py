@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from plcsim.core.clock import Clock
     from plcsim.core.context import Context
     from plcsim.core.control import Request
+    from plcsim.core.tag import Tag
 
 VIOLATIONS_KEPT = 100
 """Records of violations kept; all are counted."""
@@ -63,6 +64,7 @@ class Controller:
     Args:
         classes: what runs on it; the variables of all tasks lie in the context's memory.
         context: what its programs and blocks work with.
+        shared: the global variables and constants, as one tag each with the path "".
         exception_task: runs once for each violation under the policy "exception".
         clock: virtual or real; the real one by default.
         heartbeat: told of every program that starts and every cycle that ends.
@@ -71,7 +73,8 @@ class Controller:
     Attributes:
         classes: in the order of their numbers.
         tasks: in configured order, that of the exception program last.
-        areas: all variables of the controller: those of each program as one tag.
+        areas: all variables of the controller: the global ones, then those of each program, as one
+            tag each; constants apart.
         owners: which class owns which of them.
         forces: the forced ones.
         requests: acts asked for and not yet carried out, in order.
@@ -87,6 +90,7 @@ class Controller:
         classes: Sequence[TaskClass],
         context: Context,
         *,
+        shared: Sequence[Tag] = (),
         exception_task: Task | None = None,
         clock: Clock | None = None,
         heartbeat: Heartbeat | None = None,
@@ -111,7 +115,7 @@ class Controller:
             self.tasks.append(exception_task)
         for index, task in enumerate(self.tasks):
             task.index = index
-        self.areas = tuple(task.variables for task in self.tasks)
+        self.areas = (*shared, *(area for task in self.tasks for area in task.areas))
         self.tags = TagTable(self.memory, self.areas)
         self._heartbeat = heartbeat or _Nobody()
         self.origin_ns = self.clock.now_ns()
@@ -136,8 +140,8 @@ class Controller:
             self.context.restart()
         self.context.release_ns = self.clock.now_ns()
         self._heartbeat.changed(self.state)
-        for _, data_type, address in self.areas:
-            self.memory.write(address, initial_image(data_type))
+        for area in self.areas:
+            self.memory.write(area.address, initial_image(area.data_type))
         for task in self.tasks:
             self._run_unit(task, Unit.INIT)
             if self.state is not State.BOOT:

@@ -62,10 +62,13 @@ class Forces:
             source: who wants it, for the list and the logbook.
 
         Raises:
-            TagError: the bytes are not those of a value of the tag, or parts of it are forced.
+            TagError: the bytes are not those of a value of the tag, or parts of it are forced,
+                or it is constant.
             PageFault: the tag does not lie in PLC memory.
         """
         place = tag.address, tag.data_type.size
+        if tag.is_constant:
+            raise TagError(f"tag {tag.path} is CONSTANT")
         if len(data) != tag.data_type.size:
             raise TagError(f"tag {tag.path}: {len(data)} bytes are not a {tag.data_type}")
         self._memory.check(*place)

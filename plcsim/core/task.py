@@ -33,6 +33,7 @@ class Task:
     Attributes:
         name: as in plc.toml; the first part of the program's tags.
         variables: all variables of the program as one tag, its path the name of the task.
+        areas: these, and its constants where it has some.
         units: what runs for INIT, CYCLIC and EXIT.
         fault_of: tells what something that a unit raised means, and where it was.
         interrupt: ends the unit that runs: it raises CycleTimeViolation with the given reason, at
@@ -43,6 +44,7 @@ class Task:
     """
 
     __slots__ = (
+        "areas",
         "cyclic",
         "execution",
         "fault_of",
@@ -59,11 +61,13 @@ class Task:
         variables: Tag,
         units: Mapping[Unit, Callable[[], None]],
         *,
+        constants: Tag | None = None,
         fault_of: Callable[[BaseException], Fault],
         interrupt: Callable[[str], None],
     ) -> None:
         self.name = name
         self.variables = variables
+        self.areas = (variables,) if constants is None else (variables, constants)
         self.units = units
         self.cyclic = units[Unit.CYCLIC]
         self.fault_of = fault_of

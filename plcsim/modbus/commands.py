@@ -80,7 +80,7 @@ def _load(folder: Path) -> tuple[str, ModbusSettings, TagMap]:
     if found is None:
         raise ConfigurationError(f"{project.folder / 'plc.toml'}: there is no table [modbus]")
     controller = still_controller(load(project))
-    tag_map = load_map(found.settings, found.folder, controller.tags, controller.tasks)
+    tag_map = load_map(found.settings, found.folder, controller.tags, controller.areas)
     return project.name, found.settings, tag_map
 
 

@@ -57,7 +57,7 @@ class ModbusExtension(Extension):
 
         Where nothing serves it, the addresses may still change.
         """
-        tag_map = load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        tag_map = load_map(settings.settings, settings.folder, controller.tags, controller.areas)
         if not tag_map.is_locked and not settings.is_in_process:
             write_lock(settings.folder, tag_map.lock)
         points = tag_map.points
@@ -72,7 +72,7 @@ class ModbusExtension(Extension):
 
     def check(self, settings: ModbusProject, controller: Controller) -> list[str]:
         """Check the map against the tags, and the files of TLS; say where the port needs rights."""
-        load_map(settings.settings, settings.folder, controller.tags, controller.tasks)
+        load_map(settings.settings, settings.folder, controller.tags, controller.areas)
         if settings.settings.tls is not None:
             # not at the top: the scan process has no use for ssl and pymodbus
             from plcsim.modbus.service.tls import server_context  # noqa: PLC0415

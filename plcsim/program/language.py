@@ -7,17 +7,17 @@ that, the scan, tags, Modbus, tests, sees a `plcsim.core.task.Task` and not what
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.core.context import Context
-    from plcsim.core.memory import Memory
     from plcsim.core.task import Task
-    from plcsim.machine import Machine
+    from plcsim.program.declarations import Declarations
+    from plcsim.program.site import Site
+    from plcsim.program.variables import Variables
+    from st_types.resolve.scope import Scope
 
 
 class ProgramSource(NamedTuple):
@@ -27,48 +27,17 @@ class ProgramSource(NamedTuple):
         name: as plc.toml names the folder.
         folder: where it lies.
         files: those of its language that hold units.
-        project: folder of the project.
-        package: name under which Python finds the project's folder as a package.
+        declarations: of the project.
+        scope: what the program declares and sees.
+        shared: the global variables of the project.
     """
 
     name: str
     folder: Path
     files: Sequence[Path]
-    project: Path
-    package: str
-
-
-class Site:
-    """One controller as the programs find it that are put on it.
-
-    Args:
-        context: of the controller; its memory takes the programs' variables.
-        counts_instructions: those of compiled programs; for the virtual clock, where no other
-            measure of time means anything, and nothing else ends an endless loop.
-
-    Attributes:
-        context: as above.
-    """
-
-    def __init__(self, context: Context, *, counts_instructions: bool = False) -> None:
-        self.context = context
-        self._counts_instructions = counts_instructions
-
-    @property
-    def memory(self) -> Memory:
-        """The PLC memory."""
-        return self.context.memory
-
-    @cached_property
-    def machine(self) -> Machine:
-        """What compiled programs run on; made when the first of them asks for it.
-
-        Raises:
-            MachineError: the host has no room for it.
-        """
-        from plcsim.machine import Machine  # noqa: PLC0415  # 20 ms that not every project needs
-
-        return Machine(self.memory, fuel=self._counts_instructions)
+    declarations: Declarations
+    scope: Scope
+    shared: Variables
 
 
 class ProgramCode(Protocol):

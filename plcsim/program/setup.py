@@ -10,16 +10,21 @@ from plcsim.core.context import Context
 from plcsim.core.controller import Controller
 from plcsim.core.memory import DEFAULT_SIZE, Memory
 from plcsim.core.task import Policy, TaskClass
-from plcsim.program.language import Site
+from plcsim.program.loader import installed_catalogue
+from plcsim.program.site import Site
+from st_types.types.views import view_class
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Heartbeat
+    from plcsim.core.tag import Tag
     from plcsim.core.task import Task
+    from plcsim.library.catalogue import Catalogue
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
+    from plcsim.program.variables import Variables
 
 
 @dataclass(frozen=True)
@@ -52,12 +57,16 @@ class Setup:
         memory_size: bytes of PLC memory.
         exception_program: runs once for each violation under the policy "exception".
         settings: what libraries find by `Context.settings`.
+        shared: the global variables, None where there are none.
+        catalogue: the libraries that programs see; by default those that are installed.
     """
 
     classes: Sequence[TaskClassSetup]
     memory_size: int = DEFAULT_SIZE
     exception_program: ProgramSetup | None = None
     settings: Sequence[object] = ()
+    shared: Variables | None = None
+    catalogue: Catalogue | None = None
 
 
 def make_controller(
@@ -83,17 +92,34 @@ def make_controller(
         ConfigurationError: the variables do not fit into the memory.
     """
     context = Context(Memory(setup.memory_size, system_fd), network, setup.settings)
-    site = Site(context, counts_instructions=isinstance(clock, VirtualClock))
+    shared = _shared(setup, context)
+    site = Site(
+        context,
+        setup.catalogue or installed_catalogue(),
+        shared,
+        counts_instructions=isinstance(clock, VirtualClock),
+    )
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program
     return Controller(
         classes,
         context,
+        shared=shared,
         exception_task=_task(exception, site) if exception else None,
         clock=clock,
         heartbeat=heartbeat,
         idle=idle,
     )
+
+
+def _shared(setup: Setup, context: Context) -> list[Tag]:
+    """Reserve the global variables and give programs in Python their view."""
+    if setup.shared is None:
+        return []
+    areas = [tag for tag in setup.shared.allocate(context.memory, "") if tag is not None]
+    view = view_class(setup.shared.variables)
+    context.globals = context.memory.access(view, areas[0].address, context)
+    return areas
 
 
 def _task_class(setup: TaskClassSetup, site: Site) -> TaskClass:

@@ -12,24 +12,28 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import Findings
 from plcsim.host.garbage import collect_while_idle
-from plcsim.library.options import read_options
 from plcsim.network import VirtualNetwork
-from plcsim.program.loader import ProgramLoader, unload
+from plcsim.program.loader import ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageWriter
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Controller, Heartbeat
     from plcsim.network import Network
+    from plcsim.program.language import ProgramCode
     from plcsim.project.plc_toml import Project
     from plcsim.project.tables import ProgramEntry
 
 VIRTUAL_IP: Final = "192.168.0.10"
 """Address of the controller on a virtual network."""
+
+
+def _nothing() -> None:
+    """Forget the modules of program classes: they are not ours."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +44,15 @@ class Application:
         name: of the project.
         setup: its programs and task classes.
         extensions: settings of the extensions whose table plc.toml has, by table.
-        package: of the modules that were loaded for it, "" for none.
+        warnings: of its declarations, each with file, line, column and caret.
+        unload: forgets its modules, so that the next to load it has them afresh.
     """
 
     name: str
     setup: Setup
     extensions: Mapping[str, Any] = field(default_factory=dict)
-    package: str = ""
+    warnings: Sequence[str] = ()
+    unload: Callable[[], None] = _nothing
 
     def in_process(self, ip: str) -> Application:
         """Return the application as it is where no process runs beside the controller.
@@ -55,11 +61,6 @@ class Application:
             ip: see `plcsim.project.extension.Extension.in_process`.
         """
         return replace(self, extensions=in_process(self.extensions, ip))
-
-    def unload(self) -> None:
-        """Forget the modules of the project, so that the next to load it has them afresh."""
-        if self.package:
-            unload(self.package)
 
 
 @dataclass(frozen=True)
@@ -82,17 +83,24 @@ def load(project: Project) -> Application:
         ConfigurationError: programs are missing or cannot be loaded, or a library cannot be told
             what plc.toml tells it; all findings are told, with file and line.
     """
+    sources = dict.fromkeys(entry.source for entry in project.programs)
+    loader = ProgramLoader(project.folder, [*sources], project.library_folders)
+    try:
+        return _load(project, loader)
+    except BaseException:
+        loader.unload()
+        raise
+
+
+def _load(project: Project, loader: ProgramLoader) -> Application:
     findings = Findings()
     settings: list[object] = []
+    catalogue = loader.declarations.catalogue
     with findings.gathered():
-        settings = read_options(project.libraries)
-    loader = ProgramLoader(project.folder)
-    codes = {}
-    for entry in project.programs:
-        with findings.gathered():
-            codes[entry.source] = loader.load(entry.source)
-    if findings:
-        unload(loader.package)
+        settings = catalogue.read_settings(project.libraries)
+    codes: Mapping[str, ProgramCode] = {}
+    with findings.gathered():
+        codes = loader.load()
     findings.check()
 
     def setup_of(entry: ProgramEntry) -> ProgramSetup:
@@ -115,8 +123,12 @@ def load(project: Project) -> Application:
         memory_size=project.plc.memory_size,
         exception_program=setup_of(exception) if exception else None,
         settings=settings,
+        shared=loader.shared if any(kind.members for kind in loader.shared) else None,
+        catalogue=catalogue,
     )
-    return Application(project.name, setup, project.extensions, loader.package)
+    return Application(
+        project.name, setup, project.extensions, tuple(loader.warnings), loader.unload
+    )
 
 
 def assemble(

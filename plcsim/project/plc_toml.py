@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
 from plcsim.project.extension import extensions
-from plcsim.project.tables import PlcSettings, TaskClassTable, task_class_entry
+from plcsim.project.tables import LibrariesTable, PlcSettings, TaskClassTable, task_class_entry
 from plcsim.settings import Table
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ FILE_NAME: Final = "plc.toml"
 MOST_HINTS: Final = 5
 """Projects that are named where one was not found."""
 
-_OWN_TABLES: Final = ("plc", "task_class", "library")
+_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries")
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,7 @@ class Project:
         plc: table [plc].
         classes: tables [task_class.N], in order of their numbers.
         libraries: tables [library.NAME] by NAME; a library knows what it may be told.
+        library_folders: of libraries outside the project.
         extensions: settings of the extensions whose table is there, by table.
     """
 
@@ -49,6 +50,7 @@ class Project:
     plc: PlcSettings
     classes: tuple[TaskClassEntry, ...]
     libraries: Mapping[str, Table] = field(default_factory=dict)
+    library_folders: tuple[Path, ...] = ()
     extensions: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -109,13 +111,16 @@ def read_project(path: Path) -> Project:
         classes = _task_classes(top.table("task_class"), plc.tick_ns)
     with findings.gathered():
         libraries = top.table("library").tables()
+    folders: tuple[Path, ...] = ()
+    with findings.gathered():
+        folders = top.table("libraries").read(LibrariesTable).folders
     for name in extensions():
         if name not in top:
             continue  # an extension that is not used is not imported
         with findings.gathered():
             settings[name] = extensions()[name].read(top.table(name))
     name = plc.name or file.parent.resolve().name
-    project = Project(file.parent, name, plc, classes, libraries, settings)
+    project = Project(file.parent, name, plc, classes, libraries, folders, settings)
     with findings.gathered():
         _check_programs(file, project)
     findings.check()

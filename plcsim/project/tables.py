@@ -1,4 +1,4 @@
-"""Tables [plc] and [task_class.N] of plc.toml; docs/project.md lists their keys."""
+"""Tables [plc], [task_class.N] and [libraries] of plc.toml; docs/project.md lists their keys."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Annotated, Final, Literal, NamedTuple
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.core.task import HIGHEST_CLASS, Policy
-from plcsim.settings import Converted, Duration, Key, Kind, Size, Whole, settings
+from plcsim.settings import Converted, Duration, Key, Kind, PathTo, Size, Whole, settings
 
 DEFAULT_CYCLES_MS: Final = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10}
 """Cycle time of each class where none is given, as in a new Automation Studio project."""
@@ -110,6 +110,17 @@ class TaskClassTable:
     policy: Annotated[Policy, Key("on_violation")] = Policy.SERVICE
     host_policy: Annotated[Policy, Key("on_host_violation")] = Policy.LOG
     programs: tuple[Annotated[ProgramEntry, ProgramKind()], ...] = ()
+
+
+@settings
+class LibrariesTable:
+    """Table [libraries].
+
+    Attributes:
+        folders: of libraries outside the project; a relative path begins at the project's folder.
+    """
+
+    folders: tuple[Annotated[Path, PathTo("folder")], ...] = ()
 
 
 class TaskClassEntry(NamedTuple):

@@ -24,7 +24,7 @@ settings, ``tuple[X, ...]`` (a list), ``Mapping[str, X]`` (a table with free key
 (None where it is missing), Any.
 """
 
-from plcsim.settings.declaration import settings
+from plcsim.settings.declaration import is_settings, settings
 from plcsim.settings.kinds import Converted, Duration, Key, Kind, OneOf, PathTo, Size, Whole
 from plcsim.settings.table import Table
 
@@ -38,5 +38,6 @@ __all__ = [
     "Size",
     "Table",
     "Whole",
+    "is_settings",
     "settings",
 ]

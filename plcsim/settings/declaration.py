@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Any, NamedTuple, TypeVar, dataclass_transform, get_args, get_origin
+from typing import (
+    Annotated,
+    Any,
+    NamedTuple,
+    TypeGuard,
+    TypeVar,
+    dataclass_transform,
+    get_args,
+    get_origin,
+)
 from typing import get_type_hints as hints_of
 
 from plcsim.settings.kinds import Duration, Key
@@ -32,7 +41,14 @@ class Setting(NamedTuple):
 )
 def settings(cls: type[T]) -> type[T]:
     """Make a class of settings: a frozen dataclass whose attributes stand for keys of a table."""
-    return dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+    made = dataclasses.dataclass(frozen=True, kw_only=True)(cls)
+    made.__plc_settings__ = True  # type: ignore[attr-defined]  # a mark on a class
+    return made
+
+
+def is_settings(value: object) -> TypeGuard[type]:
+    """Whether this is a class of settings itself, not only derived from one."""
+    return isinstance(value, type) and "__plc_settings__" in vars(value)
 
 
 def declared(cls: Any) -> tuple[Setting, ...]:

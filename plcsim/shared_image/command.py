@@ -51,6 +51,7 @@ class Outcome(Enum):
     OVERLAPS = 6
     TOO_MANY = 7
     NOT_HERE = 8
+    CONSTANT = 9
 
     @property
     def is_refused(self) -> bool:
@@ -70,6 +71,7 @@ _TEXTS: Final = {
     Outcome.NO_SUCH_ADDRESS: "there is no such address",
     Outcome.NO_SUCH_TAG: "there is no such tag",
     Outcome.NOT_FORCED: "it is not forced",
+    Outcome.CONSTANT: "it is CONSTANT",
     Outcome.OVERLAPS: "a part of it is forced, or it is a part of a forced tag",
     Outcome.TOO_MANY: "there are too many",
     Outcome.NOT_HERE: "only the virtual clock can do that",

@@ -42,7 +42,7 @@ class Directory:
     Attributes:
         project: name of the project.
         cycle_ns: the shortest cycle time.
-        areas: all variables of each program as one tag, named by the program.
+        areas: all variables of each program, and the global ones, as one tag each.
         spans: (PLC address, bytes) of what a snapshot holds, one after another.
         services: what each service was given by its extension, by table of plc.toml.
         streams: bytes of the stream beside each ring, those of guests included.
@@ -61,12 +61,12 @@ class Directory:
         return sum(size for _, size in self.spans)
 
     def find(self, path: str) -> Tag:
-        """Return the tag ``program.member``; case does not matter.
+        """Return the tag ``path``; case does not matter.
 
         Raises:
             TagError: there is no such tag; the message offers names that are near.
         """
-        return find_tag(path, {area.path.upper(): area for area in self.areas})
+        return find_tag(path, self.areas)
 
     def holds(self, tag: Tag) -> bool:
         """Return True for a tag that every snapshot holds."""
@@ -102,7 +102,9 @@ class Directory:
         text = {
             "project": self.project,
             "cycle_ns": self.cycle_ns,
-            "areas": [[a.path, describe_type(a.data_type), a.address] for a in self.areas],
+            "areas": [
+                [a.path, describe_type(a.data_type), a.address, a.is_constant] for a in self.areas
+            ],
             "spans": list(self.spans),
             "services": self.services,
             "streams": list(self.streams),
@@ -116,7 +118,7 @@ def directory_from(data: bytes) -> Directory:
     return Directory(
         text["project"],
         text["cycle_ns"],
-        [Tag(path, type_from(kind), address) for path, kind, address in text["areas"]],
+        [Tag(path, type_from(kind), *rest) for path, kind, *rest in text["areas"]],
         [(address, size) for address, size in text["spans"]],
         text["services"],
         text["streams"],

@@ -60,6 +60,8 @@ class Hands:
         forces, tag = self._controller.forces, self._controller.tags.get(path)
         if tag is None:
             return Outcome.NO_SUCH_TAG
+        if tag.is_constant:
+            return Outcome.CONSTANT
         if len(data) != tag.data_type.size:
             return Outcome.NO_COMMAND
         before = next((f for f in forces if f.tag[1:] == tag[1:]), None)

@@ -6,9 +6,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.errors import TagError
+from plcsim.core.tag import encode_tag
 from plcsim.testing.values import leaves_of
-from st_types.errors import ValueRangeError
-from st_types.types.values import encode
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -73,11 +72,7 @@ class Tags:
         Raises:
             TagError: there is no such tag, or it cannot take the value.
         """
-        tag = self.find(path)
-        try:
-            return encode(tag.data_type, value)
-        except ValueRangeError as err:
-            raise TagError(f"tag {tag.path}: {err}") from None
+        return encode_tag(self.find(path), value)
 
     def store(self, path: str, data: bytes) -> None:
         """Store bytes made by `encode`."""

@@ -108,7 +108,7 @@ def leaves_of(tags: TagTable, path: str) -> list[Tag]:
         PlcTestError: there are more than `MOST_LEAVES`.
     """
     found: list[Tag] = []
-    for leaf in leaves(*tags.find(path)):
+    for leaf in leaves(tags.find(path)):
         if len(found) == MOST_LEAVES:
             raise PlcTestError(f"{path} has more than {MOST_LEAVES} elements; name some of them")
         found.append(leaf)

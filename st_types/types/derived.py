@@ -116,12 +116,14 @@ class StructType(DataType[V_co]):
     Attributes:
         members: as declared.
         offsets: bytes from the start, one for each member.
+        view: the class of its views (`st_types.types.views`), None before the first.
     """
 
-    __slots__ = ("_indices", "_spellings", "members", "offsets")
+    __slots__ = ("_indices", "_spellings", "members", "offsets", "view")
 
     def __init__(self, name: str, members: Sequence[Member]) -> None:
         self.members = tuple(members)
+        self.view: type | None = None
         layout = self._laid_out()
         self.offsets = layout.offsets
         if layout.size > MAX_SIZE:

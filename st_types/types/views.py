@@ -151,11 +151,16 @@ def ENUM(values: type[E]) -> EnumerationType[E]:  # noqa: N802  # an IEC type co
 
 
 _EMPTY: StructType[Any] = StructType("empty STRUCT", ())
-_CLASSES: dict[int, type[Struct]] = {}  # by id of the type, which the class keeps alive
 
 
 class _StructMeta(_CStructMeta):
-    """Turns the declarations in a class body into a laid-out ctypes structure."""
+    """Turns the declarations in a class body into a laid-out ctypes structure.
+
+    A class whose body names its type, ``_plc_type = ...``, is a *face* of that type: declarations
+    elsewhere (a .fun, a .typ) say what its members are. A subclass of a face that has its name is
+    what the face stands for, the body of a function block for example: it has the same type, and is
+    the class of all views of that type from then on.
+    """
 
     def __new__(mcs, name: str, bases: tuple[type, ...], body: dict[str, Any]) -> Any:
         declared = {k: v for k, v in body.items() if isinstance(v, _Declaration)}
@@ -163,6 +168,7 @@ class _StructMeta(_CStructMeta):
         inherited: tuple[Member, ...] = getattr(base, "_plc_type", _EMPTY).members
         if declared and inherited:
             raise DeclarationError(f"{name}: {base} has variables already; nest it instead.")
+        is_face = "_plc_type" in body
         if inherited or base is None:
             body.setdefault("__slots__", ())
         else:
@@ -170,11 +176,17 @@ class _StructMeta(_CStructMeta):
             body = {k: v for k, v in body.items() if k not in declared}
             body |= _structure_body(data_type, body)
         made: Any = super().__new__(mcs, name, bases, body)
-        if inherited:
+        if inherited and not _stands_for(base, name):
             made._plc_type = _kind(base)(name, inherited)
+        made._plc_is_face = is_face
         if base is not None:
-            _CLASSES[id(made._plc_type)] = made
+            made._plc_type.view = made
         return made
+
+
+def _stands_for(base: Any, name: str) -> bool:
+    """Whether a subclass of this name is what its base is the face of."""
+    return bool(base._plc_is_face and base._plc_type.name == name)
 
 
 def _kind(base: object) -> type[StructType[Any]]:
@@ -261,6 +273,7 @@ class Struct(_CStruct, metaclass=_StructMeta):
 
     _plc_kind: ClassVar[type[StructType[Any]]] = StructType
     _plc_type: ClassVar[StructType[Any]]
+    _plc_is_face: ClassVar[bool]
     _plc_views: ClassVar[tuple[tuple[str, DataType[object], int], ...]] = ()
     _plc_address: int
     _plc_context: object
@@ -367,11 +380,10 @@ def reset(view: Struct) -> None:
 
 def view_class(data_type: StructType[Any]) -> type[Struct]:
     """Return the view class of a STRUCT or data block type, made at the first call."""
-    made = _CLASSES.get(id(data_type))
-    if made is None:
+    if data_type.view is None:
         base = DataBlock if isinstance(data_type, DataBlockType) else Struct
-        made = _StructMeta(data_type.name, (base,), {"_plc_type": data_type})
-    return made
+        _StructMeta(data_type.name, (base,), {"_plc_type": data_type})
+    return cast("type[Struct]", data_type.view)
 
 
 def view_of(

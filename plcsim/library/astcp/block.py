@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from plcsim.core.function_block import FunctionBlock
-from plcsim.library.astcp.constants import tcpERR_INVALID_IDENT
 from plcsim.library.astcp.idents import IdentTable
+from plcsim.library.astcp.interface import tcpERR_INVALID_IDENT
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE
 
 IDLE = 0

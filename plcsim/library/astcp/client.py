@@ -1,13 +1,12 @@
 """TcpClient: connect to a server."""
 
-# ruff: noqa: N815  # the members have the controller's names
-
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import BUSY, AsTcpBlock
-from plcsim.library.astcp.constants import (
+from plcsim.library.astcp.interface import (
     tcpERR_ALREADY_CONNECTED,
     tcpERR_INVALID,
     tcpERR_PARAMETER,
@@ -15,7 +14,6 @@ from plcsim.library.astcp.constants import (
 )
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_OK
 from plcsim.network.protocol import Address, Outcome
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from plcsim.library.astcp.idents import IdentTable
@@ -33,7 +31,7 @@ _STATUSES: Final = {
 }
 
 
-class TcpClient(AsTcpBlock):
+class TcpClient(interface.TcpClient, AsTcpBlock):
     """Connect a socket to a server.
 
     Inputs: enable; ident of TcpOpen; pServer, address of the server's IP address as a STRING;
@@ -44,15 +42,6 @@ class TcpClient(AsTcpBlock):
     that listens), tcpERR_ALREADY_CONNECTED, tcpERR_INVALID_IDENT, tcpERR_PARAMETER (no IPv4
     address, port 0), tcpERR_SYSTEM.
     """
-
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    pServer = var_input(UDINT)
-    portserv = var_input(UINT)
-    status = var_output(UINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Start to connect, or see how it goes."""

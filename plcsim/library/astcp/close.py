@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import AsTcpBlock
-from plcsim.library.astcp.constants import tcpERR_PARAMETER, tcpSHUT_RD, tcpSHUT_WR
+from plcsim.library.astcp.interface import tcpERR_PARAMETER, tcpSHUT_RD, tcpSHUT_WR
 from plcsim.library.runtime import ERR_OK
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from plcsim.library.astcp.idents import IdentTable
 
 
-class TcpClose(AsTcpBlock):
+class TcpClose(interface.TcpClose, AsTcpBlock):
     """Close a socket and free its ident, whatever ``how`` says.
 
     Data that TcpSend took are still sent in the background, unless linger says otherwise. Clients
@@ -24,14 +24,6 @@ class TcpClose(AsTcpBlock):
 
     Statuses: ERR_OK, tcpERR_INVALID_IDENT, tcpERR_PARAMETER (another ``how``).
     """
-
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    how = var_input(UDINT)
-    status = var_output(UINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Close the socket."""

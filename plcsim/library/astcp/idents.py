@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from plcsim.library.astcp.constants import tcpINVALID_IDENT
+from plcsim.library.astcp.interface import tcpINVALID_IDENT
 from plcsim.library.astcp.settings import AsTcpSettings
 
 if TYPE_CHECKING:

@@ -1,18 +1,15 @@
 """TcpIoctl: options of a socket and of the library."""
 
-# ruff: noqa: N815  # the members have the controller's names
-
 from __future__ import annotations
 
 from functools import partial
 from struct import Struct as Format
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.library.astcp import constants as c
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
 from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import Option, Outcome
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -42,7 +39,7 @@ class _Ioctl(NamedTuple):
 def _set_status(outcome: Outcome) -> int:
     if outcome is Outcome.OK:
         return ERR_OK
-    return c.tcpERR_PARAMETER if outcome is Outcome.INVALID else c.tcpERR_SYSTEM
+    return interface.tcpERR_PARAMETER if outcome is Outcome.INVALID else interface.tcpERR_SYSTEM
 
 
 def _set_option(option: Option, endpoint: Endpoint, data: bytes, _memory: Memory) -> _Answer:
@@ -53,7 +50,7 @@ def _set_option(option: Option, endpoint: Endpoint, data: bytes, _memory: Memory
 def _get_option(option: Option, endpoint: Endpoint, _data: bytes, _memory: Memory) -> _Answer:
     outcome, value = endpoint.socket.option(option)
     if outcome is not Outcome.OK:
-        return _Answer(c.tcpERR_SYSTEM)
+        return _Answer(interface.tcpERR_SYSTEM)
     return _Answer(ERR_OK, _UDINT.pack(value))
 
 
@@ -91,29 +88,29 @@ def _get_address(endpoint: Endpoint, data: bytes, memory: Memory) -> _Answer:
 
 
 _OPTIONS: Final = {
-    Option.KEEPALIVE: (c.tcpSO_KEEPALIVE_SET, c.tcpSO_KEEPALIVE_GET),
-    Option.SEND_BUFFER: (c.tcpSO_SNDBUF_SET, c.tcpSO_SNDBUF_GET),
-    Option.RECEIVE_BUFFER: (c.tcpSO_RCVBUF_SET, c.tcpSO_RCVBUF_GET),
-    Option.URGENT_INLINE: (c.tcpSO_OOBINLINE_SET, c.tcpSO_OOBINLINE_GET),
-    Option.NO_DELAY: (c.tcpTCP_NODELAY_SET, c.tcpTCP_NODELAY_GET),
-    Option.KEEP_COUNT: (c.tcpTCP_KEEPCNT_SET, c.tcpTCP_KEEPCNT_GET),
-    Option.KEEP_IDLE: (c.tcpTCP_KEEPIDLE_SET, c.tcpTCP_KEEPIDLE_GET),
-    Option.KEEP_INTERVAL: (c.tcpTCP_KEEPINTVL_SET, c.tcpTCP_KEEPINTVL_GET),
+    Option.KEEPALIVE: (interface.tcpSO_KEEPALIVE_SET, interface.tcpSO_KEEPALIVE_GET),
+    Option.SEND_BUFFER: (interface.tcpSO_SNDBUF_SET, interface.tcpSO_SNDBUF_GET),
+    Option.RECEIVE_BUFFER: (interface.tcpSO_RCVBUF_SET, interface.tcpSO_RCVBUF_GET),
+    Option.URGENT_INLINE: (interface.tcpSO_OOBINLINE_SET, interface.tcpSO_OOBINLINE_GET),
+    Option.NO_DELAY: (interface.tcpTCP_NODELAY_SET, interface.tcpTCP_NODELAY_GET),
+    Option.KEEP_COUNT: (interface.tcpTCP_KEEPCNT_SET, interface.tcpTCP_KEEPCNT_GET),
+    Option.KEEP_IDLE: (interface.tcpTCP_KEEPIDLE_SET, interface.tcpTCP_KEEPIDLE_GET),
+    Option.KEEP_INTERVAL: (interface.tcpTCP_KEEPINTVL_SET, interface.tcpTCP_KEEPINTVL_GET),
 }
 
 _IOCTLS: Final[dict[int, _Ioctl]] = {
-    c.tcpSO_LINGER_SET: _Ioctl(_PAIR.size, _set_linger),
-    c.tcpSO_LINGER_GET: _Ioctl(_PAIR.size, _get_linger),
-    c.tcpSO_ADDRESS_GET: _Ioctl(_PAIR.size, _get_address),
-    c.tcpSO_NOWAITING_SET: _Ioctl(_UDINT.size, _set_no_waiting),
-    c.tcpSO_NOWAITING_GET: _Ioctl(_UDINT.size, _get_no_waiting),
+    interface.tcpSO_LINGER_SET: _Ioctl(_PAIR.size, _set_linger),
+    interface.tcpSO_LINGER_GET: _Ioctl(_PAIR.size, _get_linger),
+    interface.tcpSO_ADDRESS_GET: _Ioctl(_PAIR.size, _get_address),
+    interface.tcpSO_NOWAITING_SET: _Ioctl(_UDINT.size, _set_no_waiting),
+    interface.tcpSO_NOWAITING_GET: _Ioctl(_UDINT.size, _get_no_waiting),
     **{s: _Ioctl(_UDINT.size, partial(_set_option, o)) for o, (s, _) in _OPTIONS.items()},
     **{g: _Ioctl(_UDINT.size, partial(_get_option, o)) for o, (_, g) in _OPTIONS.items()},
 }
 """What is done on one socket; tcpID_LIST_GET and tcpID_MAX_GET concern all."""
 
 
-class TcpIoctl(AsTcpBlock):
+class TcpIoctl(interface.TcpIoctl, AsTcpBlock):
     """Read or set an option.
 
     Inputs: enable; ident, not looked at by tcpID_...; ioctl; pData, address of the value; datalen,
@@ -124,27 +121,16 @@ class TcpIoctl(AsTcpBlock):
     length, value out of range), tcpERR_SYSTEM.
     """
 
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    ioctl = var_input(UDINT)
-    pData = var_input(UDINT)
-    datalen = var_input(UDINT)
-    status = var_output(UINT)
-    outlen = var_output(UDINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
-
     def step(self, idents: IdentTable) -> int:
         """Do what ioctl says."""
         self.outlen = 0
-        if self.ioctl == c.tcpID_LIST_GET:
+        if self.ioctl == interface.tcpID_LIST_GET:
             return self._store_list(idents.in_use())
-        if self.ioctl == c.tcpID_MAX_GET:
+        if self.ioctl == interface.tcpID_MAX_GET:
             return self._store_max(idents.settings.idents)
         found = _IOCTLS.get(self.ioctl)
         if found is None:
-            return c.tcpERR_INVALID_IOCTL
+            return interface.tcpERR_INVALID_IOCTL
         endpoint = idents.find(self.ident)
         if endpoint is None:
             return self.unknown_ident(idents)
@@ -152,7 +138,7 @@ class TcpIoctl(AsTcpBlock):
 
     def _run(self, ioctl: _Ioctl, endpoint: Endpoint) -> int:
         if not self.pData or self.datalen != ioctl.size:
-            return c.tcpERR_PARAMETER
+            return interface.tcpERR_PARAMETER
         memory = self.context.memory
         answer = ioctl.run(endpoint, memory.read(self.pData, ioctl.size), memory)
         return self._store(answer)
@@ -164,12 +150,12 @@ class TcpIoctl(AsTcpBlock):
 
     def _store_list(self, idents: tuple[int, ...]) -> int:
         if not self.pData or not self.datalen or self.datalen % _UDINT.size:
-            return c.tcpERR_PARAMETER
+            return interface.tcpERR_PARAMETER
         self.context.memory.check(self.pData, self.datalen)
         stored = idents[: self.datalen // _UDINT.size]
         return self._store(_Answer(ERR_OK, b"".join(_UDINT.pack(ident) for ident in stored)))
 
     def _store_max(self, most: int) -> int:
         if not self.pData or self.datalen != _UDINT.size:
-            return c.tcpERR_PARAMETER
+            return interface.tcpERR_PARAMETER
         return self._store(_Answer(ERR_OK, _UDINT.pack(most)))

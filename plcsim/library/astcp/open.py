@@ -1,13 +1,12 @@
 """TcpOpen and TcpOpenSsl: open a socket."""
 
-# ruff: noqa: N815  # the members have the controller's names
-
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import AsTcpBlock
-from plcsim.library.astcp.constants import (
+from plcsim.library.astcp.interface import (
     tcpERR_ALREADY_EXIST,
     tcpERR_INTERFACE,
     tcpERR_NOMORE_IDENTS,
@@ -20,7 +19,6 @@ from plcsim.library.astcp.constants import (
 )
 from plcsim.library.runtime import ERR_NOTIMPLEMENTED, ERR_OK
 from plcsim.network.protocol import Outcome, network_of
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from plcsim.library.astcp.idents import IdentTable
@@ -34,7 +32,7 @@ _STATUSES: Final = {
 }
 
 
-class TcpOpen(AsTcpBlock):
+class TcpOpen(interface.TcpOpen, AsTcpBlock):
     """Open a socket, for a server or a client.
 
     Inputs: enable; pIfAddr, address of the interface's IP address as a STRING, 0 or an empty STRING
@@ -45,16 +43,6 @@ class TcpOpen(AsTcpBlock):
     tcpERR_PARAMETER (unknown option), tcpERR_SOCKET_BIND (such as a port below 1024 without
     rights), tcpERR_SOCKET_CREATE (no more descriptors), tcpERR_SYSTEM.
     """
-
-    enable = var_input(BOOL)
-    pIfAddr = var_input(UDINT)
-    port = var_input(UINT)
-    options = var_input(UDINT)
-    status = var_output(UINT)
-    ident = var_output(UDINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Open the socket."""
@@ -72,19 +60,8 @@ class TcpOpen(AsTcpBlock):
         return ERR_OK
 
 
-class TcpOpenSsl(AsTcpBlock):
+class TcpOpenSsl(interface.TcpOpenSsl, AsTcpBlock):
     """Open a socket for SSL: not implemented, the status is ERR_NOTIMPLEMENTED."""
-
-    enable = var_input(BOOL)
-    pIfAddr = var_input(UDINT)
-    port = var_input(UINT)
-    sslCfgIdent = var_input(UDINT)
-    options = var_input(UDINT)
-    status = var_output(UINT)
-    ident = var_output(UDINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:  # the interface of all blocks
         """Say that there is no SSL."""

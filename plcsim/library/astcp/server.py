@@ -1,13 +1,12 @@
 """TcpServer: wait for clients."""
 
-# ruff: noqa: N815  # the members have the controller's names
-
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
-from plcsim.library.astcp.constants import (
+from plcsim.library.astcp.interface import (
     tcpERR_ALREADY_CONNECTED,
     tcpERR_NOCLIENT,
     tcpERR_NOMORE_IDENTS,
@@ -16,14 +15,13 @@ from plcsim.library.astcp.constants import (
 )
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_OK
 from plcsim.network.protocol import Outcome
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from plcsim.library.astcp.idents import Endpoint, IdentTable
     from plcsim.network.protocol import Socket
 
 
-class TcpServer(AsTcpBlock):
+class TcpServer(interface.TcpServer, AsTcpBlock):
     """Wait for a client; each call after ERR_OK waits for the next one on the same ident.
 
     Inputs: enable; ident of TcpOpen; backlog, clients that may queue, taken from the first call;
@@ -36,17 +34,6 @@ class TcpServer(AsTcpBlock):
     tcpERR_ALREADY_CONNECTED (the ident is that of a connection), tcpERR_SOCKET_LISTEN,
     tcpERR_SOCKET_ACCEPT.
     """
-
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    backlog = var_input(UDINT)
-    pIpAddr = var_input(UDINT)
-    status = var_output(UINT)
-    identclnt = var_output(UDINT)
-    portclnt = var_output(UINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Listen if that is not done yet, then take a client if one is there."""

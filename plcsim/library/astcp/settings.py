@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Final
 
-from plcsim.library.astcp.constants import (
+from plcsim.library.astcp.interface import (
     tcpERR_INVALID,
     tcpERR_INVALID_IDENT,
     tcpERR_NOT_CONNECTED,

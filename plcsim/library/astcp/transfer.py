@@ -1,13 +1,12 @@
 """TcpSend and TcpRecv: send and receive data."""
 
-# ruff: noqa: N815  # the members have the controller's names
-
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import AsTcpBlock
-from plcsim.library.astcp.constants import (
+from plcsim.library.astcp.interface import (
     tcpERR_NO_DATA,
     tcpERR_NO_OOBDATA,
     tcpERR_NOT_CONNECTED,
@@ -21,7 +20,6 @@ from plcsim.library.astcp.constants import (
 )
 from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import MAX_BUFFER, Outcome
-from st_types import BOOL, UDINT, UINT, var, var_input, var_output
 
 if TYPE_CHECKING:
     from plcsim.library.astcp.idents import IdentTable
@@ -44,7 +42,7 @@ _RECV_STATUSES: Final = _ENDED | {
 }
 
 
-class TcpSend(AsTcpBlock):
+class TcpSend(interface.TcpSend, AsTcpBlock):
     """Hand data to the send buffer.
 
     Inputs: enable; ident; pData, address of the data; datalen, bytes; flags, 0 or tcpMSG_OOB,
@@ -54,17 +52,6 @@ class TcpSend(AsTcpBlock):
     tcpERR_WOULDBLOCK (none were: call again), tcpERR_NOT_CONNECTED, tcpERR_INVALID_IDENT,
     tcpERR_PARAMETER (pData 0, unknown flag), tcpERR_SYSTEM.
     """
-
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    pData = var_input(UDINT)
-    datalen = var_input(UDINT)
-    flags = var_input(UDINT)
-    status = var_output(UINT)
-    sentlen = var_output(UDINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Send what the buffer takes."""
@@ -85,7 +72,7 @@ class TcpSend(AsTcpBlock):
         return _SEND_STATUSES.get(outcome, tcpERR_SYSTEM)
 
 
-class TcpRecv(AsTcpBlock):
+class TcpRecv(interface.TcpRecv, AsTcpBlock):
     """Take data from the receive buffer: a stream, without message boundaries.
 
     Inputs: enable; ident; pData, address of the buffer, all of which must be valid; datamax, its
@@ -95,17 +82,6 @@ class TcpRecv(AsTcpBlock):
     tcpERR_NOT_CONNECTED (reset, lost, never there), tcpERR_NO_OOBDATA, tcpERR_INVALID_IDENT,
     tcpERR_PARAMETER (pData or datamax 0, unknown flag), tcpERR_SYSTEM.
     """
-
-    enable = var_input(BOOL)
-    ident = var_input(UDINT)
-    pData = var_input(UDINT)
-    datamax = var_input(UDINT)
-    flags = var_input(UDINT)
-    status = var_output(UINT)
-    recvlen = var_output(UDINT)
-    i_state = var(UINT)
-    i_result = var(UINT)
-    i_tmp = var(UDINT)
 
     def step(self, idents: IdentTable) -> int:
         """Receive what is there."""

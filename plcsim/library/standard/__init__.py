@@ -5,9 +5,13 @@ written for the controller find what they call; behaviour is that of IEC 61131-3
 the release of the task class only, so all timers of a cycle agree.
 """
 
-from plcsim.library.standard.bistables import RS, SR
-from plcsim.library.standard.counters import CTD, CTU, CTUD
-from plcsim.library.standard.edges import F_TRIG, R_TRIG
-from plcsim.library.standard.timers import TOF, TON, TP
-
-__all__ = ["CTD", "CTU", "CTUD", "F_TRIG", "RS", "R_TRIG", "SR", "TOF", "TON", "TP"]
+from plcsim.library.standard.bistables import RS as RS
+from plcsim.library.standard.bistables import SR as SR
+from plcsim.library.standard.counters import CTD as CTD
+from plcsim.library.standard.counters import CTU as CTU
+from plcsim.library.standard.counters import CTUD as CTUD
+from plcsim.library.standard.edges import F_TRIG as F_TRIG
+from plcsim.library.standard.edges import R_TRIG as R_TRIG
+from plcsim.library.standard.timers import TOF as TOF
+from plcsim.library.standard.timers import TON as TON
+from plcsim.library.standard.timers import TP as TP

@@ -7,19 +7,12 @@ goes on. RESET and LOAD win over counting, and an edge that comes under them is 
 
 from __future__ import annotations
 
-from plcsim.core.function_block import FunctionBlock
-from st_types import BOOL, INT, UINT, var, var_input, var_output
+from plcsim.library.standard import interface
+from st_types import INT, UINT
 
 
-class CTU(FunctionBlock):
+class CTU(interface.CTU):
     """Up-counter. Inputs: CU, RESET (R of IEC 61131-3), PV. Outputs: Q where CV >= PV, CV."""
-
-    CU = var_input(BOOL)
-    RESET = var_input(BOOL)
-    PV = var_input(UINT)
-    Q = var_output(BOOL)
-    CV = var_output(UINT)
-    M = var(BOOL)
 
     def execute(self) -> None:
         """Reset, or count an edge of CU."""
@@ -31,15 +24,8 @@ class CTU(FunctionBlock):
         self.Q = self.CV >= self.PV
 
 
-class CTD(FunctionBlock):
+class CTD(interface.CTD):
     """Down-counter. Inputs: CD, LOAD (LD of IEC 61131-3), PV. Outputs: Q where CV is 0, CV."""
-
-    CD = var_input(BOOL)
-    LOAD = var_input(BOOL)
-    PV = var_input(UINT)
-    Q = var_output(BOOL)
-    CV = var_output(UINT)
-    M = var(BOOL)
 
     def execute(self) -> None:
         """Load, or count an edge of CD."""
@@ -51,23 +37,12 @@ class CTD(FunctionBlock):
         self.Q = self.CV == 0
 
 
-class CTUD(FunctionBlock):
+class CTUD(interface.CTUD):
     """Up-down counter; RESET wins over LOAD, edges of both CU and CD in one call cancel.
 
     Inputs: CU, CD, RESET, LOAD (R and LD of IEC 61131-3), PV. Outputs: QU where CV >= PV, QD where
     CV <= 0, CV.
     """
-
-    CU = var_input(BOOL)
-    CD = var_input(BOOL)
-    RESET = var_input(BOOL)
-    LOAD = var_input(BOOL)
-    PV = var_input(INT)
-    QU = var_output(BOOL)
-    QD = var_output(BOOL)
-    CV = var_output(INT)
-    MU = var(BOOL)
-    MD = var(BOOL)
 
     def execute(self) -> None:
         """Reset, load, or count the edges of CU and CD."""

@@ -10,16 +10,11 @@ IEC 61131-8 advises to suppress that edge.
 
 from __future__ import annotations
 
-from plcsim.core.function_block import FunctionBlock
-from st_types import BOOL, var, var_input, var_output
+from plcsim.library.standard import interface
 
 
-class R_TRIG(FunctionBlock):  # noqa: N801  # the IEC name
+class R_TRIG(interface.R_TRIG):  # noqa: N801  # the IEC name
     """Q is TRUE in the call in which CLK has become TRUE. Input: CLK. Output: Q."""
-
-    CLK = var_input(BOOL)
-    Q = var_output(BOOL)
-    M = var(BOOL)
 
     def execute(self) -> None:
         """Compare CLK with the last call."""
@@ -27,12 +22,8 @@ class R_TRIG(FunctionBlock):  # noqa: N801  # the IEC name
         self.M = self.CLK
 
 
-class F_TRIG(FunctionBlock):  # noqa: N801  # the IEC name
+class F_TRIG(interface.F_TRIG):  # noqa: N801  # the IEC name
     """Q is TRUE in the call in which CLK has become FALSE. Input: CLK. Output: Q."""
-
-    CLK = var_input(BOOL)
-    Q = var_output(BOOL)
-    M = var(BOOL)
 
     def execute(self) -> None:
         """Compare CLK with the last call."""

@@ -13,7 +13,7 @@ What the standard leaves to the implementation, for all three alike:
 from __future__ import annotations
 
 from plcsim.core.function_block import FunctionBlock
-from st_types import BOOL, TIME, UDINT, var, var_input, var_output
+from plcsim.library.standard import interface
 
 NS_PER_MS = 1_000_000
 
@@ -57,19 +57,11 @@ class Timer(FunctionBlock):
         return max(0, min(elapsed, self.PT))
 
 
-class TON(Timer):
+class TON(interface.TON, Timer):
     """On-delay timer: Q follows a rising edge of IN after PT, a falling edge at once.
 
     Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is FALSE).
     """
-
-    IN = var_input(BOOL)
-    PT = var_input(TIME)
-    Q = var_output(BOOL)
-    ET = var_output(TIME)
-    StartTime = var(TIME)
-    M = var(BOOL)
-    Restart = var(UDINT)
 
     def execute(self) -> None:
         """Run the timer for one call."""
@@ -85,19 +77,11 @@ class TON(Timer):
             self.Q = self.ET >= self.PT
 
 
-class TOF(Timer):
+class TOF(interface.TOF, Timer):
     """Off-delay timer: Q follows a falling edge of IN after PT, a rising edge at once.
 
     Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is TRUE or never was).
     """
-
-    IN = var_input(BOOL)
-    PT = var_input(TIME)
-    Q = var_output(BOOL)
-    ET = var_output(TIME)
-    M = var(BOOL)
-    StartTime = var(TIME)
-    Restart = var(UDINT)
 
     def execute(self) -> None:
         """Run the timer for one call."""
@@ -113,19 +97,12 @@ class TOF(Timer):
             self.Q = self.ET < self.PT
 
 
-class TP(Timer):
+class TP(interface.TP, Timer):
     """Pulse timer: a rising edge of IN makes Q TRUE for PT; IN has no effect during the pulse.
 
     After the pulse ET stays at PT while IN is TRUE; IN must be FALSE in one call before the next
     pulse can start. Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms).
     """
-
-    IN = var_input(BOOL)
-    PT = var_input(TIME)
-    Q = var_output(BOOL)
-    ET = var_output(TIME)
-    StartTime = var(TIME)
-    Restart = var(UDINT)
 
     def execute(self) -> None:
         """Run the timer for one call."""

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
     from pathlib import Path
 
-    from plcsim.core.task import Task
 
 LOCK_FILE: Final = "tags.lock"
 _HEADING = "# Addresses given by plcsim; keep this file, so that they never change.\n"
@@ -27,10 +26,14 @@ _TYPES = {code: name for name, code in KINDS.items()}
 _WIDER = {"b": "h", "B": "H"}
 
 
-def all_tags(tasks: Sequence[Task]) -> Iterator[Tag]:
-    """Iterate over the variables of all programs, every element of arrays, no function blocks."""
-    for task in tasks:
-        yield from leaves(*task.variables, blocks=False)
+def all_tags(areas: Sequence[Tag]) -> Iterator[Tag]:
+    """Iterate over all variables, every element of arrays, no function blocks.
+
+    Args:
+        areas: of a controller.
+    """
+    for area in areas:
+        yield from leaves(area, blocks=False)
 
 
 def locked_rows(folder: Path) -> list[Row]:

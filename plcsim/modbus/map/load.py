@@ -13,8 +13,7 @@ from plcsim.modbus.map.resolve import resolve
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.core.tag import TagTable
-    from plcsim.core.task import Task
+    from plcsim.core.tag import Tag, TagTable
     from plcsim.modbus.map.point import Point, Row
     from plcsim.modbus.settings import ModbusSettings
 
@@ -36,7 +35,7 @@ class TagMap(NamedTuple):
 
 
 def load_map(
-    settings: ModbusSettings, folder: Path, tags: TagTable, tasks: Sequence[Task]
+    settings: ModbusSettings, folder: Path, tags: TagTable, areas: Sequence[Tag]
 ) -> TagMap:
     """Return the map of a project; nothing is written.
 
@@ -49,7 +48,7 @@ def load_map(
     if not settings.auto:
         return TagMap(rows, points, (), is_locked=True)
     locked = locked_rows(folder)
-    given, lock = give_addresses(all_tags(tasks), points, locked)
+    given, lock = give_addresses(all_tags(areas), points, locked)
     rows = [*rows, *given]
     points = resolve(rows, tags.find, file, settings.order)
     return TagMap(rows, points, lock, is_locked=len(lock) == len(locked))

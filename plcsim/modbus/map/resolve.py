@@ -99,7 +99,7 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
         bit=-1 if row.bit is None else row.bit,
         kind=kind,
         order=row.order or order,
-        access=_access(row),
+        access=_access(row, is_constant=tag.is_constant),
         address=tag.address,
         code=code,
         size=tag.data_type.size,
@@ -189,8 +189,11 @@ def _registers(row: Row, kind: str, data_type: DataType[Any]) -> int:
     return row.length or min(most, -(-(data_type.size - 1) // 2))
 
 
-def _access(row: Row) -> str:
-    access = row.access or ("rw" if row.area.is_writable else "ro")
+def _access(row: Row, *, is_constant: bool = False) -> str:
+    may_write = row.area.is_writable and not is_constant
+    access = row.access or ("rw" if may_write else "ro")
+    if access != "ro" and is_constant:
+        raise ValueError("a CONSTANT cannot be written; give access ro")
     if access != "ro" and not row.area.is_writable:
         raise ValueError(f"area {row.area.value} cannot be written; give access ro")
     return access

@@ -65,7 +65,7 @@ class Modbus:
         image = plc.image.reader(TABLE)
         settings, folder, _ = plc.settings[TABLE]
         controller = plc.controller
-        points = load_map(settings, folder, controller.tags, controller.tasks).points
+        points = load_map(settings, folder, controller.tags, controller.areas).points
         # a slow project needs longer, as in plcsim.modbus.service.server
         timeout_ns = max(settings.write_timeout_ns, 3 * image.directory.cycle_ns)
         self._plc = plc

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
     from plcsim.machine import Extern, Machine
     from plcsim.machine.shared_module import SharedModule
-    from plcsim.program.language import ProgramSource, Site
+    from plcsim.program.language import ProgramSource
+    from plcsim.program.site import Site
     from st_types.types.derived import StructType
 
 STACK_SIZE: Final = 0x4_0000

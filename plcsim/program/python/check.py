@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import FunctionType
 
+    from st_types import Struct
+
 _NOT_RUN_BY_A_CALL: tuple[Callable[[object], bool], ...] = (
     inspect.iscoroutinefunction,
     inspect.isgeneratorfunction,
@@ -43,9 +45,22 @@ def check_program(program: type[Program], folder: Path) -> None:
     """
     for unit in Unit:
         _check_unit(program, unit.value.lower(), folder)
-    if not hasattr(program, "__getattr__") and not program.__dictoffset__:
-        for function in _methods(program):
-            _check_names(program, function)
+    check_names(program, Program)
+
+
+def check_names(view: type[Struct], base: type[Struct]) -> None:
+    """Check the names of ``self`` that the methods of a class use.
+
+    Args:
+        view: a program or a function block.
+        base: whose own methods are right, as those of its bases.
+
+    Raises:
+        ConfigurationError: one is not there; file and line are named.
+    """
+    if not hasattr(view, "__getattr__") and not view.__dictoffset__:
+        for function in _methods(view, base):
+            _check_names(view, function)
 
 
 def _check_unit(program: type[Program], name: str, folder: Path) -> None:
@@ -79,15 +94,15 @@ def _location_of(function: object, folder: Path) -> str:
     return f"{code.co_filename}:{code.co_firstlineno}" if code else str(folder)
 
 
-def _methods(program: type[Program]) -> Iterator[FunctionType]:
-    """Iterate over the methods that a program's own classes define."""
-    for base in program.__mro__[: program.__mro__.index(Program)]:
-        for value in vars(base).values():
+def _methods(view: type[Struct], base: type[Struct]) -> Iterator[FunctionType]:
+    """Iterate over the methods that a class and its bases below ``base`` define."""
+    for each in view.__mro__[: view.__mro__.index(base)]:
+        for value in vars(each).values():
             if inspect.isfunction(value) and inspect.isfunction(method := inspect.unwrap(value)):
                 yield method
 
 
-def _check_names(program: type[Program], function: FunctionType) -> None:
+def _check_names(view: type[Struct], function: FunctionType) -> None:
     try:
         lines, first = inspect.getsourcelines(function)
         (tree,) = ast.parse(textwrap.dedent("".join(lines))).body
@@ -96,10 +111,10 @@ def _check_names(program: type[Program], function: FunctionType) -> None:
     if not isinstance(tree, ast.FunctionDef) or not tree.args.args:
         return
     for node in _attributes_of(tree, tree.args.args[0].arg):
-        if not node.attr.startswith("__") and not hasattr(program, node.attr):
-            hint = did_you_mean(node.attr, dir(program))
+        if not node.attr.startswith("__") and not hasattr(view, node.attr):
+            hint = did_you_mean(node.attr, dir(view))
             location = f"{function.__code__.co_filename}:{first + node.lineno - 1}"
-            raise ConfigurationError(f"{location}: {program.__name__} has no {node.attr}{hint}")
+            raise ConfigurationError(f"{location}: {view.__name__} has no {node.attr}{hint}")
 
 
 def _attributes_of(tree: ast.AST, name: str) -> Iterator[ast.Attribute]:

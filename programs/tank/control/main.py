@@ -1,25 +1,21 @@
 """Keeps the level of the tank between limits, runs the pump on request, raises alarms."""
 
-from plcsim import Program
+from plcsim import Program, var_external
 from plcsim.library.standard import TON
 from st_types import BOOL, INT, REAL, STRING, TIME, UDINT, UINT, var
-
-from ..wiring import Wiring  # noqa: TID252  # the project is a package without a name
-
-FULL_SCALE = 27648
-"""What an analog input gives at 20 mA."""
 
 
 class Control(Program):
     """Two-point control of the inlet valve, a pump by hand, latched alarms."""
 
-    # inputs, set by the plant
-    level_raw = var(INT)
-    overflow_switch = var(BOOL)
-    flow_pulses = var(UDINT)
-    # outputs, read by the plant
-    valve_open = var(BOOL)
-    pump_on = var(BOOL)
+    # terminals, see Global.var
+    level_raw = var_external(INT)
+    overflow_switch = var_external(BOOL)
+    flow_pulses = var_external(UDINT)
+    valve_open = var_external(BOOL)
+    pump_on = var_external(BOOL)
+    pump_drive = var_external(INT)
+    FULL_SCALE = var_external(INT)
     # what an operator sets
     automatic = var(BOOL, initial=True)
     valve_request = var(BOOL)
@@ -40,16 +36,13 @@ class Control(Program):
     high_delay = var(TIME, 1000)
     high_timer = var(TON)
 
-    def init(self) -> None:
-        """Enter the terminals into the wiring."""
-        self.context.library(Wiring).control = self
-
     def cyclic(self) -> None:
         """Read the level, decide on valve and pump, look after the alarms."""
-        self.level = self.level_raw * self.range / FULL_SCALE
+        self.level = self.level_raw * self.range / self.FULL_SCALE
         self.litres = self.flow_pulses // 10
         self._drive_valve()
         self.pump_on = self.pump_request and self.level > 0.1
+        self.pump_drive = self.pump_speed
         self._watch_alarms()
 
     def _drive_valve(self) -> None:

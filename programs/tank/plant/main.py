@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from plcsim import Program
-from st_types import LREAL, REAL, UDINT, var
+from plcsim import Program, var_external
+from st_types import BOOL, INT, LREAL, REAL, UDINT, var
 
-from ..wiring import Wiring  # noqa: TID252  # the project is a package without a name
-
-FULL_SCALE = 27648
 NANOSECONDS = 1e-9
 
 
 class Plant(Program):
     """A tank of one square metre and ten metres, with an overflow."""
 
-    __slots__ = ("_before_ns", "_control")
+    __slots__ = ("_before_ns",)
+
+    # terminals, see Global.var
+    level_raw = var_external(INT)
+    overflow_switch = var_external(BOOL)
+    flow_pulses = var_external(UDINT)
+    valve_open = var_external(BOOL)
+    pump_on = var_external(BOOL)
+    pump_drive = var_external(INT)
+    FULL_SCALE = var_external(INT)
 
     level = var(LREAL, 4.0)
     inflow = var(REAL, 0.25)
@@ -24,8 +30,7 @@ class Plant(Program):
     steps = var(UDINT)
 
     def init(self) -> None:
-        """Find the controller's terminals; the sensor shows the level before the first cycle."""
-        self._control = self.context.library(Wiring).control
+        """Let the sensor show the level before the first cycle."""
         self._before_ns = self.context.release_ns
         self._show()
 
@@ -38,11 +43,10 @@ class Plant(Program):
         self._show()
 
     def _flow(self, seconds: float) -> None:
-        control = self._control
-        if control.valve_open:
+        if self.valve_open:
             self.level += self.inflow * seconds
-        if control.pump_on:
-            taken = min(self.level, self.outflow * control.pump_speed / 100 * seconds)
+        if self.pump_on:
+            taken = min(self.level, self.outflow * self.pump_drive / 100 * seconds)
             self.level -= taken
             self.pumped += taken
         if self.level > 10.0:
@@ -51,7 +55,6 @@ class Plant(Program):
 
     def _show(self) -> None:
         """Drive the controller's inputs, a pulse for each tenth of a litre pumped."""
-        control = self._control
-        control.level_raw = round(self.level / 10.0 * FULL_SCALE)
-        control.overflow_switch = self.level > 9.9
-        control.flow_pulses = int(self.pumped * 10_000)
+        self.level_raw = round(self.level / 10.0 * self.FULL_SCALE)
+        self.overflow_switch = self.level > 9.9
+        self.flow_pulses = int(self.pumped * 10_000)

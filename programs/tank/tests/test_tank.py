@@ -14,15 +14,15 @@ def fill_by_hand(plc: Plc) -> None:
 def test_the_level_settles_at_the_setpoint(plc: Plc) -> None:
     plc.run("20s")
     assert plc["control.level"] == pytest.approx(6.0, abs=0.01)
-    assert plc["control.valve_open"] is False
+    assert plc["valve_open"] is False
 
 
 def test_the_pump_empties_the_tank_and_the_valve_refills_it(plc: Plc) -> None:
     plc.run("20s")
     plc.always(lambda: 5.7 < plc["control.level"] < 6.05)
     plc["control.pump_request"] = True
-    plc.until({"control.valve_open": True})
-    plc.until({"control.valve_open": False}, within="30s")
+    plc.until({"valve_open": True})
+    plc.until({"valve_open": False}, within="30s")
     assert plc["control.litres"] > 0
 
 
@@ -54,7 +54,7 @@ def test_an_operator_plays_with_the_tank_over_modbus(plc: Plc, modbus: Modbus) -
         modbus.write("control.pump_speed", 101)
     plc.run("20s")
     assert 1.7 < modbus.read("control.level") < 2.1
-    assert modbus.read("control.pump_on") is True
+    assert modbus.read("pump_on") is True
 
 
 def test_the_level_and_the_setpoint_lie_at_their_addresses(plc: Plc, modbus: Modbus) -> None:

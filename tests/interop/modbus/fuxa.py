@@ -28,8 +28,8 @@ VALUES = (
     ("control_level_ir3", "level, low word first", "m"),
 )
 LAMPS = (
-    ("control_valve_open", "inlet valve"),
-    ("control_pump_on", "pump"),
+    ("valve_open", "inlet valve"),
+    ("pump_on", "pump"),
     ("control_alarm_high", "high alarm"),
     ("control_alarm_low", "low alarm"),
 )
@@ -178,7 +178,7 @@ def drive(fuxa: Fuxa, folder: Path, screenshot: Path) -> None:
     fuxa.set(tags["control_pump_request"], True)
     fuxa.until(lambda: fuxa.value(tags["control_setpoint"]) == 5.5)
     fuxa.until(lambda: fuxa.value(tags["control_pump_speed"]) == 45)
-    fuxa.until(lambda: fuxa.value(tags["control_pump_on"]) in (True, 1))
+    fuxa.until(lambda: fuxa.value(tags["pump_on"]) in (True, 1))
     print("setpoint, pump speed and pump written and read back")
     subprocess.run(
         ["chromium", "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",

@@ -21,7 +21,7 @@ def load(project):
     """``load(files)``: the class of program ``main``, or of another source."""
 
     def load(files, source="main"):
-        return ProgramLoader(project(files)).load(source).program
+        return ProgramLoader(project(files), [source]).load()[source].program
 
     return load
 
@@ -47,31 +47,38 @@ class Other:
 
 def test_a_program_is_loaded_by_the_language_that_has_units_in_its_folder(project):
     folder = project({"main/b.other": "", "main/a.other": "", "main/notes.txt": ""})
-    source = ProgramLoader(folder, [PYTHON, Other()]).load("main")
-    assert (source.name, source.folder, source.project) == ("main", folder / "main", folder)
+    loader = ProgramLoader(folder, ["main"], languages=[PYTHON, Other()])
+    source = loader.load()["main"]
+    assert (source.name, source.folder) == ("main", folder / "main")
+    assert source.declarations is loader.declarations
+    assert source.scope is loader.declarations.scope_of(folder / "main")
     assert [file.name for file in source.files] == ["a.other", "b.other"]
 
 
 def test_a_program_has_one_language(project):
     folder = project({"main/a.other": "", "main/main.py": ""})
     with pytest.raises(ConfigurationError) as raised:
-        ProgramLoader(folder, [PYTHON, Other()]).load("main")
+        ProgramLoader(folder, ["main"], languages=[PYTHON, Other()]).load()
     assert str(raised.value) == (
         f"{folder / 'main'}: holds units in Python and Other; a program has one language"
     )
 
 
-def test_a_program_is_loaded_once(project):
-    loader = ProgramLoader(project({"main/main.py": CLASS}))
-    assert loader.load("main") is loader.load("main")
+def test_a_block_without_a_body_is_a_warning(project):
+    files = {"main/main.py": CLASS, "ramps/ramps.fun": "FUNCTION_BLOCK Ramp END_FUNCTION_BLOCK"}
+    loader = ProgramLoader(project(files), ["main"])
+    loader.load()
+    (warning,) = loader.warnings
+    assert warning.endswith("ramps/ramps.fun:1:16: warning: Ramp has no body")
 
 
 def test_two_projects_do_not_mix(project, tmp_path):
     first = project({"main/main.py": CLASS})
     second = first.rename(tmp_path / "other")
     project({"main/main.py": CLASS.replace("Main", "Other")})
-    names = [ProgramLoader(folder).load("main").program.__name__ for folder in (second, first)]
-    assert names == ["Main", "Other"]
+    loaders = [ProgramLoader(folder, ["main"]) for folder in (second, first)]
+    programs = [loader.load()["main"].program for loader in loaders]
+    assert [program.__name__ for program in programs] == ["Main", "Other"]
 
 
 @pytest.mark.parametrize(

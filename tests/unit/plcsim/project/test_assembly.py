@@ -82,7 +82,7 @@ def test_the_mistakes_of_all_programs_and_libraries_are_told_in_one_go(applicati
             b="import nonsense_",
         )
     folder = tmp_path / "cell"
-    near = "no library with settings is called so; did you mean AsTCP?"
+    near = "there is no such library; did you mean AsTCP?"
     assert raised.value.findings == (
         f"{folder / 'plc.toml'}: library.astcp: {near}",
         f"{folder}/a/main.py:1: SyntaxError: '(' was never closed",

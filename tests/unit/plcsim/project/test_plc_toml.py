@@ -269,3 +269,15 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path, make):
 
 
 # loading
+
+
+def test_folders_of_libraries_begin_at_the_project(read):
+    folder = read(MAIN).folder
+    (folder / "lib").mkdir()
+    (folder.parent / "other").mkdir()
+    found = read(MAIN + '[libraries]\nfolders = ["lib", "../other"]')
+    assert [path.resolve().name for path in found.library_folders] == ["lib", "other"]
+    with pytest.raises(ConfigurationError, match=r"libraries\.folders: there is no such folder"):
+        read(MAIN + '[libraries]\nfolders = ["nowhere"]')
+    with pytest.raises(ConfigurationError, match=r"libraries\.folder: unknown key; did you mean f"):
+        read(MAIN + '[libraries]\nfolder = ["lib"]')

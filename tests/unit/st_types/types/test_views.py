@@ -401,6 +401,44 @@ def test_the_view_class_of_a_type_is_made_once():
     assert isinstance(view_class(DataBlockType("Fb", []))(), DataBlock)
 
 
+def test_a_face_has_the_type_that_its_body_names():
+    data_type = DataBlockType("Ramp", [Member("x", INT, 3)])
+
+    class Face(DataBlock):
+        _plc_type = data_type
+
+    assert type_of(Face) is data_type
+    assert view_class(data_type) is Face
+    assert Face().x == 3
+
+
+def test_what_a_face_stands_for_takes_its_place():
+    data_type = DataBlockType("Ramp", [Member("x", INT, 3)])
+    face = type("Ramp", (DataBlock,), {"_plc_type": data_type})
+
+    class Mixin(DataBlock):
+        def double(self):
+            return 2 * self.x
+
+    class Ramp(face, Mixin):
+        pass
+
+    assert type_of(Ramp) is data_type
+    assert view_class(data_type) is Ramp
+    assert Ramp().double() == 6
+
+    class Steeper(Ramp):
+        pass
+
+    class Other(face):
+        pass
+
+    for derived in (Steeper, Other):
+        assert type_of(derived) is not data_type
+        assert type_of(derived).members == data_type.members
+    assert view_class(data_type) is Ramp
+
+
 @pytest.mark.parametrize("name", ["bind", "from_buffer", "from_buffer_copy", "in"])
 def test_members_of_a_declared_struct_may_have_any_name(name):
     inner = StructType("Inner", [Member(name, INT, 5), Member("other", INT, 6)])

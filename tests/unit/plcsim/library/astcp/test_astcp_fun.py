@@ -1,24 +1,13 @@
-"""AsTCP.fun, .typ and .var are the source of the interface: the code must not drift from them."""
+"""Layout and constants of AsTCP are those of the controller; members follow from AsTCP.fun."""
 
 from __future__ import annotations
-
-from importlib.resources import files
 
 import pytest
 
 from plcsim.library import astcp
-from plcsim.library.astcp import constants
-from st_types.syntax.declarations import parse_text
-from st_types.syntax.tree import FunctionBlockDeclaration, TypeBlock, VariableBlock
-from st_types.types.derived import Section
+from plcsim.library.installed import installed
 from st_types.types.views import type_of
 
-SECTIONS = {
-    "VAR_INPUT": Section.INPUT,
-    "VAR_OUTPUT": Section.OUTPUT,
-    "VAR": Section.INTERNAL,
-}
-RUNTIME = ["ERR_OK", "ERR_NOTIMPLEMENTED", "ERR_FUB_ENABLE_FALSE", "ERR_FUB_BUSY"]
 SEND_RECV_IOCTL = {
     "ident": 0,
     "status": 16,
@@ -63,73 +52,25 @@ LAYOUT = {
 }
 
 
-def items(name, kind):
-    text = files(astcp).joinpath(name).read_text(encoding="utf-8")
-    found = parse_text(text, name).items
-    assert found
-    assert all(isinstance(item, kind) for item in found)
-    return found
+@pytest.fixture(scope="module")
+def scope():
+    return installed()["plcsim.library.astcp"].scope
 
 
-def declared_blocks():
-    """Return (name, type, section) of each member by name of the block, in order."""
-    return {
-        block.name: [
-            (member.name, member.specification.name, SECTIONS[part.section])
-            for part in block.blocks
-            for member in part.declarations
-        ]
-        for block in items("AsTCP.fun", FunctionBlockDeclaration)
-    }
-
-
-def declared_structs():
-    return {
-        declaration.name: [
-            (member.name, member.specification.name, Section.INTERNAL)
-            for member in declaration.specification.members
-        ]
-        for block in items("AsTCP.typ", TypeBlock)
-        for declaration in block.declarations
-    }
-
-
-def declared_constants():
-    return {
-        declaration.name: declaration.initial.constant.value
-        for block in items("AsTCP.var", VariableBlock)
-        for declaration in block.declarations
-        if block.qualifiers == ("CONSTANT",)
-    }
-
-
-def test_all_that_is_declared_is_exported():
-    declared = [*declared_blocks(), *declared_structs(), *declared_constants(), *RUNTIME]
-    assert sorted(declared) == sorted(astcp.__all__)
-    assert sorted([*declared_blocks(), *declared_structs()]) == sorted(LAYOUT)
+def test_each_block_and_struct_has_its_layout_here(scope):
+    assert sorted(t.name for t in scope.data_types()) == sorted(LAYOUT)
 
 
 @pytest.mark.parametrize("name", LAYOUT)
-def test_members_are_as_declared(name):
-    members = type_of(getattr(astcp, name)).members
-    declared = declared_blocks() | declared_structs()
-    assert [(m.name, m.data_type.name, m.section) for m in members] == declared[name]
-
-
-@pytest.mark.parametrize("name", LAYOUT)
-def test_layout_is_that_of_the_generated_c_struct(name):
+def test_layout_is_that_of_the_generated_c_struct(scope, name):
     data_type = type_of(getattr(astcp, name))
+    assert data_type is scope.find_type(name)
     offsets = {m.name: at for m, at in zip(data_type.members, data_type.offsets, strict=True)}
     assert (data_type.size, offsets) == LAYOUT[name]
 
 
-def test_constants_are_as_declared():
-    coded = {name: value for name, value in vars(constants).items() if name.startswith("tcp")}
-    assert coded == declared_constants()
-
-
-def test_statuses_are_uint_and_all_else_is_udint():
-    for block in items("AsTCP.var", VariableBlock):
-        for constant in block.declarations:
-            is_status = constant.name.startswith("tcpERR_")
-            assert constant.specification.name == ("UINT" if is_status else "UDINT")
+def test_statuses_are_uint_and_all_else_is_udint(scope):
+    for constant in scope.variables:
+        is_status = constant.name.startswith("tcpERR_")
+        assert constant.is_constant
+        assert str(constant.data_type) == ("UINT" if is_status else "UDINT")

@@ -1,33 +1,10 @@
-"""standard.fun is the source of the interfaces: the classes must not drift from it."""
-
-from importlib.resources import files
+"""Layout of the standard blocks is that of the controller; members follow from standard.fun."""
 
 import pytest
 
 from plcsim.library import standard
-from st_types.syntax.declarations import parse_text
-from st_types.types.derived import Section
+from plcsim.library.installed import installed
 from st_types.types.views import type_of
-
-SECTIONS = {
-    "VAR_INPUT": Section.INPUT,
-    "VAR_OUTPUT": Section.OUTPUT,
-    "VAR": Section.INTERNAL,
-}
-
-
-def declared_blocks():
-    """Return (name, type, section) of each member by name of the block, in order."""
-    text = files(standard).joinpath("standard.fun").read_text(encoding="utf-8")
-    return {
-        block.name: [
-            (member.name, member.specification.name, SECTIONS[variables.section])
-            for variables in block.blocks
-            for member in variables.declarations
-        ]
-        for block in parse_text(text, "standard.fun").items
-    }
-
 
 # Of the struct that Automation Studio generates: analog inputs, outputs, internals, then BOOL.
 TIMER = {"PT": 0, "ET": 4, "StartTime": 8, "Restart": 12, "IN": 16, "Q": 17}
@@ -49,18 +26,18 @@ LAYOUT = {
 }
 
 
-def test_every_declared_block_is_exported():
-    assert sorted(declared_blocks()) == sorted(standard.__all__) == sorted(LAYOUT)
+@pytest.fixture(scope="module")
+def scope():
+    return installed()["plcsim.library.standard"].scope
 
 
-@pytest.mark.parametrize("name", standard.__all__)
-def test_members_are_as_declared(name):
-    members = type_of(getattr(standard, name)).members
-    assert [(m.name, m.data_type.name, m.section) for m in members] == declared_blocks()[name]
+def test_each_block_has_its_layout_here(scope):
+    assert sorted(block.name for block in scope.function_blocks) == sorted(LAYOUT)
 
 
-@pytest.mark.parametrize("name", standard.__all__)
-def test_layout_is_that_of_the_generated_c_struct(name):
+@pytest.mark.parametrize("name", LAYOUT)
+def test_layout_is_that_of_the_generated_c_struct(scope, name):
     data_type = type_of(getattr(standard, name))
+    assert data_type is scope.find_type(name)
     offsets = {m.name: at for m, at in zip(data_type.members, data_type.offsets, strict=True)}
     assert (data_type.size, offsets) == LAYOUT[name]

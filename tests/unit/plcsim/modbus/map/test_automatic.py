@@ -49,7 +49,7 @@ def resolve_all(rows: list[Row]) -> None:
 
 def test_every_variable_of_the_programs_is_given_an_address() -> None:
     plc = controller()
-    found = list(all_tags(plc.tasks))
+    found = list(all_tags(plc.areas))
     for tag in found:
         assert plc.tags.find(tag.path)[1:] == tag[1:]
     paths = [tag.path for tag in found]

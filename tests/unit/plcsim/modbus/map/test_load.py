@@ -16,7 +16,7 @@ PLC = controller()
 def test_a_file_is_the_whole_map(tmp_path: Path) -> None:
     file = tmp_path / "tags.csv"
     file.write_text("tag,area,offset\np.number,hr,3\n")
-    made = load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.tasks)
+    made = load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.areas)
     assert [point.tag for point in made.points] == ["p.number"]
     assert made.is_locked
 
@@ -26,17 +26,17 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path: Path) -> None:
     for data, error in ((b"\x81", "cannot be read"), (b"\xff\xfet\0", "is UTF-16; save it as")):
         file.write_bytes(data)
         with pytest.raises(TagMapError, match=rf"tags\.csv: {error}"):
-            load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.tasks)
+            load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.areas)
     file.unlink()
     with pytest.raises(TagMapError, match=r"tags\.csv: cannot be read"):
-        load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.tasks)
+        load_map(ModbusSettings(tags=str(file)), tmp_path, PLC.tags, PLC.areas)
 
 
 def test_automatic_addresses_come_behind_those_of_the_file(tmp_path: Path) -> None:
     file = tmp_path / "tags.csv"
     file.write_text("tag,area,offset\np.number,hr,30\n")
     settings = ModbusSettings(tags=str(file), auto=True)
-    made = load_map(settings, tmp_path, PLC.tags, PLC.tasks)
+    made = load_map(settings, tmp_path, PLC.tags, PLC.areas)
     assert not made.is_locked
     assert not (tmp_path / LOCK_FILE).exists()
     others = [p for p in made.points if p.area == "hr" and p.tag != "p.number"]

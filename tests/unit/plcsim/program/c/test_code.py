@@ -5,8 +5,10 @@ from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
 from plcsim.program.c.language import C_LANGUAGE
+from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from plcsim.program.variables import variables_of
 
 MS = 1_000_000
 
@@ -76,7 +78,10 @@ def load(tmp_path):
         for name, text in files.items():
             (folder / name).write_text(text)
         units = C_LANGUAGE.units(folder)
-        return C_LANGUAGE.load(ProgramSource("conveyor", folder, units, tmp_path, "package"))
+        declarations = Declarations(tmp_path, "package", [folder])
+        scope, shared = declarations.scope_of(folder), variables_of("globals", ())
+        source = ProgramSource("conveyor", folder, units, declarations, scope, shared)
+        return C_LANGUAGE.load(source)
 
     return load
 

@@ -40,7 +40,8 @@ def load(project):
     def load(body, head=HEAD, **files):
         text = head + textwrap.indent(textwrap.dedent(body), "    ")
         others = {f"main/{stem}.py": content for stem, content in files.items()}
-        return ProgramLoader(project({"main/main.py": text} | others)).load("main").program
+        folder = project({"main/main.py": text} | others)
+        return ProgramLoader(folder, ["main"]).load()["main"].program
 
     return load
 

@@ -8,10 +8,10 @@ from plcsim.core.context import Context
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.memory import PAGE, Memory
 from plcsim.core.task import Unit
-from plcsim.program.language import Site
-from plcsim.program.loader import ProgramLoader
+from plcsim.program.loader import ProgramLoader, installed_catalogue
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from plcsim.program.site import Site
 from st_types import UINT, var
 
 CLASS = """
@@ -37,7 +37,7 @@ def load(project):
     """``load(files)``: the class of program ``main``, or of another source."""
 
     def load(files, source="main"):
-        return ProgramLoader(project(files)).load(source).program
+        return ProgramLoader(project(files), [source]).load()[source].program
 
     return load
 
@@ -185,14 +185,14 @@ def test_a_file_that_is_no_text_is_named(project, data):
     folder = project({"main/main.py": ""})
     (folder / "main" / "main.py").write_bytes(data)
     with pytest.raises(ConfigurationError) as raised:
-        ProgramLoader(folder).load("main")
+        ProgramLoader(folder, ["main"]).load()
     assert str(folder / "main") in str(raised.value)
 
 
 def test_ctrl_c_while_loading_is_not_taken_for_a_wrong_program(project):
     folder = project({"main/main.py": "raise KeyboardInterrupt\n"})
     with pytest.raises(KeyboardInterrupt):
-        ProgramLoader(folder).load("main")
+        ProgramLoader(folder, ["main"]).load()
 
 
 def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
@@ -203,7 +203,7 @@ def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
             self.count += 1
 
     memory = Memory(4 * PAGE)
-    site = Site(Context(memory, network=None))
+    site = Site(Context(memory, network=None), installed_catalogue())
     first, second = (PythonCode(Counter).task(name, site) for name in ("a", "b"))
     assert first.units.keys() == set(Unit)
     first.cyclic()
@@ -216,6 +216,7 @@ def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
 
 
 def test_a_task_is_ended_by_an_exception_that_programs_do_not_catch():
-    task = PythonCode(Program).task("p", Site(Context(Memory(4 * PAGE), network=None)))
+    context = Context(Memory(4 * PAGE), network=None)
+    task = PythonCode(Program).task("p", Site(context, installed_catalogue()))
     with pytest.raises(CycleTimeViolation, match="it did not return"):
         task.interrupt("it did not return")

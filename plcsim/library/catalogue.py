@@ -1,0 +1,123 @@
+"""The catalogue: the libraries that a project sees, and what executes what they declare."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.core.errors import ConfigurationError, Findings
+from plcsim.core.suggestion import did_you_mean
+from plcsim.library.installed import Scopes
+from plcsim.settings import is_settings
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from plcsim.library.executable import BodyLanguage, Executable
+    from plcsim.library.library import Library
+    from plcsim.settings import Table
+    from st_types.resolve.index import NameSpace
+    from st_types.types.derived import StructType
+
+SETTINGS: Final = "settings"
+"""The module of a library's package that holds the class of its settings, where it has some."""
+
+
+class Catalogue:
+    """Libraries, in the order in which names are looked up in them.
+
+    Args:
+        libraries: as above.
+        languages: that bodies may be written in.
+
+    Attributes:
+        libraries: as above.
+        scopes: of the libraries; read when a name is looked up.
+    """
+
+    def __init__(self, libraries: Sequence[Library], languages: Sequence[BodyLanguage]) -> None:
+        self.libraries = tuple(libraries)
+        self.scopes = Scopes(self.libraries)
+        self._languages = languages
+        self._bodies: dict[Library, dict[str, Executable]] = {}
+
+    def bodies(self, library: Library) -> Mapping[str, Executable]:
+        """Return the bodies of a library by declared name; what has none is missing.
+
+        Raises:
+            ConfigurationError: some cannot be loaded, or one is there twice.
+        """
+        if library not in self._bodies:
+            self._bodies[library] = self._load(library)
+        return self._bodies[library]
+
+    def _load(self, library: Library) -> dict[str, Executable]:
+        found: dict[str, Executable] = {}
+        for language in self._languages:
+            for name, body in language.bodies(library).items():
+                if name in found:
+                    raise ConfigurationError(
+                        f"{library.folder}: {name} has a body in {found[name].language} and one "
+                        f"in {language.name}"
+                    )
+                found[name] = body
+        return found
+
+    def find_block(self, name: str) -> tuple[Library, Executable | None] | None:
+        """Return the library that declares a FUNCTION_BLOCK, and its body; None for no such block.
+
+        The body is None where the library has none.
+        """
+        return self._find("types", name)
+
+    def find_function(self, name: str) -> tuple[Library, Executable | None] | None:
+        """Return the library that declares a FUNCTION, and its body, likewise."""
+        return self._find("functions", name)
+
+    def _find(self, space: NameSpace, name: str) -> tuple[Library, Executable | None] | None:
+        for library in self.libraries:
+            if name in library.scope.index.names(space):
+                return library, self.bodies(library).get(name)
+        return None
+
+    def executable(self, data_type: StructType[Any]) -> Executable | None:
+        """Return what executes the block that a data block belongs to, None if nothing does."""
+        name = data_type.name
+        for library in self.libraries:
+            declared = name in library.scope.index.names("types")
+            if declared and library.scope.find_type(name) is data_type:
+                return self.bodies(library).get(name)
+        return None
+
+    def read_settings(self, tables: Mapping[str, Table]) -> list[object]:
+        """Return the settings of libraries, for their blocks to find in the context.
+
+        Args:
+            tables: [library.NAME] by NAME.
+
+        Raises:
+            ConfigurationError: there is no such library, it has no settings, or they are wrong.
+        """
+        by_name = {library.name: library for library in self.libraries}
+        findings = Findings()
+        result: list[object] = []
+        for name, table in tables.items():
+            with findings.gathered():
+                if name not in by_name:
+                    hint = did_you_mean(name, by_name) or f"; there are {', '.join(by_name)}"
+                    raise table.error("", f"there is no such library{hint}")
+                kind = _settings_of(by_name[name])
+                if kind is None:
+                    raise table.error("", "this library has no settings")
+                result.append(table.read(kind))
+        findings.check()
+        return result
+
+
+def _settings_of(library: Library) -> type | None:
+    if not (library.folder / f"{SETTINGS}.py").is_file():
+        return None
+    module = import_module(f"{library.package}.{SETTINGS}")
+    found = [each for each in vars(module).values() if is_settings(each)]
+    own = [each for each in found if each.__module__ == module.__name__]
+    return own[0] if own else None

@@ -1,0 +1,77 @@
+"""The libraries that come with plcsim, and those of installed packages.
+
+A package brings a library by an entry point of the group ``plcsim.libraries``: its value is the
+Python package that is the library's folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from importlib.metadata import entry_points
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, overload
+
+from plcsim.core.errors import ConfigurationError
+from plcsim.library.library import Library, declaration_files
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from st_types.resolve.scope import Scope
+
+GROUP: Final = "plcsim.libraries"
+
+_OWN: Final = Path(__file__).parent
+
+
+class Scopes(Sequence["Scope"]):
+    """The scopes of libraries, which are read when a name is looked up in them."""
+
+    def __init__(self, libraries: Sequence[Library]) -> None:
+        self._libraries = libraries
+
+    @overload
+    def __getitem__(self, index: int) -> Scope: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Scope]: ...
+    def __getitem__(self, index: int | slice) -> Scope | Sequence[Scope]:
+        if isinstance(index, slice):
+            return [library.scope for library in self._libraries[index]]
+        return self._libraries[index].scope
+
+    def __len__(self) -> int:
+        return len(self._libraries)
+
+
+@cache
+def installed() -> Mapping[str, Library]:
+    """Return the installed libraries by their Python package; they see one another.
+
+    Raises:
+        ConfigurationError: a package names a folder that is not there.
+    """
+    libraries: list[Library] = []
+    for package, folder in (*_own(), *_of_packages()):
+        libraries.append(Library(folder, package, Scopes(libraries)))
+    return {library.package: library for library in libraries}
+
+
+def _own() -> Iterator[tuple[str, Path]]:
+    for folder in sorted(_OWN.iterdir()):
+        if folder.is_dir() and declaration_files(folder):
+            yield f"plcsim.library.{folder.name}", folder
+
+
+def _of_packages() -> Iterator[tuple[str, Path]]:
+    for entry in entry_points(group=GROUP):
+        try:
+            spec = find_spec(entry.value)
+        except ImportError as err:
+            raise ConfigurationError(f"entry point {GROUP}: {entry.name}: {err}") from None
+        if spec is None or not spec.submodule_search_locations:
+            raise ConfigurationError(
+                f"entry point {GROUP}: {entry.name}: there is no package {entry.value}"
+            )
+        yield entry.value, Path(spec.submodule_search_locations[0])
