@@ -20,6 +20,7 @@ ARGUMENTS = {
     "header": ["header"],
     "python": ["python"],
     "print": ["print"],
+    "library": ["library"],
 }
 
 
