@@ -188,10 +188,27 @@ def _if_expression(body: Body, node: ir.IfExpression) -> None:
 
 
 def _call(body: Body, node: ir.Call) -> None:
+    if node.function == "rt.string_compare":
+        _compare_strings(body, node)
+        return
     for argument in node.arguments:
         emit(body, argument)
     body.code += opcodes.CALL + uleb(body.indices[node.function])
     body.copies.forget_roots(body.effects.of_call(node))
+
+
+def _compare_strings(body: Body, node: ir.Call) -> None:
+    """Append a comparison that calls the helper only where the first characters are the same."""
+    left, right, difference = (uleb(body.scratch(opcodes.I32, slot)) for slot in range(3))
+    for argument in node.arguments:
+        emit(body, argument)
+    first = opcodes.I32_LOAD8_U + memarg()
+    body.code += opcodes.LOCAL_SET + right + opcodes.LOCAL_TEE + left + first
+    body.code += opcodes.LOCAL_GET + right + first + opcodes.I32_SUB + opcodes.LOCAL_TEE
+    body.code += difference + opcodes.IF + bytes([opcodes.I32])
+    body.code += opcodes.LOCAL_GET + difference + opcodes.ELSE
+    body.code += opcodes.LOCAL_GET + left + opcodes.LOCAL_GET + right
+    body.code += opcodes.CALL + uleb(body.indices[node.function]) + opcodes.END
 
 
 def _checked(body: Body, node: ir.Checked) -> None:

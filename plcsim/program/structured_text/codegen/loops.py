@@ -1,7 +1,8 @@
 """Loops: what they keep in locals, where they test for their end, and that they can be ended.
 
 A loop that begins with its exit test, as FOR and WHILE do, is turned: the test stands before the
-loop once, and at its end, so a pass takes one branch. Every pass polls the budget.
+loop once, and at its end, so a pass takes one branch. Every pass polls the budget; the smallest
+loops poll it once in two passes, and have their body twice for that.
 """
 
 from __future__ import annotations
@@ -44,6 +45,9 @@ MOST_PRELOADED: Final = 16
 MOST_TESTED: Final = 24
 """Nodes of an exit test that is written twice."""
 
+
+MOST_DOUBLED: Final = 80
+"""Nodes of the body of a loop that is written twice."""
 
 _BUDGET: Final = SYSTEM_AREA + BUDGET * CELL + CELL // 2
 """Address of the upper half of the budget: negative where the budget is."""
@@ -121,11 +125,16 @@ def _leaves(node: ir.Statement, label: int) -> bool:
 
 
 def _is_small(condition: ir.Expression) -> bool:
-    left_over, count = [condition], 0
+    return _is_below(MOST_TESTED, [condition], ir.Call, ir.StatementExpression)
+
+
+def _is_below(limit: int, parts: Sequence[ir.Expression | ir.Statement], *without: type) -> bool:
+    """Tell whether parts have at most so many nodes, and none of some kinds."""
+    left_over, count = [*parts], 0
     while left_over:
         node = left_over.pop()
         count += 1
-        if count > MOST_TESTED or type(node) in (ir.Call, ir.StatementExpression):
+        if count > limit or type(node) in without:
             return False
         left_over += PARTS[type(node)](node)
     return True
@@ -146,20 +155,36 @@ def _plain(body: Body, node: ir.Loop) -> None:
 
 
 def _turned(body: Body, node: ir.Loop, test: ir.Arm) -> None:
+    _leave_if(body, node, test)
+    head = _open_head(body, node)
+    _pass(body, node)
+    if body.reached and _is_below(MOST_DOUBLED, node.body, *_NOT_DOUBLED):
+        _leave_if(body, node, test)
+        _pass(body, node)
+    _repeat_unless(body, node, test, head)
+    body.close()
+
+
+_NOT_DOUBLED: Final = (ir.Call, ir.StatementExpression, ir.Loop, ir.Block, ir.Switch)
+
+
+def _leave_if(body: Body, node: ir.Loop, test: ir.Arm) -> None:
+    """Append a test that leaves the loop where it is true."""
     body.mark(test.line)
     emit(body, test.condition)
     exit_ = body.breaks[node.label]
     exit_.arrive(body.copies.fork())
     body.condition()
     body.branch(BR_IF, exit_.depth)
-    head = _open_head(body, node)
+
+
+def _pass(body: Body, node: ir.Loop) -> None:
+    """Append what follows the test; Continue leads behind it."""
     bottom = body.continues[node.label] = Label(body.open(BLOCK))
     body.statements(body, node.body[1:])
     bottom.arrive(body.copies.known)
     body.close()
     body.copies.known = bottom.known
-    _repeat_unless(body, node, test, head)
-    body.close()
 
 
 def _open_head(body: Body, node: ir.Loop) -> Label:

@@ -206,7 +206,22 @@ def test_without_budget_nothing_polls(compiled):
         compiled(program(*body), options=CodegenOptions(budget=budget), fuel=True).fuel_of()
         for budget in (True, False)
     )
-    assert with_ - without == 101 * 5
+    assert with_ - without == 51 * 5  # a loop as small as this one polls in every other pass
+
+
+@pytest.mark.parametrize("passes", [0, 1, 2, 3, 7])
+@pytest.mark.parametrize("size", [1, 30])
+def test_a_loop_that_is_written_twice_ends_in_each_pass(compiled, passes, size):
+    """Small bodies are; by the test, by EXIT in the middle, and with CONTINUE."""
+    skip = if_(is_(load(0), "eq", 2), [ir.Continue(1, 1)])
+    leave = if_(is_(load(0), "eq", load(64)), [ir.Break(1, 1)])
+    test = if_(is_(load(0), "ge_s", passes), [ir.Break(1, 1)])
+    body = [test, add(0, 1), *([add(4, load(0))] * size), skip, leave, add(8, 1)]
+    for stop in (0, 1, 2, 3):
+        machine = ran(compiled, ir.Loop(1, 1, body), start=bytes([stop]))
+        count = min(passes, stop) if stop and stop != 2 else passes
+        whole = sum(1 for one in range(1, count + 1) if one not in (2, stop))
+        assert words(machine, 0, 4, 8) == [count, size * sum(range(count + 1)), whole]
 
 
 def test_fuel_ends_an_endless_loop_at_the_same_place(compiled):
