@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import ctypes
+import itertools
 import subprocess
 from time import perf_counter_ns, process_time
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.program.structured_text.lower.memory import Area
+from plcsim.program.structured_text.lower.module import lower
 
 from plcsim.core.memory import Memory
 from plcsim.machine import CodeCache, Machine
@@ -15,8 +19,6 @@ from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.lower.memory import Area
-from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
@@ -28,9 +30,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from plcsim.program.structured_text.lower.semantics import Semantics
+
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from plcsim.program.structured_text.codegen.options import CodegenOptions
-    from plcsim.program.structured_text.lower.semantics import Semantics
 
 MOST_VARIABLES = 8 << 20
 """Bytes of PLC memory."""
@@ -103,11 +106,11 @@ def compile_text(text: Text, semantics: Semantics, options: CodegenOptions) -> C
     segment = ir.Segment("program", variables.size, variables.alignment)
     names = [member.name for member in variables.members]
     area = Area(segment, dict(zip(names, variables.offsets, strict=True)))
-    module = lower(program, {each: area for each in program.scopes}, semantics)
+    module = lower(program, dict.fromkeys(program.scopes, area), semantics)
     stamps.append(process_time())
     code = generate(module, options)
     stamps.append(process_time())
-    steps = [after - before for before, after in zip(stamps, stamps[1:], strict=False)]
+    steps = [after - before for before, after in itertools.pairwise(stamps)]
     return Compiled(code, variables, segment.name, Times(*steps))
 
 
