@@ -1,13 +1,16 @@
 """``plcsim report compare A B``: did programs get slower between two runs of the tests?
 
-Each repeat of a test gives one number: the median CPU time of a program's cycles, in runs of the
-calibration loop that ran between them. The repeats of A and B are compared by rank.
+Of compiled programs on the virtual clock the instructions are known exactly, and by line
+(`plcsim.cli.exact_costs`). Of others each repeat of a test gives one number: the median CPU time of
+a program's cycles, in runs of the calibration loop that ran between them; the repeats of A and B
+are compared by rank.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+from contextlib import contextmanager
 from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,12 +19,15 @@ from rich.table import Table
 from rich.text import Text
 
 from plcsim.cli.console import CommandConsole
+from plcsim.cli.exact_costs import costs_of, differences
 from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.rank_test import rank_test
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from plcsim.cli.exact_costs import Cost, Difference
 
 SCHEMA = "plcsim-test-report/1"
 FILE_NAME = "report.json"
@@ -104,13 +110,40 @@ def _share(text: str) -> float:
 
 def compare(options: argparse.Namespace) -> int:
     """Print the comparison and return the exit code."""
-    found = comparisons(read_samples(options.before), read_samples(options.after), options.smallest)
-    _print(found)
-    return ExitCode.SLOWER if any(c.worse for c in found) else ExitCode.DONE
+    reports = [read_report(path) for path in (options.before, options.after)]
+    before, after = (exact_costs(report) for report in reports)
+    exact = before.keys() & after.keys()
+    changed = differences(before, after, options.smallest)
+    a, b = (
+        {key: values for key, values in samples(report).items() if key not in exact}
+        for report in reports
+    )
+    found = comparisons(a, b, options.smallest) if a.keys() & b.keys() or not exact else []
+    console = CommandConsole()
+    for one in changed:
+        console.print(_sentence(one))
+    if found:
+        console.print(_table(found))
+    slower = sum(one.worse for one in changed) + sum(one.worse for one in found)
+    count = len(exact) + len(found)
+    console.print(f"{slower} of {count} got slower" if slower else "nothing got slower")
+    return ExitCode.SLOWER if slower else ExitCode.DONE
 
 
-def read_samples(path: Path) -> dict[Key, list[float]]:
-    """Return the medians of all repeats by test and program.
+class Report(NamedTuple):
+    """A report of tests.
+
+    Attributes:
+        file: that it was read from.
+        tests: of it.
+    """
+
+    file: Path
+    tests: Sequence[Mapping[str, Any]]
+
+
+def read_report(path: Path) -> Report:
+    """Return a report of ``--plc-report``.
 
     Raises:
         ConfigurationError: the report is missing or is none.
@@ -122,20 +155,44 @@ def read_samples(path: Path) -> dict[Key, list[float]]:
         raise ConfigurationError(f"{file}: cannot be read: {err}") from None
     if not isinstance(report, dict) or report.get("schema") != SCHEMA:
         raise ConfigurationError(f"{file}: is no report of --plc-report ({SCHEMA})")
+    if not isinstance(report.get("tests"), list):
+        raise ConfigurationError(f"{file}: is damaged: it has no tests")
+    return Report(file, report["tests"])
+
+
+def exact_costs(report: Report) -> dict[Key, Cost]:
+    """Return the instructions of all compiled programs by test and program.
+
+    Raises:
+        ConfigurationError: the report is damaged.
+    """
+    with _whole(report.file):
+        return costs_of(report.tests)
+
+
+def samples(report: Report) -> dict[Key, list[float]]:
+    """Return the medians of all repeats by test and program.
+
+    Raises:
+        ConfigurationError: the report is damaged.
+    """
+    found: dict[Key, list[float]] = {}
+    with _whole(report.file):
+        for test in report.tests:
+            for program in test["programs"]:
+                if test["outcome"] != "skipped" and program["median_in_loops"] > 0:
+                    key = test["group"], program["name"]
+                    found.setdefault(key, []).append(float(program["median_in_loops"]))
+    return found
+
+
+@contextmanager
+def _whole(file: Path) -> Iterator[None]:
+    """Tell what is missing in a report by the name of its file."""
     try:
-        return _samples(report["tests"])
-    except (KeyError, TypeError, AttributeError) as err:
+        yield
+    except (KeyError, TypeError, ValueError, AttributeError) as err:
         raise ConfigurationError(f"{file}: is damaged: {err!r}") from None
-
-
-def _samples(tests: Sequence[Mapping[str, Any]]) -> dict[Key, list[float]]:
-    samples: dict[Key, list[float]] = {}
-    for test in tests:
-        for program in test["programs"]:
-            if test["outcome"] != "skipped" and program["median_in_loops"] > 0:
-                key = test["group"], program["name"]
-                samples.setdefault(key, []).append(float(program["median_in_loops"]))
-    return samples
 
 
 def comparisons(
@@ -174,7 +231,7 @@ def _compare(
     return Comparison(*key, repeats, change, probability, probability < alarm_below)
 
 
-def _print(found: Sequence[Comparison]) -> None:
+def _table(found: Sequence[Comparison]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("test", "program", "repeats", "change", "p", ""):
         left = column in ("test", "program", "")
@@ -188,7 +245,21 @@ def _print(found: Sequence[Comparison]) -> None:
             f"{c.probability:.2g}",
             Text("slower", style="bold red") if c.worse else "",
         )
-    console = CommandConsole()
-    console.print(table)
-    worse = sum(c.worse for c in found)
-    console.print(f"{worse} of {len(found)} got slower" if worse else "nothing got slower")
+    return table
+
+
+def _sentence(one: Difference) -> Text:
+    """Return what changed of a compiled program: how much a cycle, and where."""
+    means = [cost.total / cost.cycles for cost in (one.before, one.after)]
+    places = [f"{r}: {_number(r.change / one.after.cycles, '+')}" for r in one.ranges]
+    where = "; " + ", ".join(places) if places else ""
+    text = (
+        f"{_number(means[1] - means[0], '+')} instructions a cycle in {one.program}, "
+        f"{_number(means[0])} -> {_number(means[1])}{where} ({one.test})"
+    )
+    return Text(text, style="bold red" if one.worse else "")
+
+
+def _number(value: float, sign: str = "") -> str:
+    """Return a number with its tenths, if it has some."""
+    return f"{value:{sign},.1f}".removesuffix(".0")

@@ -39,6 +39,8 @@ class Task:
         interrupt: ends the unit that runs: it raises CycleTimeViolation with the given reason, at
             once or as soon as it can. Called by a signal handler in the scan's own thread, and only
             while a unit of this task runs.
+        instructions: tells how many instructions of compiled code the controller's units have taken
+            so far, where they are counted; None where not, or where there is none in this task.
         execution: CPU time of CYCLIC, one entry per cycle.
         index: number among all tasks of the controller, in configured order.
     """
@@ -49,6 +51,7 @@ class Task:
         "execution",
         "fault_of",
         "index",
+        "instructions",
         "interrupt",
         "name",
         "units",
@@ -64,6 +67,7 @@ class Task:
         constants: Tag | None = None,
         fault_of: Callable[[BaseException], Fault],
         interrupt: Callable[[str], None],
+        instructions: Callable[[], int] | None = None,
     ) -> None:
         self.name = name
         self.variables = variables
@@ -72,6 +76,7 @@ class Task:
         self.cyclic = units[Unit.CYCLIC]
         self.fault_of = fault_of
         self.interrupt = interrupt
+        self.instructions = instructions
         self.execution = Histogram()
         self.index = 0
 

@@ -165,6 +165,7 @@ class Machine:
         self._cache = cache or default_cache()
         self._engine = engine_of(fuel=fuel, compare=compare)
         self._store = Store(self._engine, memory.system)
+        self._spent = 0
         if fuel:
             self._store.set_fuel(FUEL)
         space = AddressSpace(memory, compare=self._engine.compare)
@@ -253,16 +254,25 @@ class Machine:
         """
         if not self._engine.fuel:
             return function
-        set_fuel = self._store.set_fuel
+        fuel, set_fuel = self._store.fuel, self._store.set_fuel
 
         def run() -> None:
             set_fuel(UNIT_FUEL)
             try:
                 function()
             finally:
+                self._spent += UNIT_FUEL - fuel()
                 set_fuel(FUEL)
 
         return run
+
+    @property
+    def meter(self) -> Callable[[], int] | None:
+        """What tells the instructions of all units so far; None where they are not counted."""
+        return self._instructions if self._engine.fuel else None
+
+    def _instructions(self) -> int:
+        return self._spent
 
     def host_function(
         self, call: Callable[..., Any], params: str = "", results: str = ""

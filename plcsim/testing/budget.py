@@ -9,7 +9,9 @@ cycles: by its undisturbed runs, as the smallest costs are undisturbed too.
 
 from __future__ import annotations
 
+import re
 from math import ceil
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.core.duration import format_duration
@@ -34,10 +36,12 @@ class Budget(NamedTuple):
     Attributes:
         limits_ns: by the names of `QUANTILES`, for the reference machine.
         program: the program it is for, "" for all.
+        instructions: limits in instructions, likewise by the names of `QUANTILES`.
     """
 
     limits_ns: Mapping[str, int]
     program: str = ""
+    instructions: Mapping[str, int] = MappingProxyType({})
 
 
 class Breach(NamedTuple):
@@ -85,7 +89,8 @@ def budget_of(given: Mapping[str, Any]) -> Budget:
     """Return the budget of a marker's keyword arguments.
 
     Raises:
-        PlcTestError: a limit is unknown or no duration, or there is none.
+        PlcTestError: a limit is unknown, neither a duration nor a number of instructions, or there
+            is none.
     """
     limits = dict(given)
     program = str(limits.pop("program", ""))
@@ -94,14 +99,30 @@ def budget_of(given: Mapping[str, Any]) -> Budget:
         raise PlcTestError(
             f"cycle_budget: {unknown[0] if unknown else 'no limit'}: give one of "
             f'{", ".join(QUANTILES)}, such as cycle_budget(p99="200us")'
+            ' or cycle_budget(worst="12_000 instructions")'
         )
-    spans_ns = {name: duration_ns(span, f"cycle_budget: {name}") for name, span in limits.items()}
-    return Budget(spans_ns, program)
+    counts = {name: _instructions_of(limit) for name, limit in limits.items()}
+    spans_ns = {
+        name: duration_ns(span, f"cycle_budget: {name}")
+        for name, span in limits.items()
+        if counts[name] is None
+    }
+    exact = {name: count for name, count in counts.items() if count is not None}
+    return Budget(spans_ns, program, exact)
 
 
-def quantile_ns(ordered_ns: Sequence[int], quantile: float) -> int:
-    """Return the smallest of ascending durations that ``quantile`` of them do not exceed."""
-    return ordered_ns[max(0, ceil(quantile * len(ordered_ns)) - 1)]
+_INSTRUCTIONS = re.compile(r"(\d[\d_]*) instructions?")
+
+
+def _instructions_of(limit: object) -> int | None:
+    """Return the number in "12_000 instructions", None for another limit."""
+    found = _INSTRUCTIONS.fullmatch(limit.strip()) if isinstance(limit, str) else None
+    return int(found[1]) if found else None
+
+
+def quantile_of(ordered: Sequence[int], quantile: float) -> int:
+    """Return the smallest of ascending costs that ``quantile`` of them do not exceed."""
+    return ordered[max(0, ceil(quantile * len(ordered)) - 1)]
 
 
 def breaches(budget: Budget, measured: Measurement, reference_ns: int) -> list[Breach]:
@@ -113,11 +134,11 @@ def breaches(budget: Budget, measured: Measurement, reference_ns: int) -> list[B
     """
     factor = slowness(measured.calibration_ns, reference_ns)
     found: list[Breach] = []
-    for program in _programs(budget, measured):
+    for program in _programs(budget, measured) if budget.limits_ns else ():
         ordered_ns = sorted(measured.costs_ns[program])
         for name, limit_ns in budget.limits_ns.items():
-            _check_count(name, program, len(ordered_ns))
-            seen_ns = round(quantile_ns(ordered_ns, QUANTILES[name]) / factor)
+            check_count(name, program, len(ordered_ns))
+            seen_ns = round(quantile_of(ordered_ns, QUANTILES[name]) / factor)
             if seen_ns > limit_ns:
                 found.append(Breach(program, name, seen_ns, limit_ns))
     return found
@@ -131,12 +152,11 @@ def _programs(budget: Budget, measured: Measurement) -> list[str]:
     return names
 
 
-def _check_count(name: str, program: str, count: int) -> None:
+def check_count(name: str, program: str, count: int, who: str = "cycle_budget") -> None:
+    """Raise PlcTestError where a program ran too few cycles for a percentile."""
     needed = 1 if name == "worst" else round(1 / (1 - QUANTILES[name]))
     if count < needed:
-        raise PlcTestError(
-            f"cycle_budget: {name} needs {needed} cycles at least; {program} ran {count}"
-        )
+        raise PlcTestError(f"{who}: {name} needs {needed} cycles at least; {program} ran {count}")
 
 
 def describe_breaches(found: Sequence[Breach], measured: Measurement, reference_ns: int) -> str:

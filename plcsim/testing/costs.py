@@ -1,7 +1,8 @@
-"""What programs cost: the CPU time of the host, measured, and the time they take, planned.
+"""What programs cost: CPU time of the host and instructions, measured, and time, planned.
 
 On the virtual clock a cycle takes no time unless a test says what it costs. The CPU time that the
 host needed for it is measured beside that and never reaches the clock, so a run stays repeatable.
+Of compiled programs the instructions are counted there, exactly and alike on every machine.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from plcsim.core.controller import Controller
+    from plcsim.core.task import Task
 
 __tracebackhide__ = True
 
@@ -28,11 +30,15 @@ class Costs:
 
     Attributes:
         measured_ns: CPU time of each CYCLIC, one list a program, in the order of cycles.
+        instructions: of each CYCLIC, likewise, of programs in which they are counted.
         total_ns: sum of all of them.
     """
 
     def __init__(self, controller: Controller) -> None:
         self.measured_ns: dict[str, list[int]] = {task.name: [] for task in controller.tasks}
+        self.instructions: dict[str, list[int]] = {
+            task.name: [] for task in controller.tasks if task.instructions
+        }
         self.total_ns = 0
         self._clock = controller.clock
         self._count = dict.fromkeys(self.measured_ns, 0)
@@ -40,7 +46,10 @@ class Costs:
         self._planned: dict[tuple[str, int], int] = {}
         self._names = {task.name.upper(): task.name for task in controller.tasks}
         for task in controller.tasks:
-            task.cyclic = partial(self._run, task.name, task.cyclic, self.measured_ns[task.name])
+            cyclic = task.cyclic
+            if task.instructions:
+                cyclic = partial(self._count_instructions, task, cyclic)
+            task.cyclic = partial(self._run, task.name, cyclic, self.measured_ns[task.name])
 
     def restart(self) -> None:
         """Count cycles from 1 again."""
@@ -75,6 +84,14 @@ class Costs:
             used_ns = thread_time_ns() - begin_ns
             measured_ns.append(used_ns)
             self.total_ns += used_ns
+
+    def _count_instructions(self, task: Task, cyclic: Callable[[], None]) -> None:
+        assert task.instructions is not None
+        before = task.instructions()
+        try:
+            cyclic()
+        finally:
+            self.instructions[task.name].append(task.instructions() - before)
 
     def _spend(self, name: str, cycle: int) -> None:
         cost_ns = self._planned.get((name, cycle), self._always.get(name, 0))

@@ -218,7 +218,26 @@ def _programs(programs: Sequence[dict[str, Any]]) -> str:
         f"max {format_duration(p['cpu_ns']['maximum'])}</figcaption></figure>"
         for p in programs
     )
-    return f'<h3>Execution time</h3><div class="charts">{charts}</div>'
+    return f'<h3>Execution time</h3><div class="charts">{charts}</div>{_instructions(programs)}'
+
+
+def _with_commas(number: int) -> str:
+    return f"{number:,}"
+
+
+def _instructions(programs: Sequence[dict[str, Any]]) -> str:
+    """Return what compiled programs cost, exactly."""
+    counted = [(p["name"], p["cycles"], p["instructions"]) for p in programs if p["instructions"]]
+    if not counted:
+        return ""
+    charts = "".join(
+        f"<figure>{histogram([tuple(b) for b in i['histogram']], text_of=_with_commas)}"
+        f"<figcaption>{escape(name)}: instructions of {cycles} cycles, p50 {i['p50']:,}, "
+        f"p99 {i['p99']:,}, max {i['maximum']:,} in cycle {i['maximum_cycle']:,}</figcaption>"
+        "</figure>"
+        for name, cycles, i in counted
+    )
+    return f'<h3>Instructions</h3><div class="charts">{charts}</div>'
 
 
 def _violations(violations: Sequence[dict[str, Any]]) -> str:

@@ -20,6 +20,7 @@ from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError
 from plcsim.testing.expectations import Expectations
 from plcsim.testing.history import History
 from plcsim.testing.image import SharedImage
+from plcsim.testing.instructions import exceeded
 from plcsim.testing.interleavings import Interleaving, interleavings
 from plcsim.testing.tags import Tags
 from plcsim.testing.times import duration_ns
@@ -270,6 +271,26 @@ class Plc(World, Expectations):
             PlcTestError: there is no such program, or the clock is the real one.
         """
         self.costs.plan(program, duration_ns(duration, "cost"), cycle)
+
+    def assert_cost(self, program: str, **limits: int) -> None:
+        """Require that a compiled program has taken no more instructions in its cycles so far.
+
+        ::
+
+            plc.assert_cost("conveyor", worst=12_000, p99=9_000)
+
+        Args:
+            program: its name.
+            limits: instructions of CYCLIC, by ``p50``, ``p90``, ``p99``, ``p999``, ``worst``.
+
+        Raises:
+            ExpectationFailed: one does not hold.
+            PlcTestError: the instructions of this program are not counted, a limit is unknown, or
+                too few cycles have run for it.
+        """
+        over = exceeded(self.costs.instructions, limits, program, "assert_cost")
+        if over:
+            raise ExpectationFailed("; ".join(over))
 
     def always(self, condition: Given) -> None:
         """Require a condition after every cycle from now on.

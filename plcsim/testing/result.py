@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from plcsim.core.statistics import Histogram
 from plcsim.process.report import class_report, fault_report, violation_report
 from plcsim.testing.costs import overhead_ns
+from plcsim.testing.instructions import summary_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -65,6 +66,7 @@ def result_of(
         "task_classes": [class_report(c) for c in plc.controller.classes],
         "programs": [
             _program(name, costs_ns, own_ns, loop_ns)
+            | {"instructions": _instructions(plc.costs.instructions.get(name))}
             for name, costs_ns in plc.costs.measured_ns.items()
             if costs_ns
         ],
@@ -127,6 +129,11 @@ def _program(name: str, costs_ns: list[int], own_ns: int, loop_ns: int) -> dict[
     }
 
 
+def _instructions(counted: list[int] | None) -> dict[str, Any] | None:
+    """Return the instructions of a program's cycles, None where they are not counted."""
+    return summary_of(counted) if counted else None
+
+
 def properties_of(result: dict[str, Any]) -> list[tuple[str, object]]:
     """Return the figures of a result as JUnit properties."""
     properties: list[tuple[str, object]] = [
@@ -150,4 +157,6 @@ def properties_of(result: dict[str, Any]) -> list[tuple[str, object]]:
             (f"{name}.cpu_p50_ns", program["cpu_ns"]["p50"]),
             (f"{name}.cpu_p99_ns", program["cpu_ns"]["p99"]),
         ]
+        if program["instructions"]:
+            properties.append((f"{name}.instructions_max", program["instructions"]["maximum"]))
     return properties

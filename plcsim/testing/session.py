@@ -26,6 +26,7 @@ from plcsim.testing.calibration import REFERENCE_NS, Calibration
 from plcsim.testing.costs import overhead_ns
 from plcsim.testing.errors import ExpectationFailed, PlcTestError
 from plcsim.testing.html_report import ReportWriter
+from plcsim.testing.instructions import exceeded
 from plcsim.testing.plc import Plc
 from plcsim.testing.realtime import Verdict, figures, judge
 from plcsim.testing.result import EXPLANATION, properties_of, result_of
@@ -183,8 +184,9 @@ def run_with_budget(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
         reports = runtestprotocol(item, nextitem=nextitem, log=False)
         if not all(report.passed for report in reports):
             break
-        verdict = _judge_budget(item, measured)
-        if not verdict:
+        exact = _judge_instructions(item)
+        verdict = exact or _judge_budget(item, measured)
+        if exact or not verdict:
             break
     for report in reports:
         if report.when == "call" and report.passed and verdict:
@@ -192,6 +194,25 @@ def run_with_budget(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
         item.ihook.pytest_runtest_logreport(report=report)
     item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
     return True
+
+
+def _judge_instructions(item: pytest.Item) -> str:
+    """Return why a budget in instructions does not hold, "" where all do: they need one run."""
+    plc = item.stash.get(PLC, None)
+    if plc is None:
+        return ""
+    try:
+        budgets = [budget_of(marker.kwargs) for marker in item.iter_markers("cycle_budget")]
+        counted = plc.costs.instructions
+        found = [
+            text
+            for budget in budgets
+            if budget.instructions
+            for text in exceeded(counted, budget.instructions, budget.program, "cycle_budget")
+        ]
+    except PlcTestError as err:
+        return str(err)
+    return "\n".join(found)
 
 
 def _judge_budget(item: pytest.Item, measured: Measurement) -> str:

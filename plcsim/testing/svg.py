@@ -9,7 +9,7 @@ from plcsim.core.duration import format_duration
 from plcsim.testing.values import is_number, printable, text_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from plcsim.core.tag import Tag
 
@@ -192,14 +192,18 @@ def _bus(tag: Tag, changes: Changes, scale: _Scale, y: float) -> list[str]:
 
 
 def histogram(
-    buckets: Sequence[tuple[int, int]], limit_ns: int | None = None, width: int = 360
+    buckets: Sequence[tuple[int, int]],
+    limit_ns: int | None = None,
+    width: int = 360,
+    text_of: Callable[[int], str] = format_duration,
 ) -> str:
-    """Return a histogram of durations on a logarithmic scale.
+    """Return a histogram of durations, or of other numbers, on a logarithmic scale.
 
     Args:
         buckets: (upper end in nanoseconds, count), ascending, empty ones left out.
         limit_ns: drawn as a dashed line.
         width: pixels.
+        text_of: gives the text of a number on the axis.
     """
     bars = _log_bars(buckets)
     height, left, bottom = 96, 10, 74
@@ -215,7 +219,7 @@ def histogram(
             f'<rect class="bar" x="{x:.1f}" y="{bottom - size:.1f}" '
             f'width="{max(1.0, step - 1):.1f}" height="{size:.1f}"/>'
         )
-    parts += _duration_axis(low, max(count, 8), left, width - left, bottom + 14)
+    parts += _number_axis(low, max(count, 8), (left, width - left, bottom + 14), text_of)
     if limit_ns:
         x = left + (_place(limit_ns) - low) * step
         if left <= x <= width - left:
@@ -226,13 +230,16 @@ def histogram(
     return document(width, height, "\n".join(parts))
 
 
-def _duration_axis(low: int, bars: int, left: float, right: float, y: float) -> list[str]:
+def _number_axis(
+    low: int, bars: int, place: tuple[float, float, float], text_of: Callable[[int], str]
+) -> list[str]:
     """Return the labels below the bars: at both ends and between."""
+    left, right, y = place
     anchors = ("start", "middle", "middle", "middle", "end")
     parts = []
     for quarter, anchor in enumerate(anchors):
         x = left + (right - left) * quarter / 4
-        text = _two_digits(2 ** ((low + bars * quarter / 4) / 4))
+        text = text_of(_two_digits(2 ** ((low + bars * quarter / 4) / 4)))
         parts.append(label(round(x, 1), y, text, "soft", anchor))
     return parts
 
@@ -253,7 +260,7 @@ def _log_bars(buckets: Sequence[tuple[int, int]]) -> dict[int, int]:
     return bars
 
 
-def _two_digits(duration_ns: float) -> str:
-    """Return a duration to two digits."""
-    whole = round(duration_ns)
-    return format_duration(round(whole, 2 - len(str(whole))))
+def _two_digits(number: float) -> int:
+    """Return a number rounded to two digits."""
+    whole = round(number)
+    return round(whole, 2 - len(str(whole)))

@@ -73,7 +73,14 @@ class CCode:
         def fault_of(error: BaseException) -> Fault:
             return _fault(module, error)
 
-        return Task(name, variables, units, fault_of=fault_of, interrupt=_interrupt)
+        return Task(
+            name,
+            variables,
+            units,
+            fault_of=fault_of,
+            interrupt=_interrupt,
+            instructions=site.machine.meter,
+        )
 
 
 class _Surroundings:

@@ -6,7 +6,8 @@ from random import Random
 import pytest
 
 from plcsim.cli.main import main
-from plcsim.cli.report import FALSE_ALARMS, comparisons, read_samples
+from plcsim.cli.report import FALSE_ALARMS, comparisons, exact_costs, read_report
+from plcsim.cli.report import samples as samples_of
 from plcsim.core.errors import ConfigurationError
 
 
@@ -87,7 +88,7 @@ def test_the_command_is_a_gate(tmp_path, capsys):
         ("{", "cannot be read"),
         ("[]", "is no report of --plc-report"),
         ('{"schema": "plcsim-report/1"}', "is no report"),
-        ('{"schema": "plcsim-test-report/1"}', "is damaged: KeyError('tests')"),
+        ('{"schema": "plcsim-test-report/1"}', "is damaged: it has no tests"),
         ('{"schema": "plcsim-test-report/1", "tests": [{}]}', "is damaged"),
         ('{"schema": "plcsim-test-report/1", "tests": [3]}', "is damaged"),
     ],
@@ -95,10 +96,11 @@ def test_the_command_is_a_gate(tmp_path, capsys):
 def test_wrong_files_are_named(tmp_path, content, text):
     file = tmp_path / "report.json"
     file.write_text(content)
-    with pytest.raises(ConfigurationError) as caught:
-        read_samples(file)
-    assert text in str(caught.value)
-    assert str(file) in str(caught.value)
+    for read in (samples_of, exact_costs):
+        with pytest.raises(ConfigurationError) as caught:
+            read(read_report(file))
+        assert text in str(caught.value)
+        assert str(file) in str(caught.value)
 
 
 def test_a_missing_report(tmp_path, capsys):
@@ -112,3 +114,54 @@ def test_a_wrong_share_is_wrong_usage(capsys, share):
         main(["report", "compare", "a", "b", f"--smallest={share}"])
     assert ended.value.code == 2
     assert f"'{share}' is no share such as 0.1" in capsys.readouterr().err
+
+
+def exact(folder, *tests):
+    """A report of compiled programs: (program, cycles, total, lines) of each test."""
+    folder.mkdir()
+    rows = [
+        {
+            "group": f"test_{program}",
+            "outcome": "passed",
+            "programs": [
+                {
+                    "name": program,
+                    "cycles": cycles,
+                    "median_in_loops": 0.5,
+                    "instructions": {"total": total, "maximum": total // cycles},
+                }
+            ],
+            "lines": {"Main.st": lines},
+        }
+        for program, cycles, total, lines in tests
+    ]
+    content = {"schema": "plcsim-test-report/1", "tests": rows}
+    (folder / "report.json").write_text(json.dumps(content))
+    return str(folder)
+
+
+LINES = [[47, 100, "a := 1;"], [48, 100, "b := 2;"], [60, 900, "c := 3;"], [61, 90, "d := 4;"]]
+
+
+def test_instructions_need_no_repeats(tmp_path, capsys):
+    dearer = [*LINES[:1], [48, 200, "b := 2;"], [60, 3920, "c := 3;"], *LINES[3:]]
+    before = exact(tmp_path / "a", ("conveyor", 10, 1190, LINES))
+    after = exact(tmp_path / "b", ("conveyor", 10, 4310, dearer))
+    assert main(["report", "compare", before, after]) == 4
+    out = " ".join(capsys.readouterr().out.split())
+    assert "+312 instructions a cycle in conveyor, 119 -> 431; Main.st line 48 to 60: +312" in out
+    assert "1 of 1 got slower" in out
+    assert main(["report", "compare", before, before]) == 0
+    assert capsys.readouterr().out == "nothing got slower\n"
+    assert main(["report", "compare", after, before]) == 0
+    assert "-312 instructions a cycle" in capsys.readouterr().out
+
+
+def test_a_growth_below_the_smallest_is_told_but_no_alarm(tmp_path, capsys):
+    before = exact(tmp_path / "a", ("conveyor", 10, 1000, []))
+    after = exact(tmp_path / "b", ("conveyor", 10, 1035, []))
+    assert main(["report", "compare", before, after]) == 0
+    assert "+3.5 instructions a cycle in conveyor, 100 -> 103.5 (test_conveyor)" in (
+        " ".join(capsys.readouterr().out.split())
+    )
+    assert main(["report", "compare", "--smallest", "0", before, after]) == 4

@@ -10,7 +10,7 @@ from plcsim.testing.budget import (
     breaches,
     budget_of,
     describe_breaches,
-    quantile_ns,
+    quantile_of,
 )
 
 pytest_plugins = ["pytester"]
@@ -31,9 +31,16 @@ def test_a_marker_gives_the_limits():
     )
 
 
+def test_a_limit_may_be_a_number_of_instructions():
+    given = {"p50": "1us", "p99": "12_000 instructions", "worst": "1 instruction"}
+    assert budget_of(given) == Budget({"p50": 1000}, "", {"p99": 12_000, "worst": 1})
+    assert breaches(budget_of({"worst": "1 instruction"}), measured([5]), REFERENCE_NS) == []
+
+
 @pytest.mark.parametrize(
     ("given", "text"),
     [
+        ({"worst": "many instructions"}, "cycle_budget: worst: 'many instructions' is not a durat"),
         ({}, "no limit: give one of p50"),
         ({"p98": "1ms"}, "p98: give one of"),
         ({"p99": "fast"}, "cycle_budget: p99: 'fast' is not a duration"),
@@ -45,8 +52,8 @@ def test_wrong_markers_are_named(given, text):
 
 
 def test_a_quantile_is_the_smallest_value_that_enough_do_not_exceed():
-    assert [quantile_ns(range(1, 101), q) for q in (0.5, 0.99, 1.0)] == [50, 99, 100]
-    assert quantile_ns([7], 0.5) == 7
+    assert [quantile_of(range(1, 101), q) for q in (0.5, 0.99, 1.0)] == [50, 99, 100]
+    assert quantile_of([7], 0.5) == 7
 
 
 def test_a_disturbance_in_one_run_does_not_count():

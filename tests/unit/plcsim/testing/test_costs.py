@@ -2,7 +2,11 @@
 
 import gc
 
-from plcsim.testing.costs import garbage_held, overhead_ns
+import pytest
+
+from plcsim.testing import PlcTestError
+from plcsim.testing.costs import Costs, garbage_held, overhead_ns
+from plcsim.testing.errors import ExpectationFailed
 
 
 def test_each_cycle_is_measured(cell_plc):
@@ -48,3 +52,31 @@ def test_garbage_is_held_inside_and_as_before_outside():
     with garbage_held():
         assert not gc.isenabled()
     assert gc.isenabled() == before
+
+
+def test_instructions_of_each_cycle_are_those_counted_while_it_ran(cell_plc):
+    """A compiled program, as far as costs are concerned: one that counts."""
+    counted = [1000]
+    (task,) = cell_plc.controller.tasks
+    cyclic, task.instructions = task.cyclic, lambda: counted[0]
+
+    def compiled():
+        counted[0] += 10 * len(counted)
+        counted.append(0)
+        cyclic()
+
+    task.cyclic = compiled
+    cell_plc.costs = Costs(cell_plc.controller)
+    counted[0] += 5  # INIT, or another program
+    cell_plc.cycles(3)
+    assert cell_plc.costs.instructions == {"Cell": [10, 20, 30]}
+    cell_plc.assert_cost("cell", worst=30, p50=20)
+    with pytest.raises(ExpectationFailed, match="worst of 3 cycles is 30 instructions"):
+        cell_plc.assert_cost("cell", worst=29)
+
+
+def test_programs_in_python_have_no_instructions(cell_plc):
+    cell_plc.cycles(2)
+    assert cell_plc.costs.instructions == {}
+    with pytest.raises(PlcTestError, match="assert_cost: no instructions are counted of cell"):
+        cell_plc.assert_cost("cell", worst=5)
