@@ -8,9 +8,6 @@ import subprocess
 from time import perf_counter_ns, process_time
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from plcsim.program.structured_text.lower.memory import Area
-from plcsim.program.structured_text.lower.module import lower
-
 from plcsim.core.memory import Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.machine import opcodes as op
@@ -19,6 +16,8 @@ from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
+from plcsim.program.structured_text.lower.memory import Area
+from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
@@ -30,10 +29,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.program.structured_text.lower.semantics import Semantics
-
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from plcsim.program.structured_text.codegen.options import CodegenOptions
+    from plcsim.program.structured_text.lower.semantics import Semantics
 
 MOST_VARIABLES = 8 << 20
 """Bytes of PLC memory."""

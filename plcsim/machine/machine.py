@@ -23,6 +23,7 @@ from plcsim.machine.encoder import ModuleWriter, sleb
 from plcsim.machine.engine import Code, Type, default_cache, engine_of, offered
 from plcsim.machine.errors import MachineError
 from plcsim.machine.opcodes import I32, I32_CONST
+from plcsim.machine.signals import keep_handlers
 from plcsim.machine.store import Store
 
 if TYPE_CHECKING:
@@ -164,6 +165,7 @@ class Machine:
         self.memory = memory
         self._cache = cache or default_cache()
         self._engine = engine_of(fuel=fuel, compare=compare)
+        keep_handlers()
         self._store = Store(self._engine, memory.system)
         self._spent = 0
         if fuel:

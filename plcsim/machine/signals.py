@@ -1,0 +1,32 @@
+"""The signal handlers by which traps come, kept where others take them away.
+
+wasmtime sets them once a process. Python's faulthandler, when it is switched off, sets back what
+was there before it; a test run inside a test run does that. The next trap would end the process.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import signal
+
+_SIGNALS = (signal.SIGSEGV, signal.SIGILL, signal.SIGFPE, signal.SIGBUS)
+
+_SIZE = 256
+"""Bytes; a struct sigaction is smaller on every system."""
+
+_kept: dict[int, ctypes.Array[ctypes.c_char]] = {}
+
+
+def keep_handlers() -> None:
+    """Remember the handlers that are set at the first call; set them again at later ones."""
+    for number in _SIGNALS:
+        now = ctypes.create_string_buffer(_SIZE)
+        _sigaction(number, None, now)
+        kept = _kept.setdefault(number, now)
+        if kept.raw != now.raw:
+            _sigaction(number, kept, None)
+
+
+def _sigaction(number: int, new: object, old: object) -> None:
+    if ctypes.CDLL(None, use_errno=True).sigaction(number, new, old):
+        raise OSError(ctypes.get_errno(), f"sigaction of signal {number}")
