@@ -169,7 +169,9 @@ EXPLANATIONS: Final[dict[Code, Explanation]] = {
     ),
     Code.NO_MEMBERS: Explanation(
         "This has no members",
-        "Only a STRUCT, an instance of a function block, or a reference to one has members.",
+        "Only a STRUCT, an instance of a function block, or a reference to one has members. An "
+        "integer has bits: `a.3`, or `a.ALARM` where `ALARM` is a constant or a value of an "
+        "enumeration.",
         "a := b.c;",
     ),
     Code.WRONG_LABEL: Explanation(

@@ -125,7 +125,9 @@ class ExpressionChecker:
         if data_type is VOID:
             return NOTHING
         if name.isdecimal() or name[:2].upper() == "%X":
-            return self._bit(node, value)
+            return self._bit(node, value, int(name.removeprefix("%").lstrip("xX")))
+        if kind_of(data_type) is Kind.INTEGER:
+            return self._named_bit(node, value)
         message = f"{data_type} has no members"
         self.error(node, Code.NO_MEMBERS, message, _pointer_hint(data_type))
         return NOTHING
@@ -171,8 +173,16 @@ class ExpressionChecker:
         member, offset = data_type.find(name)
         return followed(Member(plain(member.data_type), value, offset))
 
-    def _bit(self, node: syntax.MemberAccess, value: Value) -> Value:
-        number = int(node.name.removeprefix("%").lstrip("xX"))
+    def _named_bit(self, node: syntax.MemberAccess, value: Value) -> Value:
+        """Check ``x.ALARM``: the bit whose number is a constant or a value of an enumeration."""
+        constant = self.names.value(syntax.Name(node.at, node.name))
+        if type(constant) is Constant and kind_of(constant.type) is Kind.INTEGER:
+            return self._bit(node, value, int(constant.value))
+        message = f"{value.type} has no members, and no constant is called {node.name}"
+        self.error(node, Code.NO_MEMBERS, message, _pointer_hint(value.type))
+        return NOTHING
+
+    def _bit(self, node: syntax.MemberAccess, value: Value, number: int) -> Value:
         kind = kind_of(value.type)
         if kind is Kind.BOOL and number == 0:
             return value
@@ -181,7 +191,7 @@ class ExpressionChecker:
             self.error(node, Code.WRONG_BIT, message)
             return NOTHING
         bits = 8 * value.type.size
-        if number >= bits:
+        if not 0 <= number < bits:
             self.error(node, Code.WRONG_BIT, f"{value.type} has the bits 0 to {bits - 1}")
             return NOTHING
         return Bit(BOOL, value, number)

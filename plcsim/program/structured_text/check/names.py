@@ -129,11 +129,15 @@ class Names:
         return self._variable(node, entry)
 
     def _hit(self, name: str) -> Hit | None:
-        """Look a name up among variables and values of enumerations, in its own case first."""
-        for space in _SPACES:
-            entry = self.scope.exact(space, name)
-            if entry is not None:
-                return Hit(name, entry)
+        """Look a name up among variables and values of enumerations, in its own case first.
+
+        The nearest scope has it: an enumeration of a program hides a variable of the project.
+        """
+        for scope in self.scope.chain:
+            for space in _SPACES:
+                entry = scope.index.names(space).get(name)
+                if entry is not None:
+                    return Hit(name, entry)
         found = (self.scope.lookup(space, name) for space in _SPACES)
         return next((hit for hit in found if hit is not None), None)
 

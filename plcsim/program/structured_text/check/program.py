@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.check import typed
@@ -282,7 +282,7 @@ class _ProgramChecker:
         names = Names(owner.scope, self.symbols, findings)
         names.values = self._values.setdefault(owner.scope, {})
         result = self._result(job, names)
-        checker = StatementChecker(names, findings, owner.actions)
+        checker = StatementChecker(names, findings, self._callable(owner))
         line = findings.line(job.unit)
         statements = checker.statements(job.nodes)
         body = typed.Body(job.name, job.kind, job.file.path, line, statements, owner.block)
@@ -291,11 +291,29 @@ class _ProgramChecker:
             body.parameters, body.locals = self._variables(owner.scope)
         into.append(body)
         job.body, job.calls = body, checker.called_functions
-        called = [owner.actions[name] for name in checker.called_actions]
+        called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
         found = [action for action in called if not action.is_needed]
         for action in found:
             action.is_needed = True
         return found
+
+    def _callable(self, owner: _Owner) -> Mapping[str, _Job]:
+        """Return the actions that bodies can call.
+
+        In a library those of a function block may stand in a file of their own: they belong to
+        each block that calls them.
+        """
+        if owner.block is None or any(job.kind == "unit" for job in self._jobs):
+            return owner.actions
+        return {**self._program.actions, **owner.actions}
+
+    def _action_of(self, owner: _Owner, name: str) -> _Job:
+        """Return an action of an owner, which becomes its own if it stands in another file."""
+        if name not in owner.actions:
+            job = self._program.actions[name]
+            job.is_needed = True
+            owner.actions[name] = replace(job, owner=owner, is_needed=False, calls=set())
+        return owner.actions[name]
 
     @staticmethod
     def _result(job: _Job, names: Names) -> typed.Symbol | None:
