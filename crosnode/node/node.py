@@ -44,6 +44,9 @@ if TYPE_CHECKING:
 Role = TypeVar("Role", Publisher, Subscriber, ServiceProvider)
 
 STATUSES: Final = 200
+SHORTAGE_NS: Final = 10_000_000_000
+"""Nanoseconds in which it is told at most once that no ident is free."""
+
 CLOSING_NS: Final = 3_000_000_000
 """Nanoseconds that ``close`` gives the master to take the registrations back, as in cROS."""
 
@@ -96,6 +99,8 @@ class CrosNode:
         self.is_shut_down = False
         self.is_closed = False
         self._closing_ns: int | None = None
+        self._shortages = 0
+        self._next_shortage_ns = 0
         self._context = context
         self._names = settings.names
         self._open(settings.master_uri)
@@ -375,8 +380,19 @@ class CrosNode:
         core.master.step(now_ns)
         core.api.step(now_ns, budget)
         core.loop.step_new(now_ns, budget)
+        if core.loop.pool.shortages != self._shortages:
+            self._tell_shortage(now_ns)
         if self.is_shut_down:
             self._go_on_closing(now_ns)
+
+    def _tell_shortage(self, now_ns: int) -> None:
+        """Tell that AsTCP had no ident, but not in every step."""
+        pool = self.core.loop.pool
+        self._shortages = pool.shortages
+        if now_ns >= self._next_shortage_ns:
+            self._next_shortage_ns = now_ns + SHORTAGE_NS
+            text = f"all {pool.idents} are in use; [library.AsTCP] idents says how many there are"
+            self.core.tell(StatusKind.NO_IDENT, self.name, text)
 
     def pop_status(self) -> Status | None:
         """Return the oldest news, None where there is none."""

@@ -26,6 +26,8 @@ class StatusKind(Enum):
     """The master knows another node under this name."""
     SHUTDOWN = auto()
     """Another node, the master or ``rosnode kill`` asked this node to end."""
+    NO_IDENT = auto()
+    """AsTCP had no ident free for a connection; told once in ten seconds at most."""
 
 
 class Status(NamedTuple):

@@ -13,7 +13,7 @@ from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.ros_time import Epoch
 from crosnode.plc.bridge import Bridge
-from crosnode.plc.master_watch import MasterWatch
+from crosnode.plc.node_watch import NodeWatch
 from crosnode.plc.project import MASTER_IP, RosContext, surroundings
 from crosnode.plc.settings import RosSettings, read_settings
 from plcsim.core.errors import ConfigurationError, Findings
@@ -92,7 +92,7 @@ class RosExtension(Extension):
             step.bridge()  # its types are compiled before the first cycle
             controller.image.inputs.append(step.latch)
             controller.image.watchers.append(step.publish)
-        controller.image.watchers.append(_NowAndThen(controller, first, _watch_masters))
+        controller.image.watchers.append(_NowAndThen(controller, first, _watch_nodes))
         return Attachment(_for_service(settings))
 
     def check(self, settings: RosSettings, controller: Controller) -> list[str]:
@@ -160,10 +160,10 @@ class _NowAndThen:
             self._act(self._controller)
 
 
-def _watch_masters(controller: Controller) -> None:
+def _watch_nodes(controller: Controller) -> None:
     """Tell whether the nodes of the programs have their master."""
     context = controller.context
-    for severity, text in context.library(MasterWatch).look(context.release_ns):
+    for severity, text in context.library(NodeWatch).look(context.release_ns):
         controller.log(severity, "ros", text)
 
 

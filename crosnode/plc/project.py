@@ -15,7 +15,7 @@ from crosnode.graph.arguments import NodeSettings, node_settings
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.node.ros_time import Epoch
-from crosnode.plc.master_watch import MasterWatch
+from crosnode.plc.node_watch import NodeWatch
 from plcsim.network import OsNetwork, network_of
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def create_node(
         NodeError: no port can be opened.
     """
     node = make_node(context, name, *arguments, namespace=namespace, step=step)
-    context.library(MasterWatch).add(node)
+    context.library(NodeWatch).add(node)
     return node
 
 

@@ -138,6 +138,11 @@ class ProtocolConnection(ABC):
         data, self._outbox = self._outbox, []
         return data
 
+    @property
+    def idle_since_ns(self) -> int | None:
+        """Since when nothing is under way and the peer need not say anything; None otherwise."""
+        return None
+
     def close(self) -> None:
         """End the connection from this side."""
         if self.state is not ConnectionState.CLOSED:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
+from crosnode.transport.caller_share import CallerShare
 from crosnode.transport.link import LinkState, PeerLink
 from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
 from plcsim.core.backoff import Backoff
@@ -102,7 +103,11 @@ class PortListener:
             budget.work -= CONNECTION_WORK
             client.set_options()
             connection, owner = self._acceptor.accepted(now_ns)
-            self._loop.add(PeerLink(client, connection, owner, now_ns))
+            link = PeerLink(client, connection, owner, now_ns)
+            if not connection.IS_PARSED or self._loop.callers.admit(link, now_ns):
+                self._loop.add(link)
+            else:
+                self._loop.pool.put(client)
 
     def close(self) -> None:
         """Close the port."""
@@ -128,12 +133,15 @@ class EventLoop:
         limits: of each step.
 
     Attributes:
+        pool: sockets of the controller.
+        callers: callers of all nodes of the controller.
         links: all connections.
         listeners: all ports.
     """
 
     def __init__(self, context: Context, limits: StepLimits) -> None:
         self.pool = context.library(SocketPool)
+        self.callers = context.library(CallerShare)
         keep_large_blocks()
         self.limits = limits
         self.links: list[PeerLink] = []

@@ -35,6 +35,7 @@ from plcsim.library.astcp import (
     tcpSO_KEEPALIVE_SET,
     tcpTCP_NODELAY_SET,
 )
+from plcsim.library.astcp.settings import AsTcpSettings
 from st_types import STRING, UDINT, UINT, Struct, var
 
 if TYPE_CHECKING:
@@ -98,10 +99,16 @@ class SocketPool:
 
     Args:
         context: the controller's; ``context.library(SocketPool)`` gives its one pool.
+
+    Attributes:
+        idents: sockets that AsTCP has for all nodes and programs together.
+        shortages: times that one was asked for and none was free.
     """
 
     def __init__(self, context: Context) -> None:
         self.context = context
+        self.idents = (context.settings(AsTcpSettings) or AsTcpSettings()).idents
+        self.shortages = 0
         self.recv_area = context.memory.allocate(AREA_SIZE)
         self.send_area = context.memory.allocate(AREA_SIZE)
         self._free = [self._new() for _ in range(SOCKETS_AT_START)]
@@ -138,6 +145,7 @@ class TcpipSocket:
         "_connected",
         "_ident",
         "_memory",
+        "_pool",
         "_recv",
         "_send",
         "_server",
@@ -147,6 +155,7 @@ class TcpipSocket:
     )
 
     def __init__(self, pool: SocketPool) -> None:
+        self._pool = pool
         self._memory = pool.context.memory
         self._blocks = blocks = self._memory.new(SocketBlocks, pool.context)
         self._recv, self._send, self._server = blocks.recv, blocks.send, blocks.server
@@ -194,8 +203,10 @@ class TcpipSocket:
         if block.status == ERR_OK:
             self._use(block.ident)
             return _DONE
-        waits = block.status in (ERR_FUB_BUSY, tcpERR_NOMORE_IDENTS)
-        return _IN_PROGRESS if waits else _state_of(block.status)
+        if block.status == tcpERR_NOMORE_IDENTS:
+            self._pool.shortages += 1
+            return _IN_PROGRESS
+        return _state_of(block.status)
 
     def _use(self, ident: int) -> None:
         self._ident = ident
@@ -234,8 +245,10 @@ class TcpipSocket:
             client.ip, client.port = client._blocks.address, block.portclnt
             client._connected = True
             return _DONE
-        waits = block.status in (ERR_FUB_BUSY, tcpERR_NOCLIENT, tcpERR_NOMORE_IDENTS)
-        return _IN_PROGRESS if waits else _FAILED
+        if block.status == tcpERR_NOMORE_IDENTS:
+            self._pool.shortages += 1
+            return _IN_PROGRESS
+        return _IN_PROGRESS if block.status in (ERR_FUB_BUSY, tcpERR_NOCLIENT) else _FAILED
 
     def read_buffer(self, buffer: DynBuffer) -> TcpipSocketState:
         """Read what is there, at most what one call of TcpRecv gives; as ``read_buffer_ex``."""

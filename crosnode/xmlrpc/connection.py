@@ -76,11 +76,14 @@ class XmlRpcLimits(NamedTuple):
         values: size and shape of a document.
         max_head: bytes of the HTTP request or status line and headers.
         timeout_ns: nanoseconds a peer may take for a request, or a server for its reply.
+        idle_ns: nanoseconds that a caller may stay connected without a further request. Callers
+            that keep their connection, such as roscpp, make another one then.
     """
 
     values: ValueLimits = ValueLimits()
     max_head: int = 16384
     timeout_ns: int = 10_000_000_000
+    idle_ns: int = 60_000_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +223,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
 
     After CallReceived the owner calls ``respond`` or ``fault``, in the same step or a later one. A
     request that cannot be read is answered with a fault or an HTTP status, and ends the connection.
-    A new connection must ask in time, one that has asked before may be idle.
+    A new connection must ask in time, one that has asked before may be idle for longer.
     """
 
     TABLE: ClassVar[Table] = SERVER
@@ -236,8 +239,20 @@ class XmlRpcServerConnection(XmlRpcConnection):
 
     @property
     def deadline_ns(self) -> int | None:
-        """As in ``ProtocolConnection``; None between two calls."""
-        return None if self._is_idle else super().deadline_ns
+        """As in ``ProtocolConnection``; later between two calls."""
+        return self._since_ns + self.limits.idle_ns if self._is_idle else super().deadline_ns
+
+    @property
+    def idle_since_ns(self) -> int | None:
+        """Since the last call, where none is under way."""
+        return self._since_ns if self._is_idle else None
+
+    def handle_timer(self, now_ns: int) -> Failed | None:
+        """End the connection where its deadline has passed; an idle one just ends."""
+        if self._is_idle and now_ns >= self._since_ns + self.limits.idle_ns:
+            self.close()
+            return None
+        return super().handle_timer(now_ns)
 
     def next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Return the next event, None where none can be had from the bytes so far."""
@@ -310,6 +325,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
             raise XmlRpcError("a reply, where a call was expected")
         self._move(Trigger.REQUEST)
         self._since_ns = now_ns
+        self._is_idle = False
         return CallReceived(document.method, document.params)
 
     def _refuse(self, reason: str, *, http_status: int) -> Failed:

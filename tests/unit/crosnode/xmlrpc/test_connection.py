@@ -218,7 +218,8 @@ def test_deadlines() -> None:
     assert theirs.deadline_ns is None
     theirs.respond(1)
     assert theirs.next_event(50) is None
-    assert theirs.deadline_ns is None
+    assert theirs.idle_since_ns == 5
+    assert theirs.deadline_ns == 5 + LIMITS.idle_ns
     theirs.receive_data(b"P")
     theirs.next_event(5000)
     assert theirs.deadline_ns == 6000
@@ -227,8 +228,21 @@ def test_deadlines() -> None:
     assert theirs.handle_timer(6000) == Failed("silent for 1000 ns")
     ours = client()
     assert ours.deadline_ns is None
+    assert ours.idle_since_ns is None
     ours.call("m", [], 70)
     assert ours.deadline_ns == 1070
+
+
+def test_a_caller_that_is_idle_for_too_long_just_ends() -> None:
+    theirs = server()
+    theirs.receive_data(request(GET_PID))
+    theirs.next_event(5)
+    theirs.respond(1)
+    assert theirs.next_event(6) is None
+    assert theirs.handle_timer(4 + LIMITS.idle_ns) is None
+    assert theirs.state is ConnectionState.REQUEST
+    assert theirs.handle_timer(5 + LIMITS.idle_ns) is None
+    assert theirs.state is ConnectionState.CLOSED
 
 
 def test_out_of_turn() -> None:

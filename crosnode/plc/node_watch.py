@@ -1,4 +1,4 @@
-"""Tells people that the nodes of programs find no master, whether or not the programs tell it.
+"""Tells people what the nodes of programs miss, whether or not the programs tell it.
 
 It looks at the nodes from outside, so a program's ``pop_status`` still gives all news.
 """
@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from crosnode.transport.tcpip_socket import SocketPool
 from plcsim.core.logbook import Severity
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
 PATIENCE_NS: Final = 3_000_000_000
 """A master that starts together with the controller, or again, is not worth a line."""
+
+
+SHORTAGE_NS: Final = 600_000_000_000
 
 
 class News(NamedTuple):
@@ -44,10 +48,13 @@ class _Watched:
     is_told: bool = False
 
 
-class MasterWatch:
-    """The nodes of the programs of one controller; ``context.library(MasterWatch)``."""
+class NodeWatch:
+    """The nodes of the programs of one controller; ``context.library(NodeWatch)``."""
 
-    def __init__(self, _context: Context) -> None:
+    def __init__(self, context: Context) -> None:
+        self._pool = context.library(SocketPool)
+        self._shortages = self._pool.shortages
+        self._next_shortage_ns = 0
         self._watched: list[_Watched] = []
 
     def add(self, node: CrosNode) -> None:
@@ -56,6 +63,7 @@ class MasterWatch:
 
     def look(self, now_ns: int) -> Iterator[News]:
         """Iterate over what is new; call it about once a second."""
+        yield from self._shortage(now_ns)
         self._watched = [each for each in self._watched if not each.node.is_shut_down]
         for each in self._watched:
             name, master = each.node.name, each.node.core.master
@@ -65,6 +73,14 @@ class MasterWatch:
             elif each.is_told and master.is_found:
                 each.is_told = False
                 yield News(Severity.INFORMATION, f"{name}: master at {master.uri} found")
+
+    def _shortage(self, now_ns: int) -> Iterator[News]:
+        """Tell that connections wait for an ident, once in ten minutes."""
+        shortages, self._shortages = self._shortages, self._pool.shortages
+        if shortages != self._shortages and now_ns >= self._next_shortage_ns:
+            self._next_shortage_ns = now_ns + SHORTAGE_NS
+            text = f"no AsTCP ident is free: all {self._pool.idents} of [library.AsTCP] are in use"
+            yield News(Severity.WARNING, text)
 
 
 def _misses(each: _Watched, now_ns: int) -> bool:

@@ -3,7 +3,7 @@
 from itertools import count
 
 from crosnode.node import CrosNode, StatusKind
-from crosnode.plc.master_watch import MasterWatch, News
+from crosnode.plc.node_watch import News, NodeWatch
 from plcsim.core.logbook import Severity
 
 from ..node.world import SECOND, World
@@ -20,7 +20,7 @@ class Site:
     def __init__(self, *, master: bool = False) -> None:
         self.world = World(master=master)
         self.node: CrosNode = self.world.node("talker", clock_ns=count().__next__)
-        self.watch = MasterWatch(self.world.context("192.168.0.11"))
+        self.watch = NodeWatch(self.world.context("192.168.0.11"))
         self.watch.add(self.node)
 
     def told(self, seconds: int) -> list[News]:
@@ -69,3 +69,18 @@ def test_a_node_that_does_no_steps_or_has_ended_misses_nothing() -> None:
     site.node.close()
     assert site.told(10) == []
     assert site.world.now_ns == 22 * SECOND
+
+
+def test_idents_that_run_out_are_told_once_in_ten_minutes() -> None:
+    site = Site(master=True)
+    pool = site.watch._pool
+    assert site.told(2) == []
+    for _ in range(3):
+        pool.shortages += 1
+        site.told(1)
+    pool.shortages += 1
+    site.world.now_ns += 600 * SECOND
+    text = "no AsTCP ident is free: all 128 of [library.AsTCP] are in use"
+    assert site.told(1) == [News(Severity.WARNING, text)]
+    pool.shortages += 1
+    assert site.told(1) == []
