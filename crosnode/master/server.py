@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.graph.hosts import HostTable, own_interface
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.master.master import Master, OutgoingCall
 from crosnode.transport.budget import StepBudget, StepLimits
+from crosnode.transport.caller_share import CallerShare
 from crosnode.transport.event_loop import EventLoop
 from crosnode.xmlrpc import (
     CallReceived,
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     from crosnode.transport.connection import ConnectionEvent
     from crosnode.transport.link import PeerLink
     from plcsim.core.context import Context
+
+CALLERS_PART: Final = 2
+"""One in so many idents is for those who call the master; it calls nodes with the others."""
 
 
 def first_parameters(run_id: str) -> dict[str, Value]:
@@ -73,7 +77,7 @@ class MasterServer:
     def __init__(self, context: Context, options: MasterOptions | None = None) -> None:
         self.options = options = options or MasterOptions()
         self._context = context
-        self._loop = EventLoop(context, options.step)
+        self._loop = EventLoop(context, options.step, CallerShare(context, CALLERS_PART))
         acceptor = ApiAcceptor(self, options.xmlrpc)
         self.bind_ip = own_interface(options.host) if options.bind_ip is None else options.bind_ip
         self._listener = self._loop.listen(self.bind_ip, options.port, acceptor)

@@ -20,22 +20,20 @@ if TYPE_CHECKING:
 LEAST: Final = 8
 """Callers at once, however few idents there are."""
 
-PART: Final = 4
-"""One in so many idents is for callers."""
-
 
 class CallerShare:
-    """The callers of all nodes of one controller; ``context.library(CallerShare)``.
+    """Callers who share what idents they may hold: those of all nodes, or those of a master.
 
     Args:
         context: the controller's.
+        part: one in so many idents is for them.
 
     Attributes:
         most: callers at once.
     """
 
-    def __init__(self, context: Context) -> None:
-        self.most = max(LEAST, context.library(SocketPool).idents // PART)
+    def __init__(self, context: Context, part: int) -> None:
+        self.most = max(LEAST, context.library(SocketPool).idents // part)
         self._links: list[PeerLink] = []
 
     def admit(self, link: PeerLink, now_ns: int) -> bool:
@@ -49,6 +47,13 @@ class CallerShare:
             min(idle, key=lambda each: each.connection.idle_since_ns or 0).close("idle")
         self._links.append(link)
         return True
+
+
+class NodeCallers(CallerShare):
+    """The callers of all nodes of one controller; ``context.library(NodeCallers)``."""
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context, 4)
 
 
 def _is_there(link: PeerLink) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
 from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
-from crosnode.transport.caller_share import CallerShare
+from crosnode.transport.caller_share import CallerShare, NodeCallers
 from crosnode.transport.link import LinkState, PeerLink
 from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
 from plcsim.core.backoff import Backoff
@@ -131,17 +131,20 @@ class EventLoop:
     Args:
         context: of the controller.
         limits: of each step.
+        callers: of servers that it listens for; those of all nodes unless given.
 
     Attributes:
         pool: sockets of the controller.
-        callers: callers of all nodes of the controller.
+        callers: see above.
         links: all connections.
         listeners: all ports.
     """
 
-    def __init__(self, context: Context, limits: StepLimits) -> None:
+    def __init__(
+        self, context: Context, limits: StepLimits, callers: CallerShare | None = None
+    ) -> None:
         self.pool = context.library(SocketPool)
-        self.callers = context.library(CallerShare)
+        self.callers = callers or context.library(NodeCallers)
         keep_large_blocks()
         self.limits = limits
         self.links: list[PeerLink] = []

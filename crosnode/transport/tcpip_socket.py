@@ -33,6 +33,9 @@ from plcsim.library.astcp import (
     tcpSO_ADDRESS_GET,
     tcpSO_ADDRESS_typ,
     tcpSO_KEEPALIVE_SET,
+    tcpTCP_KEEPCNT_SET,
+    tcpTCP_KEEPIDLE_SET,
+    tcpTCP_KEEPINTVL_SET,
     tcpTCP_NODELAY_SET,
 )
 from plcsim.library.astcp.settings import AsTcpSettings
@@ -47,6 +50,17 @@ AREA_SIZE: Final = 65_536
 
 SOCKETS_AT_START: Final = 32
 """Sockets whose blocks are laid out before the first cycle; more are made when needed."""
+
+
+OPTIONS: Final = (
+    (tcpTCP_NODELAY_SET, 1),
+    (tcpTCP_KEEPIDLE_SET, 15),
+    (tcpTCP_KEEPINTVL_SET, 5),
+    (tcpTCP_KEEPCNT_SET, 3),
+    (tcpSO_KEEPALIVE_SET, 1),
+)
+"""Of each connection. A peer whose host has gone without a word is noticed 30 s after its last one,
+as it is by rospy after 150 s; without a word from us TCP itself would notice after two hours."""
 
 
 class TcpipSocketState(IntEnum):
@@ -332,10 +346,11 @@ class TcpipSocket:
     """Write a DynString from its front."""
 
     def set_options(self) -> None:
-        """Send small data at once, and probe a silent peer (keepalive)."""
-        self._blocks.value = 1
-        for option in (tcpTCP_NODELAY_SET, tcpSO_KEEPALIVE_SET):
-            self._ioctl(option, adr(self._blocks, "value"), 4)
+        """Send small data at once, and probe a silent peer (``OPTIONS``)."""
+        value = adr(self._blocks, "value")
+        for option, number in OPTIONS:
+            self._blocks.value = number
+            self._ioctl(option, value, 4)
 
     @property
     def own_port(self) -> int:

@@ -244,8 +244,9 @@ class XmlRpcServerConnection(XmlRpcConnection):
 
     @property
     def idle_since_ns(self) -> int | None:
-        """Since the last call, where none is under way."""
-        return self._since_ns if self._is_idle else None
+        """Since the last call, or the connection, where no byte of another has come."""
+        is_asked = self.state is not ConnectionState.REQUEST or self._is_within_request
+        return None if is_asked else self._since_ns
 
     def handle_timer(self, now_ns: int) -> Failed | None:
         """End the connection where its deadline has passed; an idle one just ends."""
@@ -331,7 +332,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
     def _refuse(self, reason: str, *, http_status: int) -> Failed:
         if self._http.our_state in (h11.IDLE, h11.SEND_RESPONSE):
             document = dump_fault(MethodFault(PARSE_ERROR, reason))
-            self._send_document(document, http_status, ("ProtocolConnection", "close"))
+            self._send_document(document, http_status, ("Connection", "close"))
         return self._fail(reason)
 
 

@@ -12,7 +12,7 @@ from crosnode.node.subscriber import MAX_PUBLISHERS
 from crosnode.tcpros.header import encode_header
 from plcsim.network import Outcome, Socket
 
-from .world import MS, OTHER_IP, PEER_IP, PLC_IP, STRING, STRING_MD5, World, news, words
+from .world import MS, OTHER_IP, PEER_IP, PLC_IP, STRING, STRING_MD5, World, drain, news, words
 
 PORT = 6000
 
@@ -85,6 +85,32 @@ def test_publishers_that_come_and_go_are_added_and_removed() -> None:
     second.send(second.new(data="two"))
     world.run(5)
     assert words(subscriber.pop) == ["two"]
+
+
+def test_a_publisher_whose_host_has_gone_without_a_word_is_noticed_within_half_a_minute() -> None:
+    world = World()
+    node = world.node("listener")
+    subscriber = node.register_subscriber("/x", STRING)
+    world.node("talker", OTHER_IP).register_publisher("/x", STRING)
+    world.until(lambda: subscriber.publishers)
+    drain(node.pop_status)
+    world.faults.silence(OTHER_IP)
+    world.run(29_000, step_ms=10)
+    assert subscriber.publishers == 1
+    world.run(6_000, step_ms=10)
+    assert subscriber.publishers == 0
+    assert len(news(node, StatusKind.DISCONNECTED)) == 1
+
+
+def test_a_quiet_publisher_that_is_there_stays() -> None:
+    world = World()
+    node = world.node("listener")
+    subscriber = node.register_subscriber("/x", STRING)
+    publisher = world.node("talker", OTHER_IP).register_publisher("/x", STRING)
+    world.until(lambda: subscriber.publishers)
+    world.run(120_000, step_ms=50)
+    assert (publisher.subscribers, subscriber.publishers) == (1, 1)
+    assert not news(node, StatusKind.DISCONNECTED)
 
 
 def test_a_lost_connection_is_made_again_without_the_master() -> None:

@@ -1,7 +1,7 @@
 """Callers that stay connected leave idents for topics and services."""
 
 from crosnode.node import CrosNode, StatusKind
-from crosnode.transport.caller_share import CallerShare
+from crosnode.transport.caller_share import NodeCallers
 from crosnode.xmlrpc.writer import dump_call
 from plcsim.network import Outcome, Socket
 
@@ -72,8 +72,8 @@ def test_where_none_is_idle_the_newcomer_goes() -> None:
 def test_the_share_is_that_of_all_nodes_of_a_controller() -> None:
     world = World()
     context = world.context(PLC_IP)
-    assert context.library(CallerShare) is context.library(CallerShare)
-    assert context.library(CallerShare).most == 32
+    assert context.library(NodeCallers) is context.library(NodeCallers)
+    assert context.library(NodeCallers).most == 32
 
 
 def test_a_shortage_is_told_now_and_then() -> None:
