@@ -140,7 +140,7 @@ class OnMachine:
                 self._memory.write(addresses[one.name], one.data)
         self.address = addresses[compiled.segment]
         self._size = compiled.variables.size
-        instance = Linker(machine, _nothing).link(compiled.code, addresses)
+        instance = Linker(machine).link(compiled.code, addresses, _nothing)
         self.cyclic = instance.function("cyclic")
         self.machine = machine
         driver = machine.compile(_driver())

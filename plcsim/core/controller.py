@@ -142,6 +142,7 @@ class Controller:
         self._heartbeat.changed(self.state)
         for area in self.areas:
             self.memory.write(area.address, initial_image(area.data_type))
+        self.memory.restore()
         for task in self.tasks:
             self._run_unit(task, Unit.INIT)
             if self.state is not State.BOOT:

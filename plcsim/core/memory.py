@@ -86,6 +86,7 @@ class Memory:
         self._top = FIRST
         self._limit = FIRST
         self._followers: list[Callable[[Memory], None]] = []
+        self._kept: list[tuple[int, bytes]] = []
         self.stack = SYSTEM_AREA
         self.size = size
         if system_fd is None:
@@ -125,6 +126,24 @@ class Memory:
             self._limit = limit
             self._tell()
         return address
+
+    def keep(self, data: bytes, alignment: int = 4) -> int:
+        """Reserve memory for bytes that are not variables, and return their address.
+
+        They are there now, and each boot of the controller writes them again (`restore`).
+
+        Raises:
+            ConfigurationError: the memory is full.
+        """
+        address = self.allocate(len(data), alignment)
+        self._kept.append((address, data))
+        self.write(address, data)
+        return address
+
+    def restore(self) -> None:
+        """Write what `keep` was given as it was."""
+        for address, data in self._kept:
+            self.write(address, data)
 
     def open_stack(self, size: int) -> None:
         """Make at least ``size`` bytes below `SYSTEM_AREA` valid as stack of compiled programs.

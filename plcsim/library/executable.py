@@ -6,13 +6,14 @@ block at the same address.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeVar, runtime_checkable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from plcsim.core.context import Context
     from plcsim.library.library import Library
+    from plcsim.machine import Extern
 
 F = TypeVar("F", bound="Callable[..., object]")
 
@@ -34,6 +35,19 @@ class Executable(Protocol):
         Of a function block: called with the PLC address of the data block, it runs the block once.
         Of a function: called with its parameters in order, addresses as numbers, it returns the
         result.
+        """
+
+
+@runtime_checkable
+class Compiled(Executable, Protocol):
+    """A body that was compiled: other compiled code calls it directly, not by way of Python."""
+
+    def extern(self, context: Context) -> Extern:
+        """Return it for the imports of other modules on a controller.
+
+        A block takes the PLC address of its data block. A function takes its parameters, what is
+        larger than a value by its address; a result of such a type is written to an address that
+        comes first.
         """
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ctypes import byref, c_uint64, c_void_p, cast
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from plcsim.core.memory import PAGE, SYSTEM_AREA
 from plcsim.machine.address_space import AddressSpace
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
     from plcsim.core.memory import Memory
     from plcsim.machine.cache import CodeCache
+
+T = TypeVar("T")
 
 FUEL = 1 << 62
 """Instructions that are left outside of units, where they are counted."""
@@ -249,19 +251,22 @@ class Machine:
         raise_error(error, "a constant")
         return extern
 
-    def unit(self, function: Callable[[], None]) -> Callable[[], None]:
+    def unit(self, function: Callable[..., T]) -> Callable[..., T]:
         """Return a function as the unit of a program: where instructions are counted, it ends.
 
+        So does a block or a function that Python calls; inside another unit it is part of that.
         Calling it raises CycleTimeViolation after `UNIT_FUEL` instructions.
         """
         if not self._engine.fuel:
             return function
-        fuel, set_fuel = self._store.fuel, self._store.set_fuel
+        store, fuel, set_fuel = self._store, self._store.fuel, self._store.set_fuel
 
-        def run() -> None:
+        def run(*arguments: Any) -> T:
+            if store.depth:
+                return function(*arguments)
             set_fuel(UNIT_FUEL)
             try:
-                function()
+                return function(*arguments)
             finally:
                 self._spent += UNIT_FUEL - fuel()
                 set_fuel(FUEL)

@@ -29,10 +29,11 @@ from plcsim.library.library import Library, check_scope, declaration_files, read
 from st_types.resolve.scope import Scope
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
     from plcsim.library.executable import BodyLanguage
     from st_types.resolve.declared import Variable
+    from st_types.syntax.tree import DeclarationFile
 
 DEEPEST: Final = 4
 """Folders below the project's in which libraries are looked for."""
@@ -100,11 +101,12 @@ class Declarations:
         files = read_declarations(declaration_files(self.folder))
         return Scope(self.folder.name, files, self.catalogue.scopes, strict=True)
 
-    def scope_of(self, folder: Path) -> Scope:
+    def scope_of(self, folder: Path, more: Iterable[DeclarationFile] = ()) -> Scope:
         """Return what a program sees: its own declarations, and around them all others.
 
         Args:
             folder: of the program, or one between it and the project.
+            more: what the files with its units declare; told at the first call.
 
         Raises:
             ConfigurationError: a file cannot be read.
@@ -113,7 +115,7 @@ class Declarations:
             return self.scope
         if folder not in self._scopes:
             outer = self.scope_of(folder.parent)
-            files = read_declarations(declaration_files(folder))
+            files = [*read_declarations(declaration_files(folder)), *more]
             self._scopes[folder] = Scope(folder.name, files, (outer,), strict=True)
         return self._scopes[folder]
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from plcsim.program.site import Site
     from plcsim.program.variables import Variables
     from st_types.resolve.scope import Scope
+    from st_types.syntax.tree import DeclarationFile
 
 
 class ProgramSource(NamedTuple):
@@ -41,7 +42,15 @@ class ProgramSource(NamedTuple):
 
 
 class ProgramCode(Protocol):
-    """A program that was loaded and checked; may run as several tasks, on several controllers."""
+    """A program that was loaded and checked; may run as several tasks, on several controllers.
+
+    Attributes:
+        warnings: about its text, each with file, line, column and caret.
+    """
+
+    @property
+    def warnings(self) -> Sequence[str]:
+        """What was found in its text that is no error."""
 
     def task(self, name: str, site: Site) -> Task:
         """Return a new task: its variables allocated, its units ready to run.
@@ -70,6 +79,15 @@ class Language(Protocol):
         """Return the files of this language that hold units of the program in a folder.
 
         None makes it a program of another language.
+        """
+
+    def declarations(self, files: Sequence[Path]) -> Sequence[DeclarationFile]:
+        """Return what the files of a program declare for all of it, as a .var file does.
+
+        What is wrong in their text is in their ``diagnostics``.
+
+        Raises:
+            ConfigurationError: a file cannot be read.
         """
 
     def load(self, source: ProgramSource) -> ProgramCode:

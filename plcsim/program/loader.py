@@ -18,21 +18,23 @@ from plcsim.program.python.bodies import PythonBodies
 from plcsim.program.python.language import PYTHON
 from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
+from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
 from plcsim.program.variables import Variables, variables_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     from plcsim.library.executable import BodyLanguage
     from plcsim.library.library import Library
     from plcsim.program.language import Language, ProgramCode
     from st_types.resolve.declared import Function, FunctionBlock
+    from st_types.syntax.tree import DeclarationFile
 
-LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, C_LANGUAGE)
+LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, STRUCTURED_TEXT, C_LANGUAGE)
 """A program is written in one of them."""
 
-BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(),)
+BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(), StructuredTextBodies())
 """Bodies of libraries are written in one of them."""
 
 _counter = itertools.count(1)
@@ -103,6 +105,7 @@ class ProgramLoader:
         for source, folder in self._programs.items():
             with loaded.gathered():
                 codes[source] = self._load(source, folder)
+                self.warnings += codes[source].warnings
         loaded.check()
         return codes
 
@@ -127,7 +130,12 @@ class ProgramLoader:
     def _declare(self, folder: Path) -> None:
         """Read what a program declares, where its folder is there."""
         if _is_folder(folder):
-            self.declarations.scope_of(folder)
+            self.declarations.scope_of(folder, self._declared_in(folder))
+
+    def _declared_in(self, folder: Path) -> Iterator[DeclarationFile]:
+        """Iterate over what the files with units of a program declare."""
+        for language in self._languages:
+            yield from language.declarations(language.units(folder))
 
     @cached_property
     def shared(self) -> Variables:
@@ -177,12 +185,9 @@ class ProgramLoader:
         return any(language.units(folder) for language in self._languages)
 
     def _nothing_in(self, folder: Path) -> ConfigurationError:
-        if any(folder.glob("*.st")):
-            return ConfigurationError(
-                f"{folder}: this version of plcsim runs programs in Python; "
-                "Structured Text is not there yet"
-            )
-        return ConfigurationError(f"{folder}: holds neither main.py nor variables.py")
+        return ConfigurationError(
+            f"{folder}: holds no program: neither main.py nor variables.py, no .st file, no .c file"
+        )
 
 
 def _is_folder(path: Path) -> bool:

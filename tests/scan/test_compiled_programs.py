@@ -45,9 +45,9 @@ class Counter:
 
     def task(self, name, site):
         view = site.memory.new(Variables)
-        linker = Linker(Machine(site.memory, cache=CodeCache(None)), lambda _: None)
+        linker = Linker(Machine(site.memory, cache=CodeCache(None)))
         tag = Tag(name, type_of(Variables), address_of(view))
-        instance = linker.link(self.code, {"program": tag.address})
+        instance = linker.link(self.code, {"program": tag.address}, lambda _: None)
         units = {one: instance.function(one.value) for one in Unit}
         return Task(
             name,

@@ -20,7 +20,7 @@ from plcsim.program.c.variables import scope_of, variables_of
 from plcsim.program.fault import describe, frames
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from plcsim.machine import Extern, Machine
     from plcsim.machine.shared_module import SharedModule
@@ -56,6 +56,8 @@ def load(source: ProgramSource) -> CCode:
 
 class CCode:
     """A program in C; see `plcsim.program.language.ProgramCode`."""
+
+    warnings: Sequence[str] = ()
 
     def __init__(self, linked: SharedModule, variables: StructType[object]) -> None:
         self._linked = linked

@@ -10,9 +10,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from plcsim.program.language import ProgramCode, ProgramSource
+    from st_types.syntax.tree import DeclarationFile
 
 SUFFIXES: Final = (".c", ".cpp", ".cc", ".cxx")
 """Of files that are compiled."""
@@ -26,6 +28,10 @@ class C:
     def units(self, folder: Path) -> list[Path]:
         """Return the C files of a folder: which of them hold units, the compiler finds out."""
         return sorted(f for f in folder.iterdir() if f.suffix.lower() in SUFFIXES and f.is_file())
+
+    def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
+        """Return nothing: what C defines is seen by C."""
+        return ()
 
     def load(self, source: ProgramSource) -> ProgramCode:
         """Compile and link the files of a program."""

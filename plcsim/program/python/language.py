@@ -24,11 +24,13 @@ from plcsim.program.variables import Variables, variables_of
 from st_types.types.derived import StructType, resolve_alias
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
     from types import ModuleType
 
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
+    from st_types.syntax.tree import DeclarationFile
     from st_types.types.elementary import DataType
 
 _CLASS_FILES = ("variables", "main")
@@ -38,10 +40,14 @@ _UNIT_FILES = {unit: unit.value.lower() for unit in Unit}
 class PythonCode:
     """A program class; see `plcsim.program.language.ProgramCode`.
 
+    Python itself warns of what it finds.
+
     Args:
         program: the class; its variables are declared in its body, or it has their type.
         constants: type of its constants.
     """
+
+    warnings: Sequence[str] = ()
 
     def __init__(self, program: type[Program], constants: StructType[Any] | None = None) -> None:
         self.program = program
@@ -71,6 +77,10 @@ class Python:
         """Return the files with the program's class, or those with a unit each."""
         files = [folder / f"{name}.py" for name in (*_CLASS_FILES, *_UNIT_FILES.values())]
         return [file for file in files if file.is_file()]
+
+    def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
+        """Return nothing: what a class declares is checked where it is loaded."""
+        return ()
 
     def load(self, source: ProgramSource) -> PythonCode:
         """Import the files of a program."""

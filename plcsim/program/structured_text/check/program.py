@@ -32,7 +32,7 @@ from st_types.syntax.tree import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
 
-    from plcsim.program.structured_text.check.typed import BodyKind, Value
+    from plcsim.program.structured_text.check.typed import BodyKind, Storage, Value
     from plcsim.program.structured_text.syntax.tree import (
         Part,
         Statement,
@@ -50,7 +50,14 @@ UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
 """Units of a task by the names of Automation Studio; any other PROGRAM is the cyclic one."""
 
 
-def declarations_of(file: StructuredTextFile) -> DeclarationFile:
+@dataclass(slots=True, repr=False)
+class UnitDeclarations(DeclarationFile):
+    """What a file of Structured Text declares; ``file`` is that file."""
+
+    file: StructuredTextFile = field(compare=False)
+
+
+def declarations_of(file: StructuredTextFile) -> UnitDeclarations:
     """Return what a file of Structured Text declares, for a `Scope`.
 
     Functions and function blocks without VAR blocks of their own are declared in a .fun file.
@@ -64,7 +71,7 @@ def declarations_of(file: StructuredTextFile) -> DeclarationFile:
         elif isinstance(unit, Configuration):
             items += unit.blocks
             items += [block for resource in unit.resources for block in resource.blocks]
-    return DeclarationFile(items, "", file.tokens, file.diagnostics)
+    return UnitDeclarations(items, "", file.tokens, file.diagnostics, file)
 
 
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
@@ -80,6 +87,7 @@ def check_program(
     scope: Scope,
     *,
     hidden: Collection[Code] = QUIET,
+    storage: Storage = "program",
 ) -> typed.Program:
     """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
 
@@ -90,8 +98,9 @@ def check_program(
         files: parsed without errors.
         scope: what the program declares, what stands in the files (`declarations_of`) included.
         hidden: codes of warnings that are not wanted.
+        storage: of the variables of the scope; those of a library are global ones.
     """
-    checker = _ProgramChecker(scope, hidden)
+    checker = _ProgramChecker(scope, hidden, storage)
     for file in files:
         checker.add(file)
     bodies = checker.bodies()
@@ -126,8 +135,8 @@ class _Job:
 
 
 class _ProgramChecker:
-    def __init__(self, scope: Scope, hidden: Collection[Code]) -> None:
-        self.symbols = Symbols({scope: "program"})
+    def __init__(self, scope: Scope, hidden: Collection[Code], storage: Storage) -> None:
+        self.symbols = Symbols({scope: storage})
         self._scope = scope
         self._hidden = hidden
         self._values: dict[Scope, dict[str, Value | None]] = {}

@@ -23,22 +23,26 @@ class Linker:
 
     Args:
         machine: what the modules run on.
-        provide: gives what a module imports; it may link other modules for that. What it raises is
-            raised by `link`.
     """
 
-    def __init__(self, machine: Machine, provide: Callable[[ir.Import], Extern]) -> None:
+    def __init__(self, machine: Machine) -> None:
         self._machine = machine
-        self._provide = provide
         self._mathematics: dict[str, Extern] = {}
         self._lines: dict[str, LineTable] = {}
 
-    def link(self, code: ObjectCode, addresses: Mapping[str, int]) -> Instance:
+    def link(
+        self,
+        code: ObjectCode,
+        addresses: Mapping[str, int],
+        provide: Callable[[ir.Import], Extern],
+    ) -> Instance:
         """Return a module that is ready to run.
 
         Args:
             code: the module; one may be linked several times, with other addresses.
             addresses: of its segments, by name.
+            provide: gives what the module imports; it may link other modules for that. What it
+                raises is raised here.
 
         Raises:
             ValueError: another module has its name.
@@ -48,7 +52,7 @@ class Linker:
         compiled = self._machine.compile(code.place(addresses))
         imports: dict[tuple[str, str], Extern | int] = {}
         for wanted in code.imports:
-            imports[wanted.space, wanted.name] = self._provide(wanted)
+            imports[wanted.space, wanted.name] = provide(wanted)
         return self._machine.instantiate(compiled, imports | self._mathematical())
 
     def lines_of(self, module: str) -> LineTable | None:

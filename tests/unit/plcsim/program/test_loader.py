@@ -33,6 +33,14 @@ def wrong(load, files, source="main"):
     return str(raised.value).partition("/cell/")[2]
 
 
+class OtherCode:
+    """What the other language makes of a program."""
+
+    def __init__(self, source):
+        self.source = source
+        self.warnings = [f"{source.name}: a warning"]
+
+
 class Other:
     """A language whose units end in ``.other``; it loads nothing."""
 
@@ -41,14 +49,18 @@ class Other:
     def units(self, folder):
         return sorted(folder.glob("*.other"))
 
+    def declarations(self, files):
+        return ()
+
     def load(self, source):
-        return source
+        return OtherCode(source)
 
 
 def test_a_program_is_loaded_by_the_language_that_has_units_in_its_folder(project):
     folder = project({"main/b.other": "", "main/a.other": "", "main/notes.txt": ""})
     loader = ProgramLoader(folder, ["main"], languages=[PYTHON, Other()])
-    source = loader.load()["main"]
+    source = loader.load()["main"].source
+    assert loader.warnings == ["main: a warning"]
     assert (source.name, source.folder) == ("main", folder / "main")
     assert source.declarations is loader.declarations
     assert source.scope is loader.declarations.scope_of(folder / "main")

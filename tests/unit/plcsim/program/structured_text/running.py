@@ -109,8 +109,8 @@ class Running:
         self.addresses["hidden"] = self.memory.allocate(max(hidden.size, 1))
         self.memory.write(self.addresses["hidden"], hidden.data)
         self.segments = segments
-        linker = Linker(self.machine, self._provide)
-        self.instance = linker.link(generate(self.module), self.addresses)
+        linker = Linker(self.machine)
+        self.instance = linker.link(generate(self.module), self.addresses, self._provide)
 
     def _provide(self, wanted):
         codes = {"i32": "i", "i64": "q", "f32": "f", "f64": "d", None: ""}

@@ -38,10 +38,15 @@ def fault(memory):
 
     def run(*body, imports=None, provide=None, prepare=lambda: None):
         machine = Machine(memory, cache=CodeCache(None))
-        linker = Linker(machine, lambda wanted: machine.host_function(provide, "I"))
+        linker = Linker(machine)
         action = function("ACTION", (), None, *body, kind="action", exported=False)
         whole = module(unit(evaluate(call("ACTION"), line=3)), action, imports=imports)
-        cyclic = linker.link(generate(whole), {"program": 0x11_0000}).function("CYCLIC")
+        instance = linker.link(
+            generate(whole),
+            {"program": 0x11_0000},
+            lambda wanted: machine.host_function(provide, "I"),
+        )
+        cyclic = instance.function("CYCLIC")
         prepare()
         try:
             cyclic()

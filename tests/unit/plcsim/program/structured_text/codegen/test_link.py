@@ -50,9 +50,9 @@ def word(memory, address):
 
 def test_one_program_runs_with_several_sets_of_variables(memory, machine):
     code = generate(module(unit(store(0, op("add", load(0), 1)))))
-    linker = Linker(machine, nothing)
+    linker = Linker(machine)
     starts = [memory.allocate(64) for _ in range(2)]
-    first, second = (linker.link(code, {"program": start}) for start in starts)
+    first, second = (linker.link(code, {"program": start}, nothing) for start in starts)
     first.function("CYCLIC")()
     for _ in range(3):
         second.function("CYCLIC")()
@@ -62,11 +62,11 @@ def test_one_program_runs_with_several_sets_of_variables(memory, machine):
 def test_modules_call_each_other(memory, machine):
     def provide(wanted):
         assert wanted == CALLED
-        return linker.link(counter_library(), {}).extern(wanted.name)
+        return linker.link(counter_library(), {}, nothing).extern(wanted.name)
 
-    linker = Linker(machine, provide)
+    linker = Linker(machine)
     start = memory.allocate(64)
-    cyclic = linker.link(user(), {"program": start}).function("CYCLIC")
+    cyclic = linker.link(user(), {"program": start}, provide).function("CYCLIC")
     cyclic()
     cyclic()
     assert word(memory, start + 8) == 2
@@ -74,22 +74,24 @@ def test_modules_call_each_other(memory, machine):
 
 def test_modules_call_blocks_of_other_languages(memory, machine):
     called = []
-    linker = Linker(machine, lambda wanted: machine.host_function(called.append, "I"))
+    linker = Linker(machine)
     start = memory.allocate(64)
-    linker.link(user(), {"program": start}).function("CYCLIC")()
+    linker.link(
+        user(), {"program": start}, lambda wanted: machine.host_function(called.append, "I")
+    ).function("CYCLIC")()
     assert called == [start + 8]
 
 
 def test_what_nobody_provides_is_told_by_who_provides(machine):
     with pytest.raises(LookupError, match="COUNTER"):
-        Linker(machine, nothing).link(user(), {"program": 0x11_0000})
+        Linker(machine).link(user(), {"program": 0x11_0000}, nothing)
 
 
 def test_mathematics_is_there_by_itself(memory, machine):
     power = call("rt.pow", load(0, "f64"), load(8, "f64"), result="f64")
     start = memory.allocate(64)
-    instance = Linker(machine, nothing).link(
-        generate(module(unit(store(16, power, "f64")))), {"program": start}
+    instance = Linker(machine).link(
+        generate(module(unit(store(16, power, "f64")))), {"program": start}, nothing
     )
     memory.write(start, struct.pack("<dd", 2.0, 10.0))
     instance.function("CYCLIC")()
@@ -97,11 +99,11 @@ def test_mathematics_is_there_by_itself(memory, machine):
 
 
 def test_lines_are_found_by_module(machine):
-    linker = Linker(machine, nothing)
+    linker = Linker(machine)
     code = counter_library()
-    linker.link(code, {})
-    linker.link(code, {})
+    linker.link(code, {}, nothing)
+    linker.link(code, {}, nothing)
     assert linker.lines_of("library") is code.lines
     assert linker.lines_of("other") is None
     with pytest.raises(ValueError, match="two modules are called library"):
-        linker.link(counter_library(), {})
+        linker.link(counter_library(), {}, nothing)

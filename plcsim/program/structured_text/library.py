@@ -1,0 +1,122 @@
+"""Bodies of libraries in Structured Text: one module for each library, linked where it is used."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.program.site import Site
+from plcsim.program.structured_text.calling import callable_of, extern_of, interface_of
+from plcsim.program.structured_text.code import checked
+from plcsim.program.structured_text.codegen.generate import generate
+from plcsim.program.structured_text.layout import Layout, types_of
+from plcsim.program.structured_text.linkage import Linkage
+from plcsim.program.structured_text.lower.module import lower
+from plcsim.program.structured_text.names import NAME
+from plcsim.program.structured_text.sources import check_syntax, read_files
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from plcsim.core.context import Context
+    from plcsim.library.executable import Executable
+    from plcsim.library.library import Library
+    from plcsim.machine import Extern, Instance
+    from plcsim.program.structured_text.calling import Interface
+    from plcsim.program.structured_text.check.typed import Program
+    from plcsim.program.structured_text.codegen.object_code import ObjectCode
+    from st_types.resolve.scope import Scope
+
+
+def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
+    """Check the files of a library and return the bodies in them, by declared name.
+
+    Raises:
+        ConfigurationError: there are errors in them; all are told, with file, line and column.
+    """
+    parsed = read_files(files)
+    check_syntax(parsed)
+    program, _ = checked(library.name, parsed, library.scope, "global")
+    whole = CompiledLibrary(program, library.scope)
+    found: dict[str, Executable] = {}
+    for body in program.bodies:
+        if body.kind == "block":
+            found[body.name] = CompiledBody(whole, f"block {body.name}")
+        elif body.kind == "function":
+            function = library.scope.find_function(body.name)
+            assert function is not None
+            interface = interface_of(function)
+            found[body.name] = CompiledBody(whole, f"function {body.name}", interface)
+    return found
+
+
+class CompiledLibrary:
+    """The Structured Text of a library.
+
+    Args:
+        program: its bodies, checked.
+        scope: of the library.
+    """
+
+    def __init__(self, program: Program, scope: Scope) -> None:
+        self._program = program
+        self._scope = scope
+        self._codes: dict[object, ObjectCode] = {}
+
+    def instance(self, site: Site) -> Instance | None:
+        """Return the module on a controller; None while it is being linked."""
+        linkage = Linkage.of(site)
+        return linkage.library(self, lambda: linkage.link(self._code(site), self._scope, {}))
+
+    def _code(self, site: Site) -> ObjectCode:
+        """Return the code for the global variables of a controller."""
+        shared = types_of(site.shared)
+        if shared not in self._codes:
+            layout = Layout(self._scope.name, (), self._scope.chain, shared)
+            self._codes[shared] = generate(lower(self._program, layout.areas))
+        return self._codes[shared]
+
+
+class CompiledBody(NamedTuple):
+    """The body of a FUNCTION_BLOCK or of a FUNCTION; see `plcsim.library.executable.Compiled`.
+
+    Attributes:
+        library: that it belongs to.
+        name: of the compiled function.
+        interface: of a FUNCTION; None for a block.
+    """
+
+    library: CompiledLibrary
+    name: str
+    interface: Interface | None = None
+
+    @property
+    def language(self) -> str:
+        """Structured Text."""
+        return NAME
+
+    def bind(self, context: Context) -> Callable[..., Any]:
+        """Return what runs it on a controller, for Python."""
+        site = Site.of(context)
+        instance = self.library.instance(site)
+        if instance is None:  # two libraries call each other
+            return partial(self._call, context)
+        if self.interface is None:
+            return site.machine.unit(instance.function(self.name, "I"))
+        call = callable_of(site.memory, instance, self.name, self.interface)
+        return site.machine.unit(call)
+
+    def _call(self, context: Context, *arguments: Any) -> Any:
+        return self.bind(context)(*arguments)
+
+    def extern(self, context: Context) -> Extern:
+        """Return it for other modules to import."""
+        site = Site.of(context)
+        instance = self.library.instance(site)
+        if instance is not None:
+            return instance.extern(self.name)
+        call = self.bind(context)
+        if self.interface is None:
+            return site.machine.host_function(call, "I")
+        return extern_of(site.machine, site.memory, self.interface, call)

@@ -1,0 +1,142 @@
+"""All compiled Structured Text of one controller: programs, and the libraries that they call."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from plcsim.core.errors import ConfigurationError
+from plcsim.library.executable import Compiled
+from plcsim.program.site import no_body
+from plcsim.program.structured_text.calling import extern_of, interface_of
+from plcsim.program.structured_text.codegen.link import Linker
+from plcsim.program.structured_text.layout import SHARED, addresses
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from plcsim.core.errors import Fault
+    from plcsim.library.catalogue import Catalogue
+    from plcsim.library.executable import Executable
+    from plcsim.machine import Extern, Instance
+    from plcsim.program.site import Site
+    from plcsim.program.structured_text import ir
+    from plcsim.program.structured_text.codegen.object_code import ObjectCode
+    from st_types.resolve.scope import Scope
+    from st_types.types.derived import DataBlockType
+
+
+class Linkage:
+    """The modules of one controller; see `of`."""
+
+    def __init__(self, site: Site) -> None:
+        self._site = site
+        self._linker = Linker(site.machine)
+        self._libraries: dict[object, Instance | None] = {}
+        self._externs: dict[object, Extern] = {}
+        self._shared = addresses(SHARED, site.shared)
+
+    @staticmethod
+    def of(site: Site) -> Linkage:
+        """Return the linkage of a controller, made at the first call."""
+        found = site.context.settings(Linkage)
+        if found is None:
+            found = Linkage(site)
+            site.context.give_settings(found)
+        return found
+
+    def link(self, code: ObjectCode, scope: Scope, own: Mapping[str, int]) -> Instance:
+        """Return a module that is ready to run.
+
+        Args:
+            code: the module.
+            scope: in which its names were looked up.
+            own: addresses of the segments of its variables.
+
+        Raises:
+            ConfigurationError: the memory is full, or something that it calls has no body.
+        """
+        places = {**self._shared, **own}
+        for segment in code.segments:
+            if segment.data is not None:
+                places[segment.name] = self._site.memory.keep(segment.data, 8)
+        return self._linker.link(code, places, partial(self._provide, scope))
+
+    def library(self, key: object, link: Callable[[], Instance]) -> Instance | None:
+        """Return the module of a library; None while it is being linked.
+
+        Args:
+            key: of the library.
+            link: links it at the first call.
+        """
+        if key not in self._libraries:
+            self._libraries[key] = None
+            self._libraries[key] = link()
+        return self._libraries[key]
+
+    def fault_of(self, error: BaseException) -> Fault:
+        """Return what something that a unit raised means."""
+        from plcsim.program.structured_text.fault import fault_of  # noqa: PLC0415  # rarely needed
+
+        return fault_of(error, self._linker.lines_of)
+
+    def _provide(self, scope: Scope, wanted: ir.Import) -> Extern:
+        declared = _declared_by(scope, wanted)
+        if declared not in self._externs:
+            self._externs[declared] = self._made(scope, wanted)
+        return self._externs[declared]
+
+    def _made(self, scope: Scope, wanted: ir.Import) -> Extern:
+        site = self._site
+        executable = executable_of(site.catalogue, scope, wanted)
+        if executable is None:
+            raise ConfigurationError(_no_body(scope, wanted))
+        if isinstance(executable, Compiled):
+            return executable.extern(site.context)
+        if wanted.space == "block":
+            return site.machine.host_function(site.block(_data_block(scope, wanted)), "I")
+        function = scope.find_function(wanted.name)
+        assert function is not None
+        call = executable.bind(site.context)
+        return extern_of(site.machine, site.memory, interface_of(function), call)
+
+
+def _declared_by(scope: Scope, wanted: ir.Import) -> object:
+    """Return what is one and the same for all who import a block or function."""
+    if wanted.space == "block":
+        return _data_block(scope, wanted)
+    function = scope.find_function(wanted.name)
+    assert function is not None
+    return function.scope
+
+
+def _data_block(scope: Scope, wanted: ir.Import) -> DataBlockType[Any]:
+    block = scope.find_function_block(wanted.name)
+    assert block is not None
+    assert block.data_type is not None
+    return block.data_type
+
+
+def executable_of(catalogue: Catalogue, scope: Scope, wanted: ir.Import) -> Executable | None:
+    """Return what executes a block or function that a module calls, None where nothing does.
+
+    Raises:
+        ConfigurationError: the bodies of its library cannot be loaded.
+    """
+    if wanted.space == "block":
+        return catalogue.executable(_data_block(scope, wanted))
+    found = catalogue.find_function(wanted.name)
+    return None if found is None else found[1]
+
+
+def missing(catalogue: Catalogue, scope: Scope, imports: Iterable[ir.Import]) -> list[str]:
+    """Return what is wrong with what a module calls and nothing executes."""
+    return [
+        _no_body(scope, each) for each in imports if executable_of(catalogue, scope, each) is None
+    ]
+
+
+def _no_body(scope: Scope, wanted: ir.Import) -> str:
+    if wanted.space == "block":
+        return no_body(_data_block(scope, wanted))
+    return f"FUNCTION {wanted.name} has no body: it is declared, and nothing executes it"
