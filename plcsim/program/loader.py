@@ -134,8 +134,11 @@ class ProgramLoader:
 
     def _declared_in(self, folder: Path) -> Iterator[DeclarationFile]:
         """Iterate over what the files with units of a program declare."""
-        for language in self._languages:
-            yield from language.declarations(language.units(folder))
+        try:
+            for language in self._languages:
+                yield from language.declarations(language.units(folder))
+        except OSError as err:
+            raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
 
     @cached_property
     def shared(self) -> Variables:

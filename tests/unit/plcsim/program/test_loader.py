@@ -106,11 +106,8 @@ def test_a_folder_that_is_not_there(load, files, error):
 
 
 def test_a_folder_without_a_program(load):
-    assert wrong(load, {"main/notes.txt": ""}) == "main: holds neither main.py nor variables.py"
-
-
-def test_structured_text_is_refused_in_words(load):
-    assert "Structured Text is not there yet" in wrong(load, {"main/Main.st": ""})
+    told = "main: holds no program: neither main.py nor variables.py, no .st file, no .c file"
+    assert wrong(load, {"main/notes.txt": ""}) == told
 
 
 def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
