@@ -15,7 +15,7 @@ from plcsim.core.function_block import FunctionBlock
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.face import names_of
 from plcsim.library.installed import installed
-from plcsim.program.python.check import check_names
+from plcsim.program.python.method_check import check_methods
 from plcsim.program.python.modules import body_modules, own_names
 
 if TYPE_CHECKING:
@@ -115,5 +115,5 @@ def _block(library: Library, view: type[FunctionBlock]) -> tuple[str, Executable
     if name not in scope.index.names("types") or scope.find_type(name) is not view._plc_type:
         return "", None
     if installed().get(library.package) is not library:
-        check_names(view, FunctionBlock)
+        check_methods(view, FunctionBlock)
     return name, PythonBlock(view)

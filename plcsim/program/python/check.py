@@ -1,27 +1,19 @@
-"""Finds in a program class what could only fail later: units that never run, misspelt names.
-
-A name is looked up as Python will do it, in the class: the variables, the methods and ``__slots__``
-of a program are all there before its first cycle.
-"""
+"""Finds in a program class what could only fail later: units that never run, methods gone wrong."""
 
 from __future__ import annotations
 
-import ast
 import inspect
-import textwrap
 from typing import TYPE_CHECKING
 
-from plcsim.core.errors import ConfigurationError
+from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Unit
+from plcsim.program.python.method_check import check_methods, own_methods
 from plcsim.program.python.program import Program
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from pathlib import Path
-    from types import FunctionType
-
-    from st_types import Struct
 
 _NOT_RUN_BY_A_CALL: tuple[Callable[[object], bool], ...] = (
     inspect.iscoroutinefunction,
@@ -29,38 +21,44 @@ _NOT_RUN_BY_A_CALL: tuple[Callable[[object], bool], ...] = (
     inspect.isasyncgenfunction,
 )
 
-_OTHER_SCOPES = (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda, ast.ClassDef)
+_UNITS = tuple(unit.value.lower() for unit in Unit)
 
 
 def check_program(program: type[Program], folder: Path) -> None:
-    """Check the units and the names of a program.
+    """Check the units and the methods of a program.
 
     Args:
         program: its class.
         folder: where it lies, for what has no line.
 
     Raises:
-        ConfigurationError: a unit would never run or fails at its call, or a method uses a name of
-            ``self`` that is not there; file and line are named.
+        ConfigurationError: a unit would never run or fails at its call, methods stand there and no
+            unit, or a method is wrong (`plcsim.program.python.method_check`); all findings are
+            told, with file and line.
     """
-    for unit in Unit:
-        _check_unit(program, unit.value.lower(), folder)
-    check_names(program, Program)
+    findings = Findings()
+    for unit in _UNITS:
+        with findings.gathered():
+            _check_unit(program, unit, folder)
+    if not findings:
+        with findings.gathered():
+            _check_any(program, folder)
+    with findings.gathered():
+        check_methods(program, Program)
+    findings.check()
 
 
-def check_names(view: type[Struct], base: type[Struct]) -> None:
-    """Check the names of ``self`` that the methods of a class use.
-
-    Args:
-        view: a program or a function block.
-        base: whose own methods are right, as those of its bases.
-
-    Raises:
-        ConfigurationError: one is not there; file and line are named.
-    """
-    if not hasattr(view, "__getattr__") and not view.__dictoffset__:
-        for function in _methods(view, base):
-            _check_names(view, function)
+def _check_any(program: type[Program], folder: Path) -> None:
+    """Refuse a program that has methods and would run none of them; it may have variables only."""
+    methods = list(own_methods(program, Program))
+    if not methods or any(getattr(program, unit) is not getattr(Program, unit) for unit in _UNITS):
+        return
+    near = {method: did_you_mean(method.__name__, _UNITS) for method in methods}
+    method = next((m for m, hint in near.items() if hint), methods[0])
+    raise ConfigurationError(
+        f"{_location_of(method, folder)}: {method.__name__} is no unit, and {program.__name__} has "
+        f"none of {', '.join(_UNITS)}{near[method]}"
+    )
 
 
 def _check_unit(program: type[Program], name: str, folder: Path) -> None:
@@ -92,38 +90,3 @@ def _check_misspelt(program: type[Program], name: str, folder: Path) -> None:
 def _location_of(function: object, folder: Path) -> str:
     code = getattr(inspect.unwrap(function), "__code__", None) if callable(function) else None
     return f"{code.co_filename}:{code.co_firstlineno}" if code else str(folder)
-
-
-def _methods(view: type[Struct], base: type[Struct]) -> Iterator[FunctionType]:
-    """Iterate over the methods that a class and its bases below ``base`` define."""
-    for each in view.__mro__[: view.__mro__.index(base)]:
-        for value in vars(each).values():
-            if inspect.isfunction(value) and inspect.isfunction(method := inspect.unwrap(value)):
-                yield method
-
-
-def _check_names(view: type[Struct], function: FunctionType) -> None:
-    try:
-        lines, first = inspect.getsourcelines(function)
-        (tree,) = ast.parse(textwrap.dedent("".join(lines))).body
-    except (OSError, SyntaxError, ValueError):  # made by other means than a file
-        return
-    if not isinstance(tree, ast.FunctionDef) or not tree.args.args:
-        return
-    for node in _attributes_of(tree, tree.args.args[0].arg):
-        if not node.attr.startswith("__") and not hasattr(view, node.attr):
-            hint = did_you_mean(node.attr, dir(view))
-            location = f"{function.__code__.co_filename}:{first + node.lineno - 1}"
-            raise ConfigurationError(f"{location}: {view.__name__} has no {node.attr}{hint}")
-
-
-def _attributes_of(tree: ast.AST, name: str) -> Iterator[ast.Attribute]:
-    """Iterate over ``name.something`` in a function, not in functions inside it."""
-    for node in ast.iter_child_nodes(tree):
-        if isinstance(node, _OTHER_SCOPES):
-            continue
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            if node.value.id == name:
-                yield node
-        else:
-            yield from _attributes_of(node, name)

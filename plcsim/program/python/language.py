@@ -169,7 +169,9 @@ class _Loader:
         self._check_external(program)
         local = {variable.name for variable in self._source.scope.variables}
         local |= {name for name in dir(program) if not _is_external(program, name)}
-        names: dict[str, Any] = {m.name: GlobalVariable(m.name) for m in shared.variables.members}
+        names: dict[str, Any] = {
+            m.name: GlobalVariable(m.name, m.data_type) for m in shared.variables.members
+        }
         names |= {m.name: Constant(*m[:3]) for m in shared.constants.members}
         return {name: value for name, value in names.items() if name not in local}
 

@@ -65,6 +65,7 @@ class Constant:
     """
 
     def __init__(self, name: str, data_type: DataType[Any], value: object) -> None:
+        self.data_type = data_type
         self._name = name
         self._holder = view_class(StructType("CONSTANT", [Member(name, data_type, value)]))
         self._value = getattr(self._holder(), name)
