@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from plcsim.cli.console import CommandConsole
+from plcsim.cli.console import CommandConsole, print_error
 from plcsim.cli.exit_codes import epilog
 from plcsim.cli.project_argument import add_project
 from plcsim.core.duration import format_duration
+from plcsim.core.tag import leaves
 from plcsim.host.processors import missing_cpu
 from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
@@ -18,7 +19,7 @@ from plcsim.project.plc_toml import read_project
 if TYPE_CHECKING:
     import argparse
 
-    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
     from plcsim.core.task import TaskClass
     from plcsim.project.plc_toml import Project
 
@@ -43,14 +44,19 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def check(options: argparse.Namespace) -> int:
     """Check the project and print what it consists of."""
     project = read_project(options.project)
-    controller = still_controller(load(project))
+    application = load(project)
+    controller = still_controller(application)
     notes = [*check_settings(project.extensions, controller), *notes_on_cpu(project)]
     console = CommandConsole()
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("class", "cycle", "tolerance", "program", "address", "bytes", "tags"):
         table.add_column(column, justify="left" if column == "program" else "right")
+    for area in controller.areas:
+        if not area.path:
+            what = "global constants" if area.is_constant else "global variables"
+            table.add_row("", "", "", what, *_figures(area))
     for task_class in controller.classes:
-        _add_rows(table, task_class, controller)
+        _add_rows(table, task_class)
     console.print(table)
     count = len(controller.tasks)
     console.print(
@@ -58,6 +64,8 @@ def check(options: argparse.Namespace) -> int:
         f"{controller.memory.size} bytes of PLC memory used, tick "
         f"{format_duration(project.plc.tick_ns)}"
     )
+    for warning in application.warnings:
+        print_error(warning)
     for note in notes:
         console.print(f"on this host: {note}", soft_wrap=True)
     return 0
@@ -69,16 +77,18 @@ def notes_on_cpu(project: Project) -> list[str]:
     return [f"plc.cpu: {missing}"] if missing else []
 
 
-def _add_rows(table: Table, task_class: TaskClass, controller: Controller) -> None:
+def _add_rows(table: Table, task_class: TaskClass) -> None:
     for task in task_class.tasks:
-        prefix = task.name.upper() + "."
-        tags = sum(tag.path.upper().startswith(prefix) for tag in controller.tags)
         table.add_row(
             f"#{task_class.number}",
             format_duration(task_class.cycle_ns),
             format_duration(task_class.tolerance_ns),
             task.name,
-            f"16#{task.variables.address:08X}",
-            str(task.variables.data_type.size),
-            str(tags),
+            *_figures(task.variables),
         )
+
+
+def _figures(area: Tag) -> tuple[str, str, str]:
+    """Return address, bytes and number of the variables of one area."""
+    tags = sum(1 for _ in leaves(area, elements=False))
+    return f"16#{area.address:08X}", str(area.data_type.size), str(tags)

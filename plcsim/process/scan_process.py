@@ -137,7 +137,7 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
     )
     page.clock = clock
-    application = load(project)
+    application = load(project, watched=True)
     rights = _take_rights(project, order)
     if rights.cpu is not None:
         page.pinned(rights.cpu)  # before services are started, which keep off it

@@ -6,13 +6,17 @@ controller of a project gets it here, so that a project is the same thing everyw
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.clock import VirtualClock
-from plcsim.core.errors import Findings
+from plcsim.core.duration import format_duration
+from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
 from plcsim.host.garbage import collect_while_idle
+from plcsim.host.time_limit import time_limit
 from plcsim.network import VirtualNetwork
+from plcsim.program.fault import location_of
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.extension import extensions, in_process, services_of
@@ -76,17 +80,30 @@ class Image:
     wake_fds: Sequence[int] = ()
 
 
-def load(project: Project) -> Application:
+def load(project: Project, *, watched: bool = False) -> Application:
     """Load the programs of a project.
 
+    Args:
+        project: as plc.toml has it.
+        watched: another process ends this one when it does not return within the project's
+            ``init_timeout``; otherwise loading is ended here.
+
     Raises:
-        ConfigurationError: programs are missing or cannot be loaded, or a library cannot be told
-            what plc.toml tells it; all findings are told, with file and line.
+        ConfigurationError: programs are missing, cannot be loaded or do not return, or a library
+            cannot be told what plc.toml tells it; all findings are told, with file and line.
     """
     sources = dict.fromkeys(entry.source for entry in project.programs)
     loader = ProgramLoader(project.folder, [*sources], project.library_folders)
     try:
-        return _load(project, loader)
+        with nullcontext() if watched else time_limit(project.plc.init_timeout_ns):
+            return _load(project, loader)
+    except CycleTimeViolation as error:
+        loader.unload()
+        limit = format_duration(project.plc.init_timeout_ns)
+        location = location_of(error) or project.folder
+        raise ConfigurationError(
+            f"{location}: the programs were not loaded within {limit}"
+        ) from None
     except BaseException:
         loader.unload()
         raise

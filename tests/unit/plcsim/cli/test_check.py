@@ -99,3 +99,35 @@ def test_too_little_memory_is_found(cell, capsys):
     plc.write_text('[plc]\nmemory = "64KiB"\n' + plc.read_text())
     assert main(["check", str(cell)]) == 1
     assert "the PLC memory of 65536 bytes is full" in capsys.readouterr().err
+
+
+def test_global_variables_are_shown_and_warnings_told(project, capsys):
+    folder = project(
+        {
+            "plc.toml": '[task_class.1]\nprograms = ["main"]\n',
+            "main/main.py": PROGRAM,
+            "Global.var": "VAR a, b : UINT; END_VAR\nVAR CONSTANT C : DINT := 1; END_VAR\n",
+            "lamps/lamps.fun": "FUNCTION_BLOCK Lamp\nEND_FUNCTION_BLOCK\n",
+        }
+    )
+    assert main(["check", str(folder)]) == 0
+    shown = capsys.readouterr()
+    assert [row.split() for row in shown.out.splitlines()[1:3]] == [
+        ["global", "variables", "16#00120004", "4", "2"],
+        ["global", "constants", "16#00120000", "4", "1"],
+    ]
+    assert shown.err == f"plcsim: {folder}/lamps/lamps.fun:1:1: warning: Lamp has no body\n"
+
+
+def test_a_program_that_does_not_return_when_it_is_loaded_is_told(project, capsys):
+    folder = project(
+        {
+            "plc.toml": '[plc]\ninit_timeout = "500ms"\n[task_class.1]\nprograms = ["main"]\n',
+            "main/main.py": "while True:\n    pass\n",
+        }
+    )
+    assert main(["check", str(folder)]) == 1
+    assert re.fullmatch(
+        r"plcsim: .*/main/main\.py:[12]: the programs were not loaded within 500 ms\n",
+        capsys.readouterr().err,
+    )

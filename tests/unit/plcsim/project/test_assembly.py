@@ -146,3 +146,10 @@ def test_a_controller_to_look_at_has_memory_and_tags_and_nothing_hooked_in(web):
     assert controller.tags.find("main.count").address
     assert not controller.image.inputs
     assert network_of(controller.context).open("", 0).socket.local.ip == "0.0.0.0"
+
+
+def test_programs_that_do_not_return_are_ended(application):
+    with pytest.raises(
+        ConfigurationError, match=r"main\.py:2: the programs were not loaded within"
+    ):
+        application("[plc]\ninit_timeout = '20ms'\n" + MAIN, main="\nwhile True: pass\n")
