@@ -116,7 +116,7 @@ def test_global_variables_are_shown_and_warnings_told(project, capsys):
         ["global", "variables", "16#00120004", "4", "2"],
         ["global", "constants", "16#00120000", "4", "1"],
     ]
-    assert shown.err == f"plcsim: {folder}/lamps/lamps.fun:1:1: warning: Lamp has no body\n"
+    assert shown.err == f"plcsim: {folder}/lamps/lamps.fun:1:16: warning: Lamp has no body\n"
 
 
 def test_a_program_that_does_not_return_when_it_is_loaded_is_told(project, capsys):
