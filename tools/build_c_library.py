@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 
 from plcsim.ansi_c.build import Order, build
-from plcsim.ansi_c.c_library import BINARY, OPTIONS, STAMP, sources, stamp
+from plcsim.ansi_c.c_library import BINARY, MUSL, OPTIONS, STAMP, sources, stamp
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.machine.cache import CodeCache
@@ -19,7 +19,9 @@ from plcsim.machine.encoder import name, uleb
 def main() -> int:
     """Build it."""
     toolchain = find_toolchain()
-    built = build(Order("C library", sources(), [INCLUDE], OPTIONS), toolchain, CodeCache(None))
+    built = build(
+        Order("C library", sources(), [MUSL, INCLUDE], OPTIONS), toolchain, CodeCache(None)
+    )
     for warning in built.warnings:
         print(warning)
     content = name(STAMP) + stamp()

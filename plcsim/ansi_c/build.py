@@ -30,6 +30,8 @@ _OPTIONS = (
     # what programs for the controller take for granted of its compiler
     *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
     *("-fno-math-errno", "-ffp-contract=off", "-fgnuc-version=11.3.0"),
+    # long double is double: the one of 128 bits that WebAssembly has would be computed in software
+    *("-Xclang", "-mlong-double-64"),
     # instructions that the machine does not run, and the saturating conversions of x86
     *("-mno-bulk-memory", "-mno-nontrapping-fptoint", "-mno-reference-types", "-mno-multivalue"),
     *("-nostdlibinc", "-fno-color-diagnostics", "-ferror-limit=0", "-Wno-unknown-warning-option"),

@@ -26,6 +26,7 @@ MISSING = (
 
 _TARGET = "wasm32-unknown-emscripten"  # for it alone clang 14 makes position-independent code
 _ZIG_TARGET = "wasm32-freestanding"
+_NO_FILL = "-mno-bulk-memory-opt"  # newer clangs write memory.fill without bulk memory
 _DYNAMIC = "--unresolved-symbols=import-dynamic"  # what LLD 14 does by itself
 
 
@@ -81,8 +82,8 @@ def zig() -> Toolchain | None:
     return Toolchain(
         f"zig {number}",
         f"zig {number}",
-        (command, "cc", "-target", _ZIG_TARGET),
-        (command, "c++", "-target", _ZIG_TARGET),
+        (command, "cc", "-target", _ZIG_TARGET, _NO_FILL),
+        (command, "c++", "-target", _ZIG_TARGET, _NO_FILL),
         (command, "wasm-ld", _DYNAMIC),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from plcsim.core.system_area import RELEASE
+from plcsim.core.system_area import DATE, RELEASE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -66,6 +66,19 @@ class Context:
     @release_ns.setter
     def release_ns(self, time_ns: int) -> None:
         self._system[RELEASE] = time_ns
+
+    @property
+    def date_ns(self) -> int:
+        """Date and time of the controller, nanoseconds since 1970-01-01 (UTC), at the release.
+
+        It stands still within a cycle, as the release time does; setting it sets the controller's
+        clock.
+        """
+        return self._system[RELEASE] + self._system[DATE]
+
+    @date_ns.setter
+    def date_ns(self, date_ns: int) -> None:
+        self._system[DATE] = date_ns - self._system[RELEASE]
 
     def settings(self, kind: type[T]) -> T | None:
         """Return the settings of this class, None where the project has none.

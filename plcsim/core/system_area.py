@@ -14,8 +14,9 @@ from typing import Self
 SIZE = 0x1_0000
 """Bytes: a page of PLC memory."""
 
-BUDGET, RELEASE = range(2)
-"""Indices of 64-bit cells: the budget; the release time of the running task class in ns."""
+BUDGET, RELEASE, DATE = range(3)
+"""Indices of 64-bit cells: the budget; the release time of the running task class in ns; the
+nanoseconds from 1970-01-01 (UTC) to time 0 of the clock that the release time is read from."""
 
 UNLIMITED = 1 << 62
 """The budget of a program that nobody has asked to end.

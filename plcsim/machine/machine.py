@@ -182,9 +182,11 @@ class Machine:
         }
         pointer = self._common[STACK_POINTER_NAME].structure.of.variable
         self._store.watch_stack(GlobalHandle.from_buffer_copy(pointer), SYSTEM_AREA)
+        self._shared: dict[object, Any] = {}
 
     def close(self) -> None:
         """Give everything back at once; the instances must not be used any more."""
+        self._shared.clear()
         self._store.close()
 
     def compile(self, wasm: bytes) -> Code:
@@ -250,6 +252,13 @@ class Machine:
         api.wasm_globaltype_delete(kind)
         raise_error(error, "a constant")
         return extern
+
+    def shared(self, make: Callable[[Machine], T]) -> T:
+        """Return something that the machine has one of, made by ``make`` at the first call."""
+        if make not in self._shared:
+            self._shared[make] = make(self)
+        found: T = self._shared[make]
+        return found
 
     def unit(self, function: Callable[..., T]) -> Callable[..., T]:
         """Return a function as the unit of a program: where instructions are counted, it ends.

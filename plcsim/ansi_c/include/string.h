@@ -35,6 +35,12 @@ size_t strspn(const char *text, const char *accepted);
 size_t strcspn(const char *text, const char *rejected);
 char *strtok(char *text, const char *separators);
 char *strtok_r(char *text, const char *separators, char **rest);
+char *strerror(int number);
+char *strdup(const char *text); /* on the heap */
+char *strndup(const char *text, size_t most);
+size_t strlcpy(char *target, const char *source, size_t size);
+size_t strlcat(char *target, const char *source, size_t size);
+size_t strxfrm(char *target, const char *source, size_t count);
 
 #ifdef __cplusplus
 }

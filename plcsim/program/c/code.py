@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.ansi_c.build import Order, build
 from plcsim.ansi_c.c_library import CLibrary
 from plcsim.ansi_c.headers import INCLUDE, program_headers, write_headers
+from plcsim.ansi_c.heap import HEAP_SIZE, Heap, is_of_heap
 from plcsim.ansi_c.module import CModule
 from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Fault
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
     from st_types.types.derived import StructType
-
-STACK_SIZE: Final = 0x4_0000
-"""Bytes of the stack that all programs in C share."""
 
 _UNIT_NAMES = {unit: f"_{unit.value}" for unit in Unit}
 
@@ -67,10 +65,10 @@ class CCode:
         """Return a task with variables and data of its own."""
         kind = self._variables
         variables = Tag(name, kind, site.memory.allocate(kind.size, kind.alignment))
-        surroundings = _Surroundings(kind, variables.address, site)
-        site.memory.open_stack(STACK_SIZE)
+        surroundings = _Surroundings(name, kind, variables.address, site)
         module = CModule(name, self._linked, site.machine, surroundings)
         units = {unit: _unit(module, unit, site.machine) for unit in Unit}
+        units[Unit.INIT] = _fresh(module, surroundings, units[Unit.INIT])
 
         def fault_of(error: BaseException) -> Fault:
             return _fault(module, error)
@@ -88,21 +86,25 @@ class CCode:
 class _Surroundings:
     """What a program in C finds on its controller."""
 
-    def __init__(self, variables: StructType[object], address: int, site: Site) -> None:
+    def __init__(self, name: str, variables: StructType[object], address: int, site: Site) -> None:
+        self._name = name
         self._variables = variables
         self._address = address
         self._site = site
-        self._library = CLibrary(site.machine)
+        self._library = site.machine.shared(CLibrary)
         self._externs: dict[str, Extern] = {}
+        self.heap: Heap | None = None
 
     def variable(self, name: str) -> int | None:
         try:
             return self._address + self._variables.find(name)[1]
         except KeyError:
-            return None
+            return self._library.variable(name)
 
     def function(self, name: str) -> Extern | None:
         block = block_classes().get(name)
+        if is_of_heap(name):
+            return self._own_heap().extern(name)
         if block is None:
             return self._library.extern(name)
         if name not in self._externs:
@@ -110,15 +112,26 @@ class _Surroundings:
             self._externs[name] = self._site.machine.host_function(call, "I")
         return self._externs[name]
 
+    def _own_heap(self) -> Heap:
+        if self.heap is None:
+            self.heap = Heap(self._name, self._site.machine, self._library, HEAP_SIZE)
+        return self.heap
+
 
 def _unit(module: CModule, unit: Unit, machine: Machine) -> Callable[[], None]:
-    """Return what runs a unit; before INIT the program's own data has its initial values."""
+    """Return what runs a unit."""
     name = _UNIT_NAMES[unit]
-    run = machine.unit(module.function(name)) if name in module else _nothing
-    if unit is not Unit.INIT:
-        return run
+    return machine.unit(module.function(name)) if name in module else _nothing
+
+
+def _fresh(
+    module: CModule, surroundings: _Surroundings, run: Callable[[], None]
+) -> Callable[[], None]:
+    """Return the unit INIT: before it the program's data and heap are as they were at first."""
 
     def init() -> None:
+        if surroundings.heap is not None:
+            surroundings.heap.reset()
         module.reset()
         run()
 

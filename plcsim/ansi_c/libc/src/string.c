@@ -163,3 +163,24 @@ char *strtok(char *text, const char *separators)
 	static char *rest;
 	return strtok_r(text, separators, &rest);
 }
+
+size_t strlcpy(char *target, const char *source, size_t size)
+{
+	size_t length = strlen(source), part = length < size ? length : size - 1;
+	if (size) {
+		memcpy(target, source, part);
+		target[part] = 0;
+	}
+	return length;
+}
+
+size_t strlcat(char *target, const char *source, size_t size)
+{
+	size_t used = strnlen(target, size);
+	return used + strlcpy(target + used, source, size - used);
+}
+
+size_t strxfrm(char *target, const char *source, size_t count)
+{
+	return strlcpy(target, source, count);
+}

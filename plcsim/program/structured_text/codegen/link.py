@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.program.structured_text.codegen.mathematics import FUNCTIONS
+from plcsim.ansi_c.c_library import CLibrary
+from plcsim.program.structured_text.codegen.runtime import MATHEMATICS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -61,10 +62,7 @@ class Linker:
 
     def _mathematical(self) -> dict[tuple[str, str], Extern | int]:
         if not self._mathematics:
-            for name, function in FUNCTIONS.items():
-                parameters = "dd" if name in _OF_TWO else "d"
-                self._mathematics[name] = self._machine.host_function(function, parameters, "d")
+            library = self._machine.shared(CLibrary)
+            names = [name.removeprefix("rt.") for name in MATHEMATICS]
+            self._mathematics = {n: f for n in names if (f := library.extern(n)) is not None}
         return {("rt", name): extern for name, extern in self._mathematics.items()}
-
-
-_OF_TWO = ("pow", "fmod")

@@ -67,3 +67,10 @@ def test_restart_closes_the_libraries_and_forgets_them(context):
 def test_a_context_has_no_other_attributes(context):
     with pytest.raises(AttributeError):
         context.now_ns = 1
+
+
+def test_the_date_goes_on_with_the_release_time(context):
+    context.release_ns = 5
+    context.date_ns = 1_000
+    context.release_ns = 15
+    assert context.date_ns == 1_010

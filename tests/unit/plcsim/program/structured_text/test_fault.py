@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.core.errors import CycleTimeViolation
-from plcsim.core.memory import PAGE, Memory
+from plcsim.core.memory import FIRST, PAGE, Memory
 from plcsim.core.system_area import STALLED
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
@@ -43,7 +43,7 @@ def fault(memory):
         whole = module(unit(evaluate(call("ACTION"), line=3)), action, imports=imports)
         instance = linker.link(
             generate(whole),
-            {"program": 0x11_0000},
+            {"program": FIRST},
             lambda wanted: machine.host_function(provide, "I"),
         )
         cyclic = instance.function("CYCLIC")

@@ -2,11 +2,13 @@ import struct
 
 import pytest
 
+from plcsim.ansi_c.c_library import CLibrary
 from plcsim.core.memory import PAGE, Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
+from plcsim.program.structured_text.codegen.runtime import MATHEMATICS
 
 from .build import address, call, evaluate, function, load, module, op, store, unit
 
@@ -107,3 +109,9 @@ def test_lines_are_found_by_module(machine):
     assert linker.lines_of("other") is None
     with pytest.raises(ValueError, match="two modules are called library"):
         linker.link(counter_library(), {}, nothing)
+
+
+def test_the_c_library_has_every_mathematical_function():
+    library = Machine(Memory(32 * PAGE), cache=CodeCache(None)).shared(CLibrary)
+    for name in MATHEMATICS:
+        assert library.extern(name.removeprefix("rt.")) is not None, name

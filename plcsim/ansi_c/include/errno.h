@@ -1,0 +1,49 @@
+/* What a function of the C library could not do. */
+
+#ifndef PLCSIM_ERRNO_H
+#define PLCSIM_ERRNO_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern int errno;
+
+#define EPERM 1
+#define ENOENT 2
+#define EINTR 4
+#define EIO 5
+#define EBADF 9
+#define EAGAIN 11
+#define EWOULDBLOCK EAGAIN
+#define ENOMEM 12
+#define EACCES 13
+#define EFAULT 14
+#define EBUSY 16
+#define EEXIST 17
+#define ENODEV 19
+#define ENOTDIR 20
+#define EISDIR 21
+#define EINVAL 22
+#define ENFILE 23
+#define EMFILE 24
+#define ENOSPC 28
+#define EPIPE 32
+#define EDOM 33
+#define ERANGE 34
+#define ENOSYS 88
+#define ETIMEDOUT 116
+#define ECONNREFUSED 111
+#define ECONNRESET 104
+#define EINPROGRESS 119
+#define EALREADY 120
+#define ENOTCONN 128
+#define EISCONN 127
+#define ENOTSUP 134
+#define EOVERFLOW 139
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,62 @@
+/* Numbers, memory, searching and sorting (ISO C 7.20). Memory comes from the heap of the program. */
+
+#ifndef PLCSIM_STDLIB_H
+#define PLCSIM_STDLIB_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define EXIT_SUCCESS 0
+#define EXIT_FAILURE 1
+#define RAND_MAX 0x7fffffff
+#define MB_CUR_MAX 1
+
+typedef struct { int quot, rem; } div_t;
+typedef struct { long quot, rem; } ldiv_t;
+typedef struct { long long quot, rem; } lldiv_t;
+
+void *malloc(size_t size);
+void *calloc(size_t count, size_t size);
+void *realloc(void *area, size_t size);
+void free(void *area);
+
+int atoi(const char *text);
+long atol(const char *text);
+long long atoll(const char *text);
+double atof(const char *text);
+long strtol(const char *text, char **end, int base);
+unsigned long strtoul(const char *text, char **end, int base);
+long long strtoll(const char *text, char **end, int base);
+unsigned long long strtoull(const char *text, char **end, int base);
+float strtof(const char *text, char **end);
+double strtod(const char *text, char **end);
+
+int abs(int value);
+long labs(long value);
+long long llabs(long long value);
+div_t div(int number, int by);
+ldiv_t ldiv(long number, long by);
+lldiv_t lldiv(long long number, long long by);
+
+int rand(void);
+int rand_r(unsigned *state);
+void srand(unsigned seed);
+
+void qsort(void *area, size_t count, size_t size, int (*compare)(const void *, const void *));
+void *bsearch(const void *key, const void *area, size_t count, size_t size,
+              int (*compare)(const void *, const void *));
+
+/* Both end the controller's run, as a fault. */
+void abort(void) __attribute__((noreturn));
+void exit(int status) __attribute__((noreturn));
+
+char *getenv(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
