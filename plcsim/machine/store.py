@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import re
+import sys
 from ctypes import byref, c_uint8, c_uint64, c_void_p
 from typing import TYPE_CHECKING, Any, NoReturn
 
@@ -71,12 +72,15 @@ class Store:
         self.depth = 0
         self.kept: list[Any] = []
         self._delete = api.wasmtime_store_delete
+        self._process_ends = sys.is_finalizing
         self._system = system
         self._suspended: BaseException | None = None
         self._stack_pointer: tuple[GlobalHandle, int] | None = None
 
     def __del__(self) -> None:
-        self.close()
+        # at the end of the process what gives the memory back may be gone already
+        if not self._process_ends():
+            self.close()
 
     def close(self) -> None:
         """Give everything back; no compiled code of this store may run any more."""
