@@ -23,6 +23,8 @@ from st_types.syntax.reader import TokenReader, UnexpectedTokenError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from st_types.syntax.lexer import Keys
+
 MAX_OPERATORS = 400
 """Most operators, brackets and parts of a path in one expression; bounds the depth of its tree."""
 
@@ -164,9 +166,9 @@ class ExpressionParser(TokenReader):
     _operators = 0
 
     @cached_property
-    def keys(self) -> list[str]:
-        """The keys of all tokens."""
-        return self.key_table.keys_of(self.texts)
+    def keys(self) -> Keys:
+        """The keys of all tokens; declarations ask for few of them."""
+        return self.key_table.keys_when_asked(self.texts)
 
     def expression(self) -> Expression:
         """Parse one expression.

@@ -4,19 +4,39 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from st_types.syntax.expressions import POSTFIXES, Call, ExpressionParser
+from st_types.syntax.expressions import POSTFIXES, Call, ExpressionParser, Literal, Name
+from st_types.syntax.literals import MAX_DIGITS, parse_literal
 from st_types.syntax.tree import ArrayInitial, MemberInitial, RepeatedInitial, StructInitial
 
 if TYPE_CHECKING:
     from st_types.syntax.expressions import Expression
     from st_types.syntax.tree import Initial
 
+_ENDS = frozenset([";", ",", "]", ")", ".."])
+_NO_NAMES = frozenset(["TRUE", "FALSE"])
 _PATH = POSTFIXES - {"("}
 """What may follow an operand where no function is called."""
 
 
 class InitialParser(ExpressionParser):
     """Parses initial values."""
+
+    def expression(self) -> Expression:
+        """Parse one expression; in declarations most are one number or one name.
+
+        Raises:
+            UnexpectedTokenError: there is none here, or it is nested too deep or too long.
+        """
+        index, texts = self.index, self.texts
+        if texts[index + 1] in _ENDS:
+            text = texts[index]
+            if text.isdecimal() and text.isascii() and len(text) <= MAX_DIGITS:
+                self.index = index + 1
+                return Literal(index, text, parse_literal(text))
+            if text.isidentifier() and text.isascii() and text.upper() not in _NO_NAMES:
+                self.index = index + 1
+                return Name(index, text)
+        return super().expression()
 
     def initial(self) -> Initial:
         """Parse what follows ``:=`` in a declaration.

@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from enum import Enum, auto
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -134,6 +134,31 @@ class KeyTable(dict[str, str]):
     def keys_of(self, texts: Sequence[str]) -> list[str]:
         """Return the keys of tokens, those of an own copy: a file's names are not kept."""
         return list(map(_FileKeys(self, self._keywords).__getitem__, texts))
+
+    def keys_when_asked(self, texts: Sequence[str]) -> Keys:
+        """Return what `keys_of` does, each key worked out when it is asked for.
+
+        That is for parsers that ask for few.
+        """
+        return _AskedKeys(texts, _FileKeys(self, self._keywords))
+
+
+class Keys(Protocol):
+    """The keys of tokens."""
+
+    def __getitem__(self, index: int, /) -> str:
+        """Return the key of a token."""
+
+
+class _AskedKeys:
+    __slots__ = ("_keys", "_texts")
+
+    def __init__(self, texts: Sequence[str], keys: Mapping[str, str]) -> None:
+        self._texts = texts
+        self._keys = keys
+
+    def __getitem__(self, index: int) -> str:
+        return self._keys[self._texts[index]]
 
 
 class _FileKeys(dict[str, str]):

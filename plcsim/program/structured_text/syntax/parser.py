@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from plcsim.program.structured_text.codes import Code
@@ -48,7 +49,7 @@ def parse_structured_text(
 SAMPLE = 4096
 """Characters at the start of a file that tell whether it is text."""
 
-_BLANKS = frozenset("\t\n\v\f\r\x1a")
+_CONTROLS = re.compile(r"[\0-\x08\x0e-\x19\x1b-\x1f]")
 
 
 def is_text(text: str) -> bool:
@@ -57,8 +58,7 @@ def is_text(text: str) -> bool:
     Those are full of control characters; a text may hold some by mistake.
     """
     sample = text[:SAMPLE]
-    controls = sum(character < " " and character not in _BLANKS for character in sample)
-    return controls * 20 <= len(sample)
+    return len(_CONTROLS.findall(sample)) * 20 <= len(sample)
 
 
 def _parse(source: Source, defines: Mapping[str, str]) -> StructuredTextFile:

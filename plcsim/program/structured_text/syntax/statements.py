@@ -7,6 +7,7 @@ on behind the next semicolon or at the next keyword, so that one run finds them 
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from plcsim.program.structured_text.syntax.keywords import (
@@ -63,6 +64,11 @@ class StatementParser(DeclarationParser):
 
     _open: list[str]
     """The END keywords of the statements and units that are open, the outermost first."""
+
+    @cached_property
+    def keys(self) -> list[str]:
+        """The keys of all tokens: statements ask for most of them."""
+        return self.key_table.keys_of(self.texts)
 
     def statements(self) -> list[Statement]:
         """Parse statements up to a keyword that ends a list; whether the right one is not asked.
