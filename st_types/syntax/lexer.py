@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from enum import Enum, auto
-from itertools import accumulate
+from itertools import accumulate, chain
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -220,8 +220,8 @@ class Tokens:
     def offset(self, index: int) -> int:
         """Return the offset in the text of the first character of token ``index``."""
         if self._offsets is None:
-            pairs = zip(self.trivia, self.texts, strict=True)
-            self._offsets = list(accumulate(len(part) for pair in pairs for part in pair))[::2]
+            parts = chain.from_iterable(zip(self.trivia, self.texts, strict=True))
+            self._offsets = list(accumulate(map(len, parts)))[::2]
         return self._offsets[index]
 
     def select(self, chosen: Sequence[tuple[int, str]]) -> None:

@@ -22,6 +22,7 @@ from plcsim.program.structured_text.syntax.tree import (
     UnsupportedUnit,
 )
 from st_types.resolve.scope import Scope
+from st_types.syntax.collector import collector_paused
 from st_types.syntax.tree import (
     DeclarationFile,
     FunctionDeclaration,
@@ -81,6 +82,7 @@ def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
     return has_result or bool(declaration.blocks)
 
 
+@collector_paused()
 def check_program(
     name: str,
     files: Sequence[StructuredTextFile],

@@ -20,6 +20,7 @@ from plcsim.program.structured_text.codegen.profile import Profile
 from plcsim.program.structured_text.codegen.runtime import MATHEMATICS, helper
 from plcsim.program.structured_text.codegen.statements import statements
 from plcsim.program.structured_text.ir import RUNTIME
+from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,6 +36,7 @@ HELPER_OPTIONS = CodegenOptions(budget=False, copies=False)
 """Helpers end by themselves, and keep nothing but locals."""
 
 
+@collector_paused()
 def generate(module: ir.Module, options: CodegenOptions = PROGRAM_OPTIONS) -> ObjectCode:
     """Compile a module.
 

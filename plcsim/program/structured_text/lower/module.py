@@ -13,6 +13,7 @@ from plcsim.program.structured_text.lower.context import (
 from plcsim.program.structured_text.lower.memory import constant_of, is_scalar, width_of
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
 from plcsim.program.structured_text.lower.statements import StatementLowering
+from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.lower.semantics import Semantics
 
 
+@collector_paused()
 def lower(program: Program, areas: Areas, semantics: Semantics = AUTOMATION_STUDIO) -> ir.Module:
     """Return the intermediate representation of a program.
 
