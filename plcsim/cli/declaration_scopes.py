@@ -49,11 +49,15 @@ class NamedScope(NamedTuple):
             has no such things.
         path: its name, after those of the packages or folders around it.
         scope: its declarations.
+        folder: where it lies; None where it has none of its own.
+        listed: what belongs to a program or a library; None where all in the folder does.
     """
 
     kind: str
     path: tuple[str, ...]
     scope: Scope
+    folder: Path | None = None
+    listed: tuple[Path, ...] | None = None
 
 
 class Declarations(NamedTuple):
@@ -267,7 +271,11 @@ class _LogicalTree:
         around: list[Scope] = []
         libraries = [
             NamedScope(
-                "library", each.path, Scope(each.name, parsed(each.files), around, strict=strict)
+                "library",
+                each.path,
+                Scope(each.name, parsed(each.files), around, strict=strict),
+                each.folder,
+                each.files,
             )
             for each in _libraries_of(self._view.root)
         ]
@@ -297,7 +305,7 @@ def _inner_scopes(
         yield NamedScope("package", package.path, outer)
     for program in package.programs:
         scope = Scope(program.name, parsed(program.files), [outer], strict=outer.strict)
-        yield NamedScope("program", program.path, scope)
+        yield NamedScope("program", program.path, scope, program.folder, program.files)
     for inner in package.packages:
         yield from _inner_scopes(inner, outer, parsed)
 
@@ -346,7 +354,7 @@ class _FolderTree:
             around.append([scopes[parent].scope for parent in folder.parents if parent in scopes])
             path = folder.relative_to(self._top).parts or (self._top.name,)
             scope = Scope(path[-1], inside, around[-1], strict=strict)
-            scopes[folder] = NamedScope(kind, path, scope)
+            scopes[folder] = NamedScope(kind, path, scope, folder)
         libraries = [each.scope for each in scopes.values() if each.kind == "library"]
         last = [*libraries, *_without(builtin, libraries)]
         for outer in around:

@@ -6,6 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from plcsim.cli.declaration_files import find_files, shown_progress
+from plcsim.cli.st_check import check_files
 from plcsim.core.errors import PlcError
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from plcsim.program.structured_text.syntax.tree import (
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
+    from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+
 SUFFIXES = frozenset([".st"])
 
 _NOUNS = {
@@ -34,15 +37,18 @@ _NOUNS = {
 
 def check(options: argparse.Namespace) -> int:
     """Print what is wrong in the files, and how many they are."""
-    if not options.syntax:
-        raise PlcError("names and types are not checked yet; use --syntax.")
     paths = find_files(options.paths, SUFFIXES)
     if not paths:
         raise PlcError(f"{', '.join(map(str, options.paths))}: no .st file was found.")
     counts: Counter[str] = Counter()
     defines = _defines(options.defines)
-    for path in shown_progress(paths):
-        _check_file(path, defines, counts)
+    files = [file for path in shown_progress(paths) if (file := _read(path, defines, counts))]
+    told = [] if options.syntax else check_files(files)
+    for line in told:
+        print(line)
+    counts["error"] += len(told)
+    for file in files:
+        _report(file, counts)
     units = ", ".join(_count(counts[noun], noun) for noun in _NOUNS.values())
     print(
         f"{_count(len(paths), 'file')}, {_count(counts['line'], 'line')}: {units}; "
@@ -70,27 +76,35 @@ def _defines(texts: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _check_file(path: Path, defines: Mapping[str, str], counts: Counter[str]) -> None:
+def _read(
+    path: Path, defines: Mapping[str, str], counts: Counter[str]
+) -> StructuredTextFile | None:
+    """Parse a file; None where it cannot be read, which is told."""
     try:
         source = Source.read(path)
     except OSError as err:
         print(f"{path}: error: {err.strerror or err}")
-        counts["error"] += 1
-        return
     except SourceError as err:
         print(err)
-        counts["error"] += 1
-        return
-    file = parse_structured_text(source, defines)
+    else:
+        file = parse_structured_text(source, defines)
+        counts["line"] += source.line_count
+        counts.update(_NOUNS[type(unit)] for unit in file.units if type(unit) in _NOUNS)
+        return file
+    counts["error"] += 1
+    return None
+
+
+def _report(file: StructuredTextFile, counts: Counter[str]) -> None:
+    """Print what was found in a file."""
     log = file.diagnostics
-    for record in sorted(log.records, key=lambda record: (record.line, record.column)):
-        print(record.render())
+    records = sorted(log.records, key=lambda record: (record.line, record.column))
+    for text in dict.fromkeys(record.render() for record in records):
+        print(text)
     if log.omitted:
         print(f"{file.path}: {log.omitted} more findings are not shown")
-    counts["line"] += source.line_count
     counts["error"] += log.error_count
     counts["warning"] += log.warning_count
-    counts.update(_NOUNS[type(unit)] for unit in file.units if type(unit) in _NOUNS)
 
 
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {"check": check}

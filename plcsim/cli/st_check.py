@@ -1,0 +1,138 @@
+"""Checking names and types of Structured Text, wherever its declarations lie.
+
+In the logical view of an Automation Studio project the lists say which files are a program or a
+library. Elsewhere the .st files of a folder are one program, with those of folders in it that hold
+actions only; files in which each PROGRAM brings its own VAR blocks, as IEC 61131-3 has it, stand
+alone, and see what the other files of their folder declare.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.cli.declaration_scopes import library_scopes, read_declarations
+from plcsim.program.structured_text.check.program import check_program, declarations_of
+from plcsim.program.structured_text.dialect import is_standard
+from plcsim.program.structured_text.syntax.tree import ActionUnit
+from st_types.errors import Severity
+from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
+from st_types.resolve.scope import Scope
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from plcsim.cli.declaration_scopes import NamedScope
+    from plcsim.program.structured_text.check.typed import Storage
+    from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+
+
+UNLISTED: Final = "no list of its program names this file; only its syntax was checked"
+
+
+class _Group(NamedTuple):
+    """Files that are checked together.
+
+    Attributes:
+        name: of the program or the library.
+        files: its files.
+        outer: what they see besides what they declare themselves.
+        is_library: its variables are global ones.
+    """
+
+    name: str
+    files: Sequence[StructuredTextFile]
+    outer: Sequence[Scope]
+    is_library: bool = False
+
+
+def check_files(files: Sequence[StructuredTextFile]) -> list[str]:
+    """Check parsed files; findings go to their ``diagnostics``.
+
+    Files with errors in their syntax are left out.
+
+    Returns:
+        errors in the declarations beside them.
+    """
+    folders = sorted({Path(file.path).parent for file in files})
+    found = read_declarations(folders, strict=True)
+    scopes = [*found.scopes, *found.others]
+    sound = {Path(f.path).resolve(): f for f in files if not f.diagnostics.error_count}
+    for group in _groups(sound, scopes):
+        _check(group)
+    return [*found.reading.failures, *_errors(found.scopes)]
+
+
+def _errors(scopes: Iterable[NamedScope]) -> Iterator[str]:
+    records = (r for each in scopes for f in each.scope.files for r in f.diagnostics.records)
+    told = (record.render() for record in records if record.severity is Severity.ERROR)
+    return iter(dict.fromkeys(told))
+
+
+def _check(group: _Group) -> None:
+    dialect = IEC if any(map(is_standard, group.files)) else AUTOMATION_STUDIO
+    declared = [declarations_of(file) for file in group.files]
+    scope = Scope(group.name, declared, group.outer, dialect=dialect, strict=True)
+    scope.check()
+    if not any(file.diagnostics.error_count for file in group.files):
+        storage: Storage = "global" if group.is_library else "program"
+        check_program(group.name, group.files, scope, storage=storage)
+
+
+def _groups(
+    files: dict[Path, StructuredTextFile], scopes: Sequence[NamedScope]
+) -> Iterator[_Group]:
+    rest = dict(files)
+    for each in scopes:
+        if each.listed is not None:
+            own = [rest.pop(path) for f in each.listed if (path := f.resolve()) in rest]
+            if own:
+                yield _Group(each.scope.name, own, (each.scope,), each.kind == "library")
+    listed = {each.folder for each in scopes if each.listed is not None}
+    by_folder: dict[Path, list[StructuredTextFile]] = {}
+    for path, file in rest.items():
+        if not listed.isdisjoint(path.parents):
+            file.diagnostics.warning(0, UNLISTED)
+            continue
+        by_folder.setdefault(path.parent, []).append(file)
+    libraries = [each.scope for each in scopes if each.kind == "library"] or library_scopes()
+    known = {each.folder: each for each in scopes if each.folder is not None}
+    for folder, own in _merged(by_folder).items():
+        yield from _groups_of(folder, own, known, libraries)
+
+
+def _merged(
+    folders: dict[Path, list[StructuredTextFile]],
+) -> dict[Path, list[StructuredTextFile]]:
+    """Move the files of a folder that holds actions only to the nearest folder around it."""
+    found: dict[Path, list[StructuredTextFile]] = {}
+    for folder in sorted(folders):
+        target = next((each for each in folder.parents if each in found), None)
+        if target is not None and all(map(_holds_actions, folders[folder])):
+            found[target] += folders[folder]
+        else:
+            found[folder] = list(folders[folder])
+    return found
+
+
+def _holds_actions(file: StructuredTextFile) -> bool:
+    return all(isinstance(unit, ActionUnit) for unit in file.units)
+
+
+def _groups_of(
+    folder: Path,
+    files: Sequence[StructuredTextFile],
+    known: dict[Path, NamedScope],
+    libraries: Sequence[Scope],
+) -> Iterator[_Group]:
+    around = next((known[each] for each in (folder, *folder.parents) if each in known), None)
+    outer = libraries if around is None else (around.scope,)
+    is_library = around is not None and around.folder == folder and around.kind == "library"
+    together = [file for file in files if is_library or not is_standard(file)]
+    if together:
+        yield _Group(folder.name, together, outer, is_library)
+    alone = [file for file in files if file not in together]
+    if alone:
+        siblings = Scope(folder.name, [*map(declarations_of, alone)], outer, dialect=IEC)
+        for file in alone:
+            yield _Group(Path(file.path).stem, [file], (siblings,))
