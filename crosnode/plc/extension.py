@@ -82,7 +82,7 @@ class RosExtension(Extension):
         clock, first = controller.clock, min(controller.classes, key=lambda each: each.cycle_ns)
         found = RosContext(settings, Epoch(), time.perf_counter_ns)
         if not clock.is_virtual:
-            found.epoch.ns = time.time_ns() - clock.now_ns()
+            found.epoch.ns = clock.unix_ns() - clock.now_ns()
             controller.image.watchers.append(_NowAndThen(controller, first, _follow_wall_clock))
         if settings.is_embedded and settings.is_in_process:
             found = found._replace(master=_master_in_scan(controller, first))
@@ -171,7 +171,7 @@ def _follow_wall_clock(controller: Controller) -> None:
     """Let ROS time go with the host's time of day, which may be set while the PLC runs."""
     found, clock = surroundings(controller.context), controller.clock
     if found:
-        found.epoch.follow(clock.now_ns(), time.time_ns(), clock.now_ns())
+        found.epoch.follow(clock.now_ns(), clock.unix_ns(), clock.now_ns())
 
 
 class _BridgeStep:

@@ -12,7 +12,7 @@ class ExitCode(IntEnum):
     FAILED = 1
     WRONG_USAGE = 2
     SERVICE = 3
-    SLOWER = 4
+    DIFFERENT = 4
     INTERRUPTED = 130
 
 
@@ -21,7 +21,7 @@ MEANINGS = {
     ExitCode.FAILED: "a project, a file or the host is wrong",
     ExitCode.WRONG_USAGE: "wrong usage",
     ExitCode.SERVICE: "the controller ended in SERVICE",
-    ExitCode.SLOWER: "`report compare` found something slower",
+    ExitCode.DIFFERENT: "a comparison found a difference",
     ExitCode.INTERRUPTED: "ended by Ctrl-C",
 }
 """Of all commands; one that uses a code for something else says so in its help."""

@@ -82,7 +82,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             ("plcsim report compare before after", ""),
         ),
         epilog=epilog(
-            DONE="nothing got slower", FAILED="a report is wrong", SLOWER="something did"
+            DONE="nothing got slower", FAILED="a report is wrong", DIFFERENT="something did"
         ),
     )
     command.add_argument("before", type=Path, metavar="A", help="folder or report.json")
@@ -127,7 +127,7 @@ def compare(options: argparse.Namespace) -> int:
     slower = sum(one.worse for one in changed) + sum(one.worse for one in found)
     count = len(exact) + len(found)
     console.print(f"{slower} of {count} got slower" if slower else "nothing got slower")
-    return ExitCode.SLOWER if slower else ExitCode.DONE
+    return ExitCode.DIFFERENT if slower else ExitCode.DONE
 
 
 class Report(NamedTuple):

@@ -48,6 +48,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             ("plcsim run my_plc", "until Ctrl-C, with a live table"),
             ("plcsim run", "the project that this folder belongs to"),
             ("plcsim run my_plc --for 10s --report run.json", "ten seconds, and their figures"),
+            ("plcsim run my_plc --record run.bag", "what it does can be repeated and looked at"),
             ("plcsim run my_plc --virtual --for 1h", "an hour on the virtual clock, in seconds"),
         ),
         epilog=epilog(
@@ -80,6 +81,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--report", type=Path, metavar="FILE", help="write the figures of the run as JSON"
     )
     parser.add_argument(
+        "--record",
+        type=Path,
+        metavar="FILE",
+        help="record the run in a bag: .bag of ROS 1, .mcap or .db3 of ROS 2; see `plcsim replay`",
+    )
+    parser.add_argument(
         "--stay",
         action="store_true",
         help="in SERVICE, do not end before Ctrl-C: the last values can still be read",
@@ -103,7 +110,7 @@ def _positive(text: str) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Run the project and return the exit code."""
-    project = read_project(options.project)
+    project = _read_project(options)
     check_output("--report", options.report)
     if not (options.quiet or options.virtual):
         for note in notes_on_cpu(project):
@@ -129,6 +136,20 @@ def run(options: argparse.Namespace) -> int:
         if options.stay and code == ExitCode.SERVICE:
             _stay(supervisor, options)
         return code
+
+
+def _read_project(options: argparse.Namespace) -> Project:
+    """Return the project, with ``--record`` in its table [record].
+
+    Raises:
+        ConfigurationError: something is wrong with it, or the bag is there already.
+    """
+    file: Path | None = options.record
+    if file is None:
+        return read_project(options.project)
+    if file.exists():
+        raise ConfigurationError(f"--record {file}: exists already, and is not written over")
+    return read_project(options.project, {"record": {"file": str(file.resolve())}})
 
 
 def _look(logbook: LiveLogbook | None) -> None:

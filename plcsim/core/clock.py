@@ -35,13 +35,20 @@ class Clock(Protocol):
     def waits(self) -> int:
         """Return how often this thread gave up the CPU by waiting."""
 
+    def unix_ns(self) -> int:
+        """Return the time of day, nanoseconds since 1970; the clock's own time where virtual."""
+
+    def stamp_ns(self) -> int:
+        """Return the time for records only: nothing that runs may depend on it."""
+
 
 class MonotonicClock:
     """CLOCK_MONOTONIC: never set, not in steps when the host's wall clock is."""
 
     is_virtual = False
 
-    now_ns = staticmethod(time.monotonic_ns)
+    now_ns = stamp_ns = staticmethod(time.monotonic_ns)
+    unix_ns = staticmethod(time.time_ns)
     cpu_ns = staticmethod(time.thread_time_ns)
 
     def sleep_until_ns(self, until_ns: int) -> None:
@@ -78,6 +85,8 @@ class VirtualClock:
     def now_ns(self) -> int:
         """Return the virtual time."""
         return self._now_ns
+
+    unix_ns = stamp_ns = now_ns
 
     def sleep_until_ns(self, until_ns: int) -> None:
         """Jump to ``until_ns``; never back. With a speed, return early where it is not yet due."""

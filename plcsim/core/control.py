@@ -22,6 +22,17 @@ class Action(Enum):
     SPEED = 7
 
 
+class Step(Enum):
+    """What is done to a controller between its cycles."""
+
+    BOOT = 1
+    START = 2
+    RESUME = 3
+    SHUTDOWN = 4
+    CLOSE = 5
+    RUN = 6
+
+
 AS_FAST_AS_POSSIBLE = 0
 """The speed of a virtual clock that waits for nothing."""
 

@@ -6,6 +6,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.clock import MonotonicClock
+from plcsim.core.control import Step
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import ProgramError
 from plcsim.core.forces import Forces
@@ -121,6 +122,7 @@ class Controller:
         self.origin_ns = self.clock.now_ns()
         self.requests: deque[Request] = deque()
         self._violation_followers: list[Callable[[Violation], None]] = []
+        self._step_followers: list[Callable[[Step, int, int], None]] = []
         self.stop_requested = False
         self._started = False
 
@@ -133,6 +135,7 @@ class Controller:
         Raises:
             StateError: the controller runs; call `shutdown` first.
         """
+        self._about_to(Step.BOOT)
         if self.state is not State.BOOT:
             self._enter(Event.RESTART)
             self.fault = None
@@ -157,6 +160,7 @@ class Controller:
         What takes time after `boot` is done before, so that it costs no grid points.
         """
         if not self._started:
+            self._about_to(Step.START)
             self.scan.start()
             self._started = True
 
@@ -166,8 +170,18 @@ class Controller:
             self.start()
             if self.stop_requested:  # by a signal that came before the scan had started
                 self.scan.stop()
+            self._about_to(Step.RUN, until_ns, cycles)
             self.scan.run(until_ns, cycles)
         return self.state
+
+    def resume(self) -> None:
+        """Go on after a pause: grid points that have passed meanwhile are not missed."""
+        self._about_to(Step.RESUME)
+        self.scan.resume()
+
+    def close(self) -> None:
+        """Let those who follow the controller end; nothing runs on it any more."""
+        self._about_to(Step.CLOSE)
 
     def run_for(self, duration_ns: int) -> State:
         """Run the scan for ``duration_ns`` from now."""
@@ -194,6 +208,7 @@ class Controller:
         Only in RUN: without INIT there is nothing to leave, and in SERVICE the programs are stopped
         where they failed.
         """
+        self._about_to(Step.SHUTDOWN)
         if self.state is State.RUN:
             self._enter(Event.STOP)
             self.context.release_ns = self.clock.now_ns()
@@ -227,9 +242,20 @@ class Controller:
         """Have ``told`` called with every violation from now on."""
         self._violation_followers.append(told)
 
+    def follow_steps(self, told: Callable[[Step, int, int], None]) -> None:
+        """Have ``told`` called before every step of the controller from now on.
+
+        It gets the limits of a run as well: its end on the clock and its cycles, 0 for none.
+        """
+        self._step_followers.append(told)
+
+    def _about_to(self, step: Step, until_ns: int | None = None, cycles: int | None = None) -> None:
+        for told in self._step_followers:
+            told(step, until_ns or 0, cycles or 0)
+
     def log(self, severity: Severity, source: str, text: str) -> None:
         """Write an entry of the logbook at the present time."""
-        self.logbook.write(self.clock.now_ns() - self.origin_ns, severity, source, text)
+        self.logbook.write(self.clock.stamp_ns() - self.origin_ns, severity, source, text)
 
     # what the scan tells (plcsim.core.scan.Supervisor)
 

@@ -29,6 +29,8 @@ class ProcessImage:
     Attributes:
         inputs: called in LATCH with the task class; here a plant model sets inputs.
         watchers: called in PUBLISH with the task class; here a recorder reads tags.
+        followers: called with address and bytes of every store that came from outside, as it is
+            done.
         exchanges: called between two cycles, now and then while the controller is paused; here
             commands of other processes are taken, and shown what they did.
     """
@@ -36,6 +38,7 @@ class ProcessImage:
     def __init__(self, forces: Forces) -> None:
         self.inputs: list[Callable[[TaskClass], None]] = []
         self.watchers: list[Callable[[TaskClass], None]] = []
+        self.followers: list[Callable[[int, bytes], None]] = []
         self.exchanges: list[Callable[[], None]] = []
         self._forces = forces
         self._scan: Scan | None = None

@@ -92,7 +92,7 @@ class Operation:
             self._steps, self._is_paused = 0, True
 
     def _is_over(self, until_ns: int | None) -> bool:
-        return until_ns is not None and self._controller.clock.now_ns() >= until_ns
+        return until_ns is not None and self._controller.clock.stamp_ns() >= until_ns
 
     def _stay(self, until_ns: int | None) -> None:
         """Stay paused until asked for something else."""
@@ -104,7 +104,7 @@ class Operation:
             self._carry_out()
             if self._is_paused:
                 self._rest(POLL_S)
-        controller.scan.resume()
+        controller.resume()
 
     def _carry_out(self) -> None:
         requests = self._controller.requests

@@ -163,6 +163,7 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     operation.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
     elapsed_ns = clock.now_ns() - origin_ns
     controller.shutdown()
+    controller.close()
     return report(controller, project.name, elapsed_ns, list(rights.granted))
 
 

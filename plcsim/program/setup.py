@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from plcsim.core.clock import VirtualClock
 from plcsim.core.context import Context
 from plcsim.core.controller import Controller
 from plcsim.core.memory import DEFAULT_SIZE, Memory
@@ -97,7 +96,7 @@ def make_controller(
         context,
         setup.catalogue or installed_catalogue(),
         shared,
-        counts_instructions=isinstance(clock, VirtualClock),
+        counts_instructions=clock is not None and clock.is_virtual,
     )
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program

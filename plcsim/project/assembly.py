@@ -58,13 +58,14 @@ class Application:
     warnings: Sequence[str] = ()
     unload: Callable[[], None] = _nothing
 
-    def in_process(self, ip: str) -> Application:
+    def in_process(self, ip: str, *, is_test: bool = False) -> Application:
         """Return the application as it is where no process runs beside the controller.
 
         Args:
             ip: see `plcsim.project.extension.Extension.in_process`.
+            is_test: see `plcsim.project.extension.Extension.in_test`.
         """
-        return replace(self, extensions=in_process(self.extensions, ip))
+        return replace(self, extensions=in_process(self.extensions, ip, is_test=is_test))
 
 
 @dataclass(frozen=True)
@@ -171,6 +172,9 @@ def assemble(
         ConfigurationError: the variables do not fit into the memory, or the settings of an
             extension do not fit the tags.
     """
+    given = application.extensions
+    for name, value in given.items():
+        clock, network = extensions()[name].surround(value, clock, network)
     controller = make_controller(
         application.setup,
         network=network,
@@ -179,10 +183,9 @@ def assemble(
         idle=collect_while_idle,
         system_fd=system_fd,
     )
-    given = application.extensions
     attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
     if image is not None:
-        ImageWriter(
+        writer = ImageWriter(
             image.fd,
             controller,
             project=application.name,
@@ -191,6 +194,9 @@ def assemble(
             exports=[tag for attachment in attached.values() for tag in attachment.exports],
             wake_fds=image.wake_fds,
         )
+        for name, attachment in attached.items():
+            if attachment.feed is not None:
+                attachment.feed(writer.stream_of(name))
     return controller
 
 

@@ -16,11 +16,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from plcsim.core.errors import Findings
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    from plcsim.core.clock import Clock
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
+    from plcsim.network import Network
     from plcsim.settings.table import Table
+    from plcsim.shared_image.stream import StreamWriter
 
 GROUP = "plcsim.extensions"
 
@@ -33,11 +36,13 @@ class Attachment(NamedTuple):
         exports: tags that a snapshot of the shared image must hold.
         stream_size: bytes of the stream that carries samples to its service, 0 where it asks for
             none; a second of samples should fit.
+        feed: is given that stream, to write what is not a sample; None for nobody.
     """
 
     for_service: Any = None
     exports: Sequence[Tag] = ()
     stream_size: int = 0
+    feed: Callable[[StreamWriter], None] | None = None
 
 
 class Extension(Protocol):
@@ -65,6 +70,10 @@ class Extension(Protocol):
         """
         return settings
 
+    def in_test(self, settings: Any, ip: str) -> Any:
+        """Return the settings for tests, where nothing may be left in the project."""
+        return self.in_process(settings, ip)
+
     def service(self, settings: Any) -> str:
         """Return the module that serves in a process beside the scan, "" for none.
 
@@ -75,6 +84,10 @@ class Extension(Protocol):
     def endpoint(self, settings: Any) -> str:
         """Return where others reach the service, as people write it; "" where nobody does."""
         return ""
+
+    def surround(self, settings: Any, clock: Clock, network: Network) -> tuple[Clock, Network]:
+        """Return what the controller has for clock and network; called before it is made."""
+        return clock, network
 
     def attach(self, settings: Any, controller: Controller) -> Attachment:
         """Hook into a controller before its boot, in the scan process.
@@ -144,14 +157,20 @@ def check_settings(settings: Mapping[str, Any], controller: Controller) -> list[
     return notes
 
 
-def in_process(settings: Mapping[str, Any], ip: str) -> dict[str, Any]:
+def in_process(settings: Mapping[str, Any], ip: str, *, is_test: bool = False) -> dict[str, Any]:
     """Return the settings where no process runs beside the controller, by table.
 
     Args:
         settings: of the extensions, by table.
         ip: see `Extension.in_process`.
+        is_test: see `Extension.in_test`.
     """
-    return {name: extensions()[name].in_process(value, ip) for name, value in settings.items()}
+
+    def here(name: str, value: Any) -> Any:
+        extension = extensions()[name]
+        return extension.in_test(value, ip) if is_test else extension.in_process(value, ip)
+
+    return {name: here(name, value) for name, value in settings.items()}
 
 
 def services_of(settings: Mapping[str, Any]) -> dict[str, str]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import tomllib
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 
 FILE_NAME: Final = "plc.toml"
 
+_NOTHING: Final[Mapping[str, Mapping[str, Any]]] = MappingProxyType({})
 MOST_HINTS: Final = 5
 """Projects that are named where one was not found."""
 
@@ -88,17 +90,21 @@ def _nearby(path: Path) -> str:
     return f"; there are projects in {', '.join(found)}" if found else "; a project has one"
 
 
-def read_project(path: Path) -> Project:
+def read_project(path: Path, given: Mapping[str, Mapping[str, Any]] = _NOTHING) -> Project:
     """Read plc.toml of a project folder, without loading any program.
 
     Args:
         path: the folder, or its plc.toml.
+        given: keys by table that count more than those of the file.
 
     Raises:
         ConfigurationError: something is missing or wrong; all of it is told, with file and field.
     """
     file = find_project(path)
-    top = Table(file, "", _toml(file))
+    values = _toml(file)
+    for name, keys in given.items():
+        values[name] = {**values.get(name, {}), **keys}
+    top = Table(file, "", values)
     top.check_keys(*_OWN_TABLES, *extensions())
     findings = Findings()
     plc = PlcSettings()

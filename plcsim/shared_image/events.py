@@ -24,6 +24,7 @@ class Kind(Enum):
     ENTRY = 1
     VIOLATION = 2
     SAMPLE = 3
+    RECORD = 4
 
 
 def encode_entry(entry: Entry) -> bytes:

@@ -37,7 +37,7 @@ class Hands:
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
         self._owners = controller.owners
-        self.stores = Stores(controller.memory, controller.owners)
+        self.stores = Stores(controller.memory, controller.owners, controller.image.followers)
         self.time_ns = 0
 
     def owner_of_tag(self, path: str) -> int:

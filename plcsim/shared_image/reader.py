@@ -130,8 +130,11 @@ class ImageReader:
         """Return a reader of the logbook; it sees what `Logbook` keeps, and more."""
         return LogbookReader(self.events(from_oldest=from_oldest))
 
-    def samples(self) -> StreamReader:
+    def samples(self, *, from_oldest: bool = False) -> StreamReader:
         """Return a reader of the samples that this service asks for from now on.
+
+        Args:
+            from_oldest: begin with what is still there, not with what comes next.
 
         Raises:
             ImageError: it has no stream.
@@ -140,7 +143,8 @@ class ImageReader:
         if self._number is None or not size:
             raise ImageError("this reader has no stream of samples")
         region = self._view[self._regions.streams[self._number] :][:size]
-        return StreamReader(self._cells, region, layout.stream_cells(self._number))
+        cells = layout.stream_cells(self._number)
+        return StreamReader(self._cells, region, cells, from_oldest=from_oldest)
 
     def samples_of(self, ring: int) -> int:
         """Return how many requests for samples of a ring are served."""

@@ -14,7 +14,7 @@ from plcsim.core.memory import FIRST
 from plcsim.shared_image.command import HEAD, MASK, MASKS, OPERATION, SCATTER, STORE, Mask
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from plcsim.core.memory import Memory
     from plcsim.core.owners import Owners
@@ -59,11 +59,18 @@ class Stores:
     Args:
         memory: where the variables lie; no more are allocated later.
         owners: of the variables.
+        followers: told address and bytes of every store.
     """
 
-    def __init__(self, memory: Memory, owners: Owners) -> None:
+    def __init__(
+        self,
+        memory: Memory,
+        owners: Owners,
+        followers: Sequence[Callable[[int, bytes], None]] = (),
+    ) -> None:
         self._variables = memory.view(FIRST, memory.used)
         self._owners = owners
+        self._followers = followers
 
     def plan(self, record: memoryview[int], count: int) -> Plan:
         """Return how a record is stored.
@@ -117,6 +124,22 @@ class Stores:
                 data = bytes(record[at:behind])
                 record[at:behind] = variables[start:end]
                 variables[start:end] = data
+        if self._followers:
+            self._tell(plan)
+
+    def _tell(self, plan: Plan) -> None:
+        """Tell what has been stored where."""
+        for start, end in (range_ for step in plan.steps for range_ in _ranges(step)):
+            data = bytes(self._variables[start:end])
+            for told in self._followers:
+                told(FIRST + start, data)
+
+
+def _ranges(step: Store | _Scatter | _Mask) -> list[tuple[int, int]]:
+    """Return where a step has stored something, as places among the variables."""
+    if isinstance(step, _Scatter):
+        return [(place, place + 1) for place in step.places]
+    return [(step.start, step.start + 2)] if isinstance(step, _Mask) else [step[1:]]
 
 
 def _scatter(variables: memoryview[int], record: memoryview[int], step: _Scatter) -> None:

@@ -118,24 +118,22 @@ class ImageWriter:
         events = view[regions.events : regions.events + layout.EVENTS_SIZE]
         self._events = StreamWriter(cells, events, layout.EVENT_CELLS)
         self._inboxes = []
+        self._streams: dict[str, StreamWriter] = {}
         names = [*self.directory.services, *[GUEST_NAME] * layout.GUESTS]
         for number, (name, at, start) in enumerate(
             zip(names, regions.rings, regions.streams, strict=True)
         ):
             ring = view[at : at + layout.RING_SIZE]
-            stream = view[start : start + streams[number]]
+            stream = StreamWriter(
+                cells, view[start : start + streams[number]], layout.stream_cells(number)
+            )
+            self._streams.setdefault(name, stream)
             self._inboxes.append(
                 Inbox(
                     name,
                     Consumer(cells, ring, layout.ring_cells(number)),
                     self._hands,
-                    Sampler(
-                        memory,
-                        self._controller.owners,
-                        StreamWriter(cells, stream, layout.stream_cells(number)),
-                    )
-                    if stream
-                    else None,
+                    Sampler(memory, self._controller.owners, stream) if streams[number] else None,
                     wake_fds[number] if number < len(wake_fds) else None,
                 )
             )
@@ -148,6 +146,10 @@ class ImageWriter:
         cells[layout.CELL_DIRECTORY_SIZE] = len(directory)
         cells[layout.CELL_HASH] = hash_of(directory)
         cells[layout.CELL_MAGIC] = layout.MAGIC  # last: whoever sees it finds the rest in place
+
+    def stream_of(self, service: str) -> StreamWriter:
+        """Return the stream to a service; it takes nothing where the service asked for none."""
+        return self._streams[service]
 
     def latch(self, _task_class: TaskClass) -> None:
         """Apply the commands that wait, in order, as many as one LATCH may."""
@@ -195,7 +197,7 @@ class ImageWriter:
         self._events.write(Kind.ENTRY.value, entry.time_ns, encode_entry(entry))
 
     def _violated(self, violation: Violation) -> None:
-        time_ns = self._controller.clock.now_ns() - self._controller.origin_ns
+        time_ns = self._controller.clock.stamp_ns() - self._controller.origin_ns
         self._events.write(Kind.VIOLATION.value, time_ns, encode_violation(violation))
 
     def _show_forces(self) -> None:

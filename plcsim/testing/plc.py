@@ -84,7 +84,7 @@ class Plc(World, Expectations):
         self.clock: VirtualClock | WallClock = WallClock() if realtime else VirtualClock()
         net = None if host_network else VirtualNetwork(self.clock.now_ns, seed=seed)
         network: Network = OsNetwork() if net is None else net.host(CONTROLLER_IP)
-        here = application.in_process("" if host_network else CONTROLLER_IP)
+        here = application.in_process("" if host_network else CONTROLLER_IP, is_test=True)
         self.settings = here.extensions
         self.image = SharedImage(here.extensions)
         self.controller = assemble(

@@ -40,6 +40,8 @@ class WallClock(MonotonicClock):
         here_ns = time.monotonic_ns() if self._stopped_ns is None else self._stopped_ns
         return here_ns - self._shift_ns
 
+    stamp_ns = now_ns
+
     def sleep_until_ns(self, until_ns: int) -> None:
         """Sleep until ``until_ns`` of this clock."""
         super().sleep_until_ns(until_ns + self._shift_ns)

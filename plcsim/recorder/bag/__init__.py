@@ -1,0 +1,1 @@
+"""Bags: the files that hold a recording, as ROS and its tools read them."""

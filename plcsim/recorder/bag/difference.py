@@ -1,0 +1,85 @@
+"""Where two recordings differ first."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import TYPE_CHECKING
+
+from plcsim.core.control import Step
+from plcsim.recorder.bag.types import CYCLES, HEAD, LOGBOOK
+from plcsim.recorder.bag.values import first_difference
+from plcsim.recorder.journal.record import CYCLE
+from plcsim.shared_image.directory import describe_type
+
+if TYPE_CHECKING:
+    from plcsim.recorder.bag.head import Head
+    from plcsim.recorder.bag.reading import BagReader
+    from plcsim.recorder.journal.record import Record
+
+
+def difference(first: BagReader, second: BagReader) -> str:
+    """Return the first difference of two recordings as a line, "" where there is none.
+
+    The variables of every cycle count, then the messages of all other topics; not the logbook, and
+    not what clock and network gave: on the real clock these are never the same twice.
+
+    Raises:
+        RecordingError: a bag is damaged, or plcsim has not recorded it.
+    """
+    heads = first.head(), second.head()
+    return (
+        _of_variables(*heads) or _of_cycles(heads[0], first, second) or _of_messages(first, second)
+    )
+
+
+def _of_variables(first: Head, second: Head) -> str:
+    """Return how the programs differ."""
+    kinds = [
+        {area.path: describe_type(area.data_type) for area in head.areas}
+        for head in (first, second)
+    ]
+    for name in [*kinds[0], *kinds[1]]:
+        if kinds[0].get(name) != kinds[1].get(name):
+            return f"the variables of {name or 'the project'} are others"
+    return ""
+
+
+def _of_cycles(head: Head, first: BagReader, second: BagReader) -> str:
+    for one, other in zip_longest(first.records(), second.records()):
+        if one is None or other is None:
+            path = (second if other is None else first).path
+            missing = one or other
+            assert missing is not None
+            return f"{path} ends before {_name(missing[1])}"
+        if text := _of_records(head, one[1], other[1]):
+            return text
+    return ""
+
+
+def _of_records(head: Head, one: Record, other: Record) -> str:
+    if (one.step, one.task_class, one.cycle) != (other.step, other.task_class, other.cycle):
+        return f"{_name(one)} against {_name(other)}"
+    if one.step == CYCLE and one.variables != other.variables:
+        tag, here, there = first_difference(head, one.variables, other.variables)
+        return f"{_name(one)}: {tag} is {here} against {there}"
+    return ""
+
+
+def _name(record: Record) -> str:
+    if record.step == CYCLE:
+        return f"cycle {record.cycle} of task class {record.task_class}"
+    return f"the step {Step(record.step).name.lower()} of the controller"
+
+
+def _of_messages(first: BagReader, second: BagReader) -> str:
+    """Return the first message of a topic that differs, by its bytes."""
+    topics = {t.name for bag in (first, second) for t in bag.topics} - {CYCLES, HEAD, LOGBOOK}
+    for topic in sorted(topics):
+        pairs = zip_longest(first.messages([topic]), second.messages([topic]))
+        for number, (one, other) in enumerate(pairs, 1):
+            if one is None or other is None:
+                path = (second if other is None else first).path
+                return f"{path} has only {number - 1} messages of {topic}"
+            if (one.type_name, one.as_ros1) != (other.type_name, other.as_ros1):
+                return f"message {number} of {topic} differs"
+    return ""

@@ -1,0 +1,172 @@
+"""Reads recordings, and bags of others."""
+
+from __future__ import annotations
+
+import json
+import struct
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.recorder.bag.changes import changed
+from plcsim.recorder.bag.files import ACTIVE
+from plcsim.recorder.bag.head import head_from
+from plcsim.recorder.bag.types import CYCLES, HEAD, cycle_from, typestore
+from plcsim.recorder.errors import RecordingError
+from plcsim.recorder.journal.record import CYCLE, Record
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+    from pathlib import Path
+
+    from plcsim.recorder.bag.head import Head
+
+
+class Message(NamedTuple):
+    """A message of a bag.
+
+    Attributes:
+        topic: its topic.
+        type_name: such as ``std_msgs/msg/Bool``.
+        time_ns: when it was recorded.
+        data: as it lies in the bag.
+        is_cdr: as ROS 2 serialises, not as ROS 1.
+    """
+
+    topic: str
+    type_name: str
+    time_ns: int
+    data: bytes
+    is_cdr: bool
+
+    @property
+    def as_ros1(self) -> bytes:
+        """The message as ROS 1 serialises it; its type is one of `typestore`."""
+        if not self.is_cdr:
+            return self.data
+        return bytes(typestore(ros2=True).cdr_to_ros1(self.data, self.type_name))
+
+
+class Topic(NamedTuple):
+    """A topic of a bag."""
+
+    name: str
+    type_name: str
+    messages: int
+
+
+class BagReader:
+    """A bag that is open.
+
+    Attributes:
+        path: of the file.
+        topics: what it holds.
+        start_ns: time of the first message.
+        end_ns: time of the last one.
+    """
+
+    def __init__(self, path: Path, reader: Any, *, is_cdr: bool) -> None:
+        self.path = path
+        self._reader = reader
+        self._is_cdr = is_cdr
+        counts: dict[tuple[str, str], int] = {}
+        for each in reader.connections:
+            key = each.topic, each.msgtype
+            counts[key] = counts.get(key, 0) + each.msgcount
+        self.topics = [Topic(*key, count) for key, count in sorted(counts.items())]
+        self.start_ns: int = reader.start_time if any(counts.values()) else 0
+        self.end_ns: int = reader.end_time if any(counts.values()) else 0
+
+    def messages(self, topics: Collection[str] = ()) -> Iterator[Message]:
+        """Return messages in the order of their times; of all topics where none are named.
+
+        Raises:
+            RecordingError: the bag is damaged.
+        """
+        chosen = [c for c in self._reader.connections if not topics or c.topic in topics]
+        if not chosen:
+            return
+        with _told(self.path):
+            for connection, time_ns, data in self._reader.messages(connections=chosen):
+                yield Message(
+                    connection.topic, connection.msgtype, time_ns, bytes(data), self._is_cdr
+                )
+
+    def head(self) -> Head:
+        """Return what was recorded.
+
+        Raises:
+            RecordingError: plcsim has not recorded it.
+        """
+        for message in self.messages([HEAD]):
+            (size,) = struct.unpack_from("<I", message.as_ros1)
+            try:
+                return head_from(json.loads(message.as_ros1[4 : 4 + size]))
+            except (ValueError, KeyError, TypeError) as err:
+                raise RecordingError(f"{self.path}: {HEAD} is no recording: {err}") from None
+        raise RecordingError(f"{self.path}: was not recorded by plcsim: it has no topic {HEAD}")
+
+    def records(self) -> Iterator[tuple[int, Record]]:
+        """Return the records with their numbers, the variables of each whole.
+
+        Raises:
+            RecordingError: the bag is damaged.
+        """
+        before = b""
+        for message in self.messages([CYCLES]):
+            cycle = cycle_from(message.as_ros1)
+            if cycle.step == CYCLE:
+                before = cycle.variables if cycle.whole else changed(before, cycle.variables)
+            numbers = struct.unpack(f"<{len(cycle.clock) // 8}q", cycle.clock)
+            yield (
+                cycle.number,
+                Record(
+                    cycle.step,
+                    cycle.task_class,
+                    cycle.cycle,
+                    cycle.time_ns,
+                    numbers,
+                    cycle.network,
+                    cycle.writes,
+                    before if cycle.step == CYCLE else cycle.variables,
+                ),
+            )
+
+
+@contextmanager
+def open_bag(path: Path) -> Iterator[BagReader]:
+    """Open a bag of ROS 1 or ROS 2.
+
+    Raises:
+        RecordingError: it is none, it is damaged, or it was not closed.
+    """
+    typestore()
+    from rosbags import rosbag1, rosbag2  # noqa: PLC0415
+
+    if not path.exists():
+        active = path.with_name(path.name + ACTIVE)
+        hint = f"; {active.name} was not closed: try rosbag reindex" if active.exists() else ""
+        raise RecordingError(f"{path}: there is no such file{hint}")
+    is_ros2 = path.is_dir() or path.suffix in (".mcap", ".db3")
+    with _told(path):
+        reader: Any = rosbag2.Reader(path) if is_ros2 else rosbag1.Reader(path)
+        reader.open()
+    try:
+        yield BagReader(path, reader, is_cdr=is_ros2)
+    finally:
+        reader.close()
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn what rosbags raises at a bag that is none, or a damaged one, into one error."""
+    from rosbags.rosbag1 import ReaderError  # noqa: PLC0415
+    from rosbags.rosbag2 import ReaderError as Reader2Error  # noqa: PLC0415
+
+    try:
+        yield
+    except (ReaderError, Reader2Error) as err:
+        text = str(err)
+        hint = "; rosbag reindex makes it readable" if "reindex" in text else ""
+        raise RecordingError(f"{path}: {text}{hint}") from None
+    except (OSError, AssertionError, KeyError, ValueError, struct.error, IndexError) as err:
+        raise RecordingError(f"{path}: is damaged or no bag: {err}") from None

@@ -1,0 +1,1 @@
+"""``plcsim replay`` and ``plcsim bag``."""

@@ -1,0 +1,60 @@
+"""``plcsim bag``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+
+from plcsim.cli.console import CommandConsole
+from plcsim.cli.exit_codes import ExitCode
+from plcsim.core.duration import format_duration
+from plcsim.recorder.bag.difference import difference
+from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.types import CYCLES, HEAD
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Iterator
+
+    from plcsim.recorder.journal.record import Record
+
+
+def info(options: argparse.Namespace) -> int:
+    """Print what a bag holds."""
+    console = CommandConsole()
+    with open_bag(options.bag) as bag:
+        names = {topic.name for topic in bag.topics}
+        console.print(f"{bag.path}: {format_duration(bag.end_ns - bag.start_ns)}", soft_wrap=True)
+        if HEAD in names:
+            head = bag.head()
+            clock = "virtual clock" if head.is_virtual else "real clock"
+            classes = ", ".join(f"#{n} every {format_duration(ns)}" for n, ns in head.classes)
+            console.print(f"project {head.project}, {clock}, task classes {classes}")
+        if CYCLES in names:
+            console.print(_records(bag.records()))
+        table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+        table.add_column("topic")
+        table.add_column("type")
+        table.add_column("messages", justify="right")
+        for topic in bag.topics:
+            table.add_row(topic.name, topic.type_name.replace("/msg/", "/"), str(topic.messages))
+        console.print(table)
+    return ExitCode.DONE
+
+
+def _records(records: Iterator[tuple[int, Record]]) -> str:
+    """Return how many records there are, and how many were lost."""
+    count, last = 0, -1
+    for number, _ in records:
+        count, last = count + 1, number
+    lost = last + 1 - count
+    return f"{count} records of cycles and steps, {lost or 'none'} lost"
+
+
+def diff(options: argparse.Namespace) -> int:
+    """Print where two recordings differ first."""
+    with open_bag(options.first) as first, open_bag(options.second) as second:
+        found = difference(first, second)
+    print(found or "the recordings are the same")
+    return ExitCode.DIFFERENT if found else ExitCode.DONE

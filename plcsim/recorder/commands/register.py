@@ -1,0 +1,96 @@
+"""Adds the commands of this house; what needs rosbags is imported when one of them runs."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from plcsim.cli.exit_codes import ExitCode, epilog
+from plcsim.cli.project_argument import add_project
+
+if TYPE_CHECKING:
+    import argparse
+    from collections.abc import Callable
+
+BAG_HELP = "a bag that plcsim has recorded"
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add the commands."""
+    _add_replay(subparsers)
+    bag = subparsers.add_parser(
+        "bag",
+        help="look into a recording: what it holds, and where two differ",
+        description="What `plcsim run --record` has written.",
+    )
+    commands = bag.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    _add_info(commands)
+    _add_diff(commands)
+
+
+def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = subparsers.add_parser(
+        "replay",
+        help="repeat a recorded run, cycle by cycle, and tell where it differs",
+        description="Run a project on what clock, network and writers outside gave it while it was "
+        "recorded. Every cycle must end with the same variables; the first one that does not is "
+        "told. Nothing reaches the world.",
+        examples=(
+            ("plcsim replay run.bag my_plc", "the whole run, as fast as it goes"),
+            ("plcsim replay run.bag", "inside the project's folder"),
+            ("plcsim replay run.bag --to-cycle 500", "what the tags were after cycle 500"),
+        ),
+        epilog=epilog(
+            DONE="the run was repeated exactly",
+            FAILED="the bag or the project is wrong",
+            DIFFERENT="a cycle differs",
+        ),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
+    add_project(parser)
+    parser.add_argument("--to-cycle", type=int, metavar="N", help="stop there and print the tags")
+    parser.add_argument(
+        "--class",
+        dest="task_class",
+        type=int,
+        metavar="N",
+        help="whose cycles are counted (default: the one with the lowest number)",
+    )
+    parser.set_defaults(func=_later("plcsim.recorder.commands.replay", "replay"))
+
+
+def _add_info(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "info",
+        help="print what a bag holds",
+        description="Print what a bag holds, whoever has recorded it.",
+        examples=(("plcsim bag info run.bag", ""),),
+        epilog=epilog(DONE="", FAILED="the bag is wrong"),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help="a bag of ROS 1 or ROS 2")
+    parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "info"))
+
+
+def _add_diff(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "diff",
+        help="tell the first cycle in which two recordings differ",
+        description="Compare two recordings of a project: the first tag that differs, with its "
+        "cycle and both values, or the first message.",
+        examples=(("plcsim bag diff yesterday.bag today.bag", ""),),
+        epilog=epilog(DONE="they are the same", FAILED="a bag is wrong", DIFFERENT="they differ"),
+    )
+    parser.add_argument("first", type=Path, metavar="BAG", help=BAG_HELP)
+    parser.add_argument("second", type=Path, metavar="BAG", help="another one")
+    parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "diff"))
+
+
+def _later(module: str, name: str) -> Callable[[argparse.Namespace], int]:
+    """Return a command that is imported when it is called."""
+
+    def run(options: argparse.Namespace) -> int:
+        command: Any = getattr(import_module(module), name)
+        return ExitCode(command(options))
+
+    return run

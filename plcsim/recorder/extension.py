@@ -1,0 +1,192 @@
+"""The extension of the table [record]: records what the controller does, in a bag."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Final
+
+from plcsim.core.control import Step
+from plcsim.core.logbook import Severity
+from plcsim.project.extension import Attachment, Extension
+from plcsim.recorder.journal.clock import RecordedClock
+from plcsim.recorder.journal.journal import Journal
+from plcsim.recorder.journal.network import RecordedNetwork
+from plcsim.recorder.journal.tape import Tape
+from plcsim.recorder.settings import RecordProject, read_settings
+from plcsim.shared_image.events import Kind
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from plcsim.core.clock import Clock
+    from plcsim.core.controller import Controller
+    from plcsim.core.logbook import Entry
+    from plcsim.network import Network
+    from plcsim.recorder.bag.head import Head
+    from plcsim.recorder.bag.writing import Writing
+    from plcsim.recorder.journal.record import Record
+    from plcsim.settings.table import Table
+    from plcsim.shared_image.stream import StreamWriter
+
+SOURCES: Final = frozenset((".py", ".st", ".c", ".h", ".typ", ".var", ".fun", ".toml"))
+"""Files that a run depends on, by their ending."""
+
+
+class RecordExtension(Extension):
+    """Records of a controller."""
+
+    def read(self, table: Table) -> RecordProject:
+        """Return the settings."""
+        return read_settings(table)
+
+    def in_process(self, settings: RecordProject, ip: str) -> RecordProject:
+        """Return the settings for the virtual clock, which waits for the file to be written."""
+        return settings._replace(is_in_process=True)
+
+    def in_test(self, settings: RecordProject, ip: str) -> RecordProject:
+        """Return the settings for a test, which is not recorded."""
+        return settings._replace(is_off=True)
+
+    def service(self, settings: RecordProject) -> str:
+        """Return the module that writes the bag."""
+        in_scan = settings.is_in_process or settings.is_off
+        return "" if in_scan else "plcsim.recorder.service.process"
+
+    def endpoint(self, settings: RecordProject) -> str:
+        """Return the file."""
+        return settings.settings.file
+
+    def surround(
+        self, settings: RecordProject, clock: Clock, network: Network
+    ) -> tuple[Clock, Network]:
+        """Let clock and network write into a journal."""
+        if settings.is_off:
+            return clock, network
+        journal = Journal()
+        return RecordedClock(clock, journal), RecordedNetwork(network, journal)
+
+    def attach(self, settings: RecordProject, controller: Controller) -> Attachment:
+        """Make a record of every cycle."""
+        clock = controller.clock
+        if not isinstance(clock, RecordedClock):
+            return Attachment()
+        head = _head_of(settings, controller, clock)
+        if settings.is_in_process:
+            _InScan(settings, controller, head, clock.journal)
+            return Attachment()
+        sender = _Sender()
+        Tape(controller, clock.journal, sender.send)
+        given = {
+            "file": str(settings.file),
+            "head": head.to_json(),
+            "limits": asdict(settings.settings.limits),
+        }
+        return Attachment(given, (), settings.settings.buffer, sender.connect)
+
+    def check(self, settings: RecordProject, controller: Controller) -> Sequence[str]:
+        """Check the tags, and that bags can be written."""
+        from plcsim.recorder.bag.head import Head  # noqa: PLC0415  # see _InScan
+        from plcsim.recorder.bag.types import typestore  # noqa: PLC0415
+        from plcsim.recorder.bag.writing import tag_messages  # noqa: PLC0415
+
+        typestore()
+        tags = settings.settings.tags
+        head = Head("", True, 0, 0, [], controller.areas, tags, {})  # noqa: FBT003  # any will do
+        tag_messages(head)
+        return ()
+
+
+def _head_of(settings: RecordProject, controller: Controller, clock: RecordedClock) -> Head:
+    from plcsim.recorder.bag.head import Head  # noqa: PLC0415  # see _InScan
+
+    return Head(
+        settings.folder.name,
+        clock.is_virtual,
+        0 if clock.is_virtual else clock.recorded.unix_ns() - clock.recorded.now_ns(),
+        controller.origin_ns,
+        [(c.number, c.cycle_ns) for c in controller.classes],
+        controller.areas,
+        settings.settings.tags,
+        sources_of(settings.folder),
+    )
+
+
+def sources_of(folder: Path) -> dict[str, str]:
+    """Return the SHA-256 of each file that a run of a project depends on."""
+    found = {}
+    for file in sorted(folder.rglob("*")):
+        name = file.relative_to(folder)
+        hidden = any(
+            part.startswith(".") or part in ("tests", "__pycache__") for part in name.parts
+        )
+        if not hidden and file.suffix.lower() in SOURCES and file.is_file():
+            found[name.as_posix()] = hashlib.sha256(file.read_bytes()).hexdigest()
+    return found
+
+
+class _Sender:
+    """Hands records to the recorder's process; it waits for nobody."""
+
+    def __init__(self) -> None:
+        self._stream: StreamWriter | None = None
+
+    def connect(self, stream: StreamWriter) -> None:
+        """Send into a stream from now on."""
+        self._stream = stream
+
+    def send(self, record: Record) -> None:
+        """Send a record; one that nobody reads in time is lost, and counted."""
+        if self._stream is not None:
+            self._stream.write(Kind.RECORD.value, record.time_ns, record.to_bytes())
+
+
+class _InScan:
+    """Writes the bag in the scan itself, on the virtual clock.
+
+    Where it cannot be written any more the controller goes on without.
+    """
+
+    def __init__(
+        self, settings: RecordProject, controller: Controller, head: Head, journal: Journal
+    ) -> None:
+        # not at the top: beside a recorder of its own the scan has no use for rosbags
+        from plcsim.recorder.bag.writing import Writing  # noqa: PLC0415
+
+        limits = settings.settings.limits
+        self._writing: Writing | None = Writing(settings.file, head, limits)
+        self._number = 0
+        self._controller = controller
+        Tape(controller, journal, self._write)
+        controller.logbook.follow(self._log)
+        controller.follow_steps(self._stepped)
+
+    def _write(self, record: Record) -> None:
+        if self._writing is not None:
+            try:
+                self._writing.record(self._number, record)
+            except OSError as err:
+                self._give_up(err)
+            self._number += 1
+
+    def _log(self, entry: Entry) -> None:
+        if self._writing is not None:
+            try:
+                self._writing.entry(entry)
+            except OSError as err:
+                self._give_up(err)
+
+    def _stepped(self, step: Step, _until_ns: int, _cycles: int) -> None:
+        if step is Step.CLOSE and self._writing is not None:
+            try:
+                self._writing.close()
+            except OSError as err:
+                self._give_up(err)
+
+    def _give_up(self, err: OSError) -> None:
+        self._writing = None
+        self._controller.log(Severity.ERROR, "record", f"the recording ends: {err}")
+
+
+EXTENSION = RecordExtension()

@@ -1,0 +1,104 @@
+"""Records of the journal: what came in up to a PUBLISH or a step, and the variables there."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+CYCLE: Final = 0
+"""`Record.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
+
+LIMITS: Final = struct.Struct("<qq")
+"""``variables`` of the step RUN: its end on the clock and its cycles, 0 for none."""
+
+_HEAD: Final = struct.Struct("<BBxxIIIqq")
+_ENTRY: Final = struct.Struct("<III")
+
+
+class Record(NamedTuple):
+    """One record.
+
+    Attributes:
+        step: `CYCLE`, or the value of the step that follows.
+        task_class: number of the class whose cycle ends, 0 where none does.
+        cycle: of that class, from 1.
+        time_ns: release of the cycle on the controller's clock; of a step, the time.
+        clock: answers of the clock, in nanoseconds and counts, in order.
+        network: answers of the network, as `plcsim.recorder.journal.network` writes them.
+        writes: what was written and forced from outside, see `entries`.
+        variables: all variables afterwards, empty where they are too many; of a step see `LIMITS`.
+    """
+
+    step: int
+    task_class: int
+    cycle: int
+    time_ns: int
+    clock: Sequence[int]
+    network: bytes
+    writes: bytes
+    variables: bytes
+
+    def to_bytes(self) -> bytes:
+        """Return the record as `record_of` reads it."""
+        clock = self.clock
+        head = _HEAD.pack(
+            self.step,
+            self.task_class,
+            len(clock),
+            len(self.network),
+            len(self.writes),
+            self.cycle,
+            self.time_ns,
+        )
+        numbers = struct.pack(f"<{len(clock)}q", *clock)
+        return b"".join((head, numbers, self.network, self.writes, self.variables))
+
+
+def record_of(data: bytes) -> Record:
+    """Return the record of `Record.to_bytes`."""
+    step, task_class, numbers, network, writes, cycle, time_ns = _HEAD.unpack_from(data)
+    at = _HEAD.size
+    clock = struct.unpack_from(f"<{numbers}q", data, at)
+    at += 8 * numbers
+    behind = at + network
+    return Record(
+        step,
+        task_class,
+        cycle,
+        time_ns,
+        clock,
+        data[at:behind],
+        data[behind : behind + writes],
+        data[behind + writes :],
+    )
+
+
+class Entry(NamedTuple):
+    """What was written from outside.
+
+    Attributes:
+        latch: in which LATCH since the last record, from 1; 0 between two cycles.
+        address: of the bytes; 0 where ``data`` is the whole list of forced tags.
+        data: the bytes.
+    """
+
+    latch: int
+    address: int
+    data: bytes
+
+    def to_bytes(self) -> bytes:
+        """Return the entry as `entries` reads it."""
+        return _ENTRY.pack(self.latch, self.address, len(self.data)) + self.data
+
+
+def entries(writes: bytes) -> Iterator[Entry]:
+    """Return the entries of `Record.writes`."""
+    at = 0
+    while at < len(writes):
+        latch, address, size = _ENTRY.unpack_from(writes, at)
+        at += _ENTRY.size
+        yield Entry(latch, address, writes[at : at + size])
+        at += size

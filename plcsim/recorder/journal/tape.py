@@ -1,0 +1,69 @@
+"""The tape: makes a record of every cycle of a controller and hands it on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.core.control import Step
+from plcsim.recorder.journal.record import CYCLE, LIMITS
+from plcsim.shared_image.force_list import encode_forces
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.core.controller import Controller
+    from plcsim.core.task import TaskClass
+    from plcsim.recorder.journal.journal import Journal
+    from plcsim.recorder.journal.record import Record
+
+MOST_VARIABLES: Final = 256 * 1024
+"""Bytes; a record of a project with more has no variables."""
+
+
+class Tape:
+    """Hooks into a controller before its boot.
+
+    Args:
+        controller: that is recorded; its clock and network write into the journal.
+        journal: what they write into.
+        write: takes each record.
+    """
+
+    def __init__(
+        self, controller: Controller, journal: Journal, write: Callable[[Record], None]
+    ) -> None:
+        self._controller = controller
+        self._journal = journal
+        self._write = write
+        memory = controller.memory
+        self._views = [memory.view(a.address, a.data_type.size) for a in controller.areas]
+        if sum(map(len, self._views)) > MOST_VARIABLES:
+            self._views = []
+        controller.image.inputs.insert(0, self._latch)
+        controller.image.watchers.insert(0, self._publish)  # as in a replay, whoever else is there
+        controller.image.followers.append(journal.wrote)
+        controller.forces.follow(self._forced)
+        controller.follow_steps(self._stepped)
+
+    def _latch(self, _task_class: TaskClass) -> None:
+        self._journal.latched()
+
+    def _forced(self) -> None:
+        self._journal.wrote(0, encode_forces(list(self._controller.forces)))
+
+    def _publish(self, task_class: TaskClass) -> None:
+        release_ns = self._controller.context.release_ns
+        self._write(
+            self._journal.take(
+                CYCLE,
+                task_class.number,
+                task_class.cycles,
+                release_ns,
+                b"".join(self._views),
+            )
+        )
+
+    def _stepped(self, step: Step, until_ns: int, cycles: int) -> None:
+        time_ns = self._controller.clock.stamp_ns()
+        limits = LIMITS.pack(until_ns, cycles) if step is Step.RUN else b""
+        self._write(self._journal.take(step.value, 0, 0, time_ns, limits))

@@ -1,0 +1,93 @@
+import hashlib
+from pathlib import Path
+
+import pytest
+
+from plcsim.recorder.bag.files import ACTIVE, Ros1Bag, create
+from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.types import text_message
+from plcsim.recorder.errors import RecordingError
+
+TEXT = "std_msgs/msg/String"
+
+
+def write(path: Path, count: int = 3) -> None:
+    bag = create(path)
+    chatter = bag.add("/chatter", TEXT, latching=True)
+    for number in range(count):
+        bag.write(chatter, 1_000_000_000 + number, text_message(f"hello {number}"))
+    bag.close()
+
+
+@pytest.mark.parametrize("name", ["a.bag", "a.mcap", "a.db3"])
+def test_what_is_written_is_read_again(tmp_path: Path, name: str) -> None:
+    write(tmp_path / name)
+
+    with open_bag(tmp_path / name) as bag:
+        messages = list(bag.messages())
+    assert [each.as_ros1 for each in messages] == [text_message(f"hello {n}") for n in range(3)]
+    assert [each.time_ns for each in messages] == [1_000_000_000 + n for n in range(3)]
+    assert [(t.name, t.type_name, t.messages) for t in bag.topics] == [("/chatter", TEXT, 3)]
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+
+
+@pytest.mark.parametrize("name", ["a.bag", "a.db3"])
+def test_the_same_messages_make_the_same_file(tmp_path: Path, name: str) -> None:
+    digests = set()
+    for folder in ("one", "two"):
+        write(tmp_path / folder / name)
+        digests.add(hashlib.sha256((tmp_path / folder / name).read_bytes()).digest())
+
+    assert len(digests) == 1
+
+
+def test_the_first_record_has_the_size_it_has_with_ros(tmp_path: Path) -> None:
+    """rosbag's bag.cpp and bag.py: header and padding are 4096 bytes, beside their two lengths."""
+    write(tmp_path / "a.bag")
+
+    data = (tmp_path / "a.bag").read_bytes()
+    header = int.from_bytes(data[13:17], "little")
+    padding = int.from_bytes(data[17 + header : 21 + header], "little")
+    assert header + padding == 4096
+    assert data[21 + header :][:padding] == b" " * padding
+    assert b"op=\x05" in data[21 + header + padding :][:40]  # a chunk
+
+
+def test_a_bag_that_was_not_closed_is_all_but_indexed(tmp_path: Path) -> None:
+    bag = Ros1Bag(tmp_path / "a.bag")
+    bag.write(bag.add("/chatter", TEXT), 1, text_message("hello"))
+    bag.flush()
+
+    assert b"hello" in (tmp_path / f"a.bag{ACTIVE}").read_bytes()
+    with (
+        pytest.raises(RecordingError, match="was not closed: try rosbag reindex"),
+        open_bag(tmp_path / "a.bag"),
+    ):
+        pass
+    bag.close()
+
+
+def test_the_memory_for_the_index_does_not_grow_with_the_messages(tmp_path: Path) -> None:
+    bag = Ros1Bag(tmp_path / "a.bag")
+    chatter = bag.add("/chatter", TEXT)
+    for number in range(60_000):
+        bag.write(chatter, number + 1, text_message("hello world"))
+
+    kept = [p for c in bag._writer.chunks for p in c.connections.values() if isinstance(p, list)]
+    assert sum(map(len, kept)) < 30_000
+    bag.close()
+    with open_bag(tmp_path / "a.bag") as reader:
+        assert sum(1 for _ in reader.messages()) == 60_000
+
+
+def test_a_file_that_is_there_is_not_written_over(tmp_path: Path) -> None:
+    (tmp_path / "a.bag").write_text("mine")
+
+    with pytest.raises(RecordingError, match="exists already"):
+        create(tmp_path / "a.bag")
+    assert (tmp_path / "a.bag").read_text() == "mine"
+
+
+def test_other_endings_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match=r"ends in \.bag"):
+        create(tmp_path / "a.txt")
