@@ -1,6 +1,7 @@
 """IEC 61131-3 data types: declarations, layout, values, typed views. No behaviour."""
 
 from st_types.errors import DeclarationError, TypeSystemError, ValueRangeError
+from st_types.syntax.literals import T
 from st_types.types.arrays import Array
 from st_types.types.elementary import (
     BOOL,
@@ -66,6 +67,7 @@ __all__ = [
     "DataType",
     "DeclarationError",
     "Struct",
+    "T",
     "TypeSystemError",
     "ValueRangeError",
     "var",

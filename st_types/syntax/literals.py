@@ -14,7 +14,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
 
-from st_types.types.elementary import ELEMENTARY, UNSUPPORTED_TYPES
+from st_types.errors import ValueRangeError
+from st_types.types.elementary import ELEMENTARY, TIME, UNSUPPORTED_TYPES
 
 MAX_DIGITS = 400
 """Longest number that is read; the largest LREAL has 309 digits before its point."""
@@ -169,6 +170,29 @@ def _duration_ms(body: str) -> int:
     parts = _PART.findall(match.group(2))
     total = int(sum(Fraction(number) * _MS_BY_UNIT[unit.lower()] for number, unit in parts))
     return -total if match.group(1) == "-" else total
+
+
+@lru_cache(maxsize=4096)
+def T(text: str) -> int:  # noqa: N802  # as the literal begins
+    """Return the milliseconds of a TIME literal, ``T("3s")`` or ``T("1h30m")``.
+
+    Args:
+        text: what stands behind ``T#`` in Structured Text; ``T#`` may stand before it.
+
+    Raises:
+        ValueRangeError: it is no duration, or none that a TIME can hold.
+    """
+    if not isinstance(text, str):
+        raise ValueRangeError(f'T({text!r}): a text with a unit was expected, such as T("3s").')
+    try:
+        value = _duration_ms(re.sub(r"^(T|TIME)#", "", text.strip(), flags=re.IGNORECASE))
+    except LiteralError:
+        raise ValueRangeError(
+            f'T({text[:MAX_DIGITS]!r}): a duration was expected, such as T("3s") or T("1h30m").'
+        ) from None
+    if not TIME.minimum <= value <= TIME.maximum:
+        raise ValueRangeError(f"T({text!r}): a TIME holds 24 days 20 h 31 min at most.")
+    return value
 
 
 _DATE = re.compile(r"(\d{4})-(\d{1,2})-(\d{1,2})")

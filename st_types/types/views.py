@@ -128,21 +128,46 @@ def var_in_out(reference: DataType[int]) -> int:
 
 def STRING(length: int) -> StringType:  # noqa: N802  # the IEC keyword
     """Return the type STRING[length]: ``length`` one-byte characters."""
-    return StringType(length)
+    return StringType(_length(length, "STRING"))
 
 
 def WSTRING(length: int) -> WStringType:  # noqa: N802  # the IEC keyword
     """Return the type WSTRING[length]: ``length`` 16-bit characters."""
-    return WStringType(length)
+    return WStringType(_length(length, "WSTRING"))
+
+
+def _length(length: object, name: str) -> int:
+    if not isinstance(length, int):
+        raise DeclarationError(f"{name}({length!r}): a number of characters was expected.")
+    return length
 
 
 @overload
 def ARRAY(element: type[S], *bounds: tuple[int, int]) -> ArrayType[Array[S]]: ...
 @overload
 def ARRAY(element: DataType[V], *bounds: tuple[int, int]) -> ArrayType[Array[V]]: ...
-def ARRAY(element: object, *bounds: tuple[int, int]) -> ArrayType[Any]:  # noqa: N802  # the IEC keyword
-    """Return the type ARRAY[low..high, ...] OF element; both bounds are included."""
-    return ArrayType(_type_in(element), bounds)
+def ARRAY(element: object, *bounds: Any) -> ArrayType[Any]:  # noqa: N802  # the IEC keyword
+    """Return the type ARRAY[low..high, ...] OF element; both bounds are included.
+
+    Raises:
+        DeclarationError: ``element`` is no type, or ``bounds`` are no pairs of integers.
+    """
+    data_type = _type_in(element)
+    if all(_is_bounds(each) for each in bounds):
+        return ArrayType(data_type, bounds)
+    count = bounds[0]
+    hint = ""
+    if isinstance(count, int) and count > 0:
+        hint = f"; {count} elements are ARRAY({data_type}, (0, {count - 1}))"
+    raise DeclarationError(
+        f"ARRAY({data_type}, {', '.join(map(repr, bounds))}): each dimension is a pair, "
+        f"(low, high){hint}."
+    )
+
+
+def _is_bounds(given: Any) -> bool:
+    is_pair = isinstance(given, tuple) and len(given) == 2
+    return is_pair and all(isinstance(bound, int) for bound in given)
 
 
 def ENUM(values: type[E]) -> EnumerationType[E]:  # noqa: N802  # an IEC type constructor

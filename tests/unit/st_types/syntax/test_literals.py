@@ -4,6 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from st_types import T
+from st_types.errors import ValueRangeError
 from st_types.syntax.literals import Constant, LiteralError, parse_literal, string_literal
 
 
@@ -116,3 +118,19 @@ def test_durations_are_milliseconds(value: int) -> None:
 def test_dates_are_seconds_of_unix_time(seconds: int) -> None:
     moment = datetime.fromtimestamp(seconds, UTC)
     assert parse_literal(f"DT#{moment:%Y-%m-%d-%H:%M:%S}").value == seconds
+
+
+@pytest.mark.parametrize(
+    ("text", "milliseconds"),
+    [("3s", 3000), ("T#1h30m", 5_400_000), ("time#1.5s", 1500), ("-20ms", -20), (" 0 ", 0)],
+)
+def test_a_time_for_python_programs(text, milliseconds):
+    assert T(text) == milliseconds
+
+
+@pytest.mark.parametrize(
+    "text", ["", "3", "3 s", "x", "T#", "2.s", 3, None, "25d", "-25d", "9" * 500]
+)
+def test_what_is_no_time_is_told(text):
+    with pytest.raises(ValueRangeError, match=r"^T\("):
+        T(text)

@@ -474,3 +474,26 @@ def test_members_do_not_touch_their_neighbours(typed, random):
     name = random.choice(sorted(before))
     setattr(view, name, value[name])
     assert plain(view) == before | {name: value[name]}
+
+
+@pytest.mark.parametrize(
+    ("declare", "error"),
+    [
+        (
+            lambda: ARRAY(BOOL, 10),
+            "ARRAY(BOOL, 10): each dimension is a pair, (low, high); 10 elements are "
+            "ARRAY(BOOL, (0, 9)).",
+        ),
+        (
+            lambda: ARRAY(BOOL, (0, 9), (0, 1, 2)),
+            "ARRAY(BOOL, (0, 9), (0, 1, 2)): each dimension is a pair, (low, high).",
+        ),
+        (lambda: ARRAY(BOOL, ("a", 9)), "ARRAY(BOOL, ('a', 9)): each dimension is a pair,"),
+        (lambda: STRING("x"), "STRING('x'): a number of characters was expected."),
+        (lambda: WSTRING(1.5), "WSTRING(1.5): a number of characters was expected."),
+    ],
+)
+def test_a_malformed_type_is_told_in_plain_words(declare, error):
+    with pytest.raises(DeclarationError) as raised:
+        declare()
+    assert str(raised.value).startswith(error)
