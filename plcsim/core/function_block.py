@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from st_types.types.views import DataBlock, context_of
+from st_types.types.views import DataBlock, context_of, refused
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -37,9 +37,16 @@ class FunctionBlock(DataBlock):
         raise NotImplementedError(f"{type(self).__name__} has no execute method.")
 
     def __call__(self, **inputs: object) -> None:
-        """Assign ``inputs`` by name, then run the block once."""
+        """Assign ``inputs`` by name, then run the block once.
+
+        Raises:
+            ValueRangeError: one cannot take its value.
+        """
         for name, value in inputs.items():
-            setattr(self, name, value)
+            try:
+                setattr(self, name, value)
+            except TypeError:
+                raise refused(self, name, value) from None
         self.execute()
 
     @property

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from plcsim.core.errors import Fault
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.text import escaped
+from plcsim.program.refused_store import refused_store
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -65,6 +66,9 @@ def describe(error: BaseException) -> str:
     """Return in one line what an exception means on a controller."""
     if isinstance(error, ZeroDivisionError):
         return "division by zero"
+    refused = refused_store(error)
+    if refused:
+        return refused
     text = _text_of(error) + _nearest(error)
     name = type(error).__name__
     if type(error).__module__.startswith(("plcsim", "st_types")):

@@ -60,7 +60,10 @@ class Array(Generic[V]):
         return value
 
     def _store(self, place: int, value: V) -> None:
-        self._raw[place] = value
+        try:
+            self._raw[place] = value
+        except TypeError:
+            raise ValueRangeError(f"{value!r} is not a {self.data_type.element}.") from None
 
     def __getitem__(self, index: Index) -> V:
         return self._load(self._place(index))
@@ -113,6 +116,17 @@ class Array(Generic[V]):
         if len(data) > self.data_type.size:
             raise ValueRangeError(f"{len(data)} bytes are too many for {self.data_type}.")
         ctypes.memmove(ctypes.addressof(self._raw), data, len(data))
+
+
+class BoolArray(Array[bool]):
+    """Elements that ctypes would give the truth of any value."""
+
+    __slots__ = ()
+
+    def _store(self, place: int, value: bool) -> None:
+        if value not in (False, True):
+            raise ValueRangeError(f"{value!r} is not a BOOL.")
+        self._raw[place] = value
 
 
 class ConvertedArray(Array[V]):

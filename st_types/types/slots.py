@@ -72,7 +72,14 @@ def _enumeration_slot(data_type: EnumerationType[Any]) -> Slot:
     if data_type.members is None:
         return Slot(ctypes.c_int32)
     by_value: dict[int, object] = {int(m): m for m in data_type.members}
-    return Slot(ctypes.c_int32, lambda raw: by_value.get(raw, raw), index)
+
+    def store(value: object) -> int:
+        try:
+            return index(value)  # type: ignore[arg-type]  # what is no integer raises
+        except TypeError:
+            raise TypeError(f"{value!r} is not a {data_type}.") from None
+
+    return Slot(ctypes.c_int32, lambda raw: by_value.get(raw, raw), store)
 
 
 def _string_slot(length: int) -> Slot:

@@ -23,7 +23,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar, cast, overload
 
 from st_types.errors import DeclarationError, ValueRangeError
-from st_types.types.arrays import Array, ConvertedArray, ViewArray
+from st_types.types.arrays import Array, BoolArray, ConvertedArray, ViewArray
 from st_types.types.derived import (
     ArrayType,
     DataBlockType,
@@ -36,7 +36,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import UDINT, DataType
+from st_types.types.elementary import BOOL, UDINT, DataType
 from st_types.types.slots import Slot, slot_of
 from st_types.types.values import encode
 
@@ -308,7 +308,10 @@ class Struct(_CStruct, metaclass=_StructMeta):
         self._plc_attach(self, 0, 0, None)
         reset(self)
         for name, value in values.items():
-            setattr(self, name, value)
+            try:
+                setattr(self, name, value)
+            except TypeError:
+                raise refused(self, name, value) from None
 
     @classmethod
     def bind(cls, buffer: Any, offset: int, address: int, context: object = None) -> Self:
@@ -397,6 +400,14 @@ def assign(view: Struct | Array[Any], value: object) -> None:
     ctypes.memmove(ctypes.addressof(view), data, type_of(view).size)
 
 
+def refused(view: Struct, name: str, value: object) -> ValueRangeError:
+    """Return what to raise where ctypes raised TypeError, for a member that cannot take a value."""
+    data_type: StructType[Any] = type_of(view)  # type: ignore[assignment]  # that of a Struct
+    return ValueRangeError(
+        f"{name} is {data_type.find(name)[0].data_type} and cannot be {value!r}."
+    )
+
+
 def reset(view: Struct) -> None:
     """Give all members their initial values."""
     data_type = type_of(view)
@@ -436,6 +447,8 @@ def _array_of(
         raw = (ctypes.c_ubyte * data_type.size).from_buffer(buffer, offset)
         return ViewArray(data_type, raw, address, make, assign)
     raw = (slot.ctype * data_type.count).from_buffer(buffer, offset)
+    if element is BOOL:
+        return BoolArray(data_type, raw, address)
     if slot.load is None:
         return Array(data_type, raw, address)
     return ConvertedArray(data_type, raw, address, slot.load)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from st_types import Array, Struct
 from st_types.types.derived import Member, StructType
-from st_types.types.views import context_of, type_of, view_class
+from st_types.types.views import context_of, refused, type_of, view_class
 
 if TYPE_CHECKING:
     from st_types.types.elementary import DataType
@@ -34,7 +34,11 @@ class GlobalVariable:
         return self if view is None else getattr(context_of(view).globals, self.name)
 
     def __set__(self, view: Struct, value: object) -> None:
-        setattr(context_of(view).globals, self.name, value)
+        variables = context_of(view).globals
+        try:
+            setattr(variables, self.name, value)
+        except TypeError:
+            raise refused(variables, self.name, value) from None
 
 
 @overload

@@ -476,19 +476,18 @@ def test_members_do_not_touch_their_neighbours(typed, random):
     assert plain(view) == before | {name: value[name]}
 
 
+PAIR = ": each dimension is a pair, (low, high)"
+
+
 @pytest.mark.parametrize(
     ("declare", "error"),
     [
-        (
-            lambda: ARRAY(BOOL, 10),
-            "ARRAY(BOOL, 10): each dimension is a pair, (low, high); 10 elements are "
-            "ARRAY(BOOL, (0, 9)).",
-        ),
+        (lambda: ARRAY(BOOL, 10), f"ARRAY(BOOL, 10){PAIR}; 10 elements are ARRAY(BOOL, (0, 9))."),
         (
             lambda: ARRAY(BOOL, (0, 9), (0, 1, 2)),
-            "ARRAY(BOOL, (0, 9), (0, 1, 2)): each dimension is a pair, (low, high).",
+            f"ARRAY(BOOL, (0, 9), (0, 1, 2)){PAIR}.",
         ),
-        (lambda: ARRAY(BOOL, ("a", 9)), "ARRAY(BOOL, ('a', 9)): each dimension is a pair,"),
+        (lambda: ARRAY(BOOL, ("a", 9)), f"ARRAY(BOOL, ('a', 9)){PAIR}."),
         (lambda: STRING("x"), "STRING('x'): a number of characters was expected."),
         (lambda: WSTRING(1.5), "WSTRING(1.5): a number of characters was expected."),
     ],
@@ -497,3 +496,36 @@ def test_a_malformed_type_is_told_in_plain_words(declare, error):
     with pytest.raises(DeclarationError) as raised:
         declare()
     assert str(raised.value).startswith(error)
+
+
+def test_a_member_that_cannot_take_a_value_is_told_by_name():
+    class Named(Struct):
+        x = var(UINT)
+
+    with pytest.raises(ValueRangeError, match=r"x is UINT and cannot be 'a'\."):
+        Named(x="a")
+    with pytest.raises(AttributeError):
+        Named(y=1)
+
+
+def test_elements_and_enumerations_tell_what_they_cannot_take():
+    class Mode(IntEnum):
+        OFF = 0
+
+    class Cell(Struct):
+        bits = var(ARRAY(BOOL, (0, 1)))
+        numbers = var(ARRAY(UINT, (0, 1)))
+        mode = var(ENUM(Mode))
+
+    cell = Cell()
+    for act, error in (
+        (lambda: cell.bits.__setitem__(0, "x"), "'x' is not a BOOL."),
+        (lambda: cell.bits.__setitem__(0, 5), "5 is not a BOOL."),
+        (lambda: cell.numbers.__setitem__(0, 1.5), "1.5 is not a UINT."),
+        (lambda: setattr(cell, "mode", "OFF"), "'OFF' is not a Mode."),
+    ):
+        with pytest.raises((ValueRangeError, TypeError)) as raised:
+            act()
+        assert str(raised.value) == error
+    cell.bits[1] = 1
+    assert list(cell.bits) == [False, True]
