@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final, TypeGuard
 
 from crosnode.errors import DecodeError, DefinitionError, MessageValueError
@@ -147,6 +148,8 @@ class Codec:
 
     def _element_fault(self, base: str, value: object) -> str | None:
         if base in self._shapes:
+            if isinstance(value, Mapping):
+                return f": expected a message {base}, got {type(value).__name__}"
             return self._fault(base, value)
         try:
             check_scalar(base, value)

@@ -15,7 +15,7 @@ import pickle
 import signal
 import sys
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.core.errors import ConfigurationError, PlcError
@@ -110,6 +110,14 @@ class _PageHeartbeat(StatusPage):
         self.ticked(self.clock.now_ns() - self.origin_ns)
 
 
+def _no_debugger(*_args: object, **_options: object) -> NoReturn:
+    """What ``breakpoint()`` does in a program that runs on its clock."""
+    raise PlcError(
+        "breakpoint(): a controller that runs cannot be stopped in the middle of a cycle; "
+        "in a test it can, python3 -m pytest -s"
+    )
+
+
 def main() -> int:
     """Run the order given as the only argument; the result goes to its file."""
     order = RunOrder(**json.loads(sys.argv[1]))
@@ -119,6 +127,7 @@ def main() -> int:
         sys.stdout.reconfigure(line_buffering=True)  # what was printed before a crash is seen
     elif not order.virtual:
         printing.never_wait(page.lost)
+    sys.breakpointhook = _no_debugger
     faulthandler.enable(file=order.dump_fd, all_threads=False)
     faulthandler.register(DUMP, file=order.dump_fd, all_threads=False)
     try:

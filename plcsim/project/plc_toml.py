@@ -135,7 +135,7 @@ def read_project(path: Path, given: Mapping[str, Mapping[str, Any]] = _NOTHING) 
 
 def _toml(file: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(file.read_text("utf-8"))
+        return tomllib.loads(file.read_text("utf-8-sig"))  # some editors put a mark first
     except (OSError, UnicodeDecodeError) as err:
         raise ConfigurationError(f"{file}: cannot be read: {err}") from None
     except tomllib.TOMLDecodeError as err:

@@ -198,13 +198,19 @@ class Plc(World, Expectations):
         """Cycle time of the task class under test."""
         return self._class.cycle_ns
 
-    def run(self, duration: str | int) -> None:
-        """Run for a time, such as ``"250ms"``.
+    def run(self, duration: str) -> None:
+        """Run for a time, such as ``"250ms"``; `advance` takes nanoseconds.
 
         Raises:
+            PlcTestError: it is no duration; a number alone might be meant in any unit.
             ControllerFault: a program failed.
             PlantError: a plant or a planned act raised.
         """
+        given: object = duration
+        if isinstance(given, int):
+            raise PlcTestError(
+                f'run: {duration!r} has no unit; a duration is a text, such as "{duration}ms"'
+            )
         self.advance(duration_ns(duration, "run"))
 
     def cycles(self, count: int = 1) -> None:

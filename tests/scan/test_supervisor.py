@@ -493,6 +493,13 @@ def test_a_flood_of_violations_is_bounded(program, supervise):
     assert sum(result["task_classes"][0]["violations"].values()) == 600
 
 
+def test_a_breakpoint_says_where_it_can_be_used(program, supervise):
+    folder = program(cyclic="breakpoint()")
+    fault = supervise(folder)["fault"]
+    assert fault["location"] == line_of(folder, "breakpoint()")
+    assert "cannot be stopped in the middle of a cycle; in a test it can" in fault["text"]
+
+
 def test_a_program_that_fails_is_shown_with_its_line(program, finish):
     folder = program(cyclic="1 // 0")
     code, out, err = finish("run", folder)

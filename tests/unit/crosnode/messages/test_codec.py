@@ -96,6 +96,8 @@ def test_decoded_arrays_do_not_hold_the_receive_buffer() -> None:
         ({"w": ["a", 1]}, r"pkg/Type\.w\[1\]: expected a string"),
         ({"w": None}, r"pkg/Type\.w: expected a list, got NoneType"),
         ({"i": [None]}, r"pkg/Type\.i\[0\]\.x: missing in NoneType"),
+        ({"i": [{"x": []}]}, r"pkg/Type\.i\[0\]: expected a message pkg/Inner, got dict"),
+        ({"w": "ab"}, r"pkg/Type\.w: expected a list, got str"),
         ({"fixed": []}, r"pkg/Type\.fixed: expected 1 elements, got 0"),
     ],
 )

@@ -37,6 +37,10 @@ def read(project):
     return read
 
 
+def test_a_byte_order_mark_is_read_over(read):
+    assert read("\ufeff" + MAIN) == read(MAIN)
+
+
 def test_the_defaults(read):
     found = read(MAIN)
     assert (found.name, found.folder.name) == ("cell", "cell")

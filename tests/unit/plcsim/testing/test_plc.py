@@ -107,6 +107,12 @@ def test_a_program_that_is_interrupted_from_the_keyboard_ends_the_test(new_plc):
         plc.run("10ms")
 
 
+def test_a_number_without_a_unit_is_no_duration(cell_plc):
+    with pytest.raises(PlcTestError, match=r'run: 3 has no unit; .*, such as "3ms"'):
+        cell_plc.run(3)
+    assert cell_plc.time_ns == 0
+
+
 def test_always_fails_at_the_first_cycle_that_breaks_it(cell_plc):
     cell_plc.always(lambda: cell_plc["Cell.count"] < 5)
     with pytest.raises(ExpectationFailed, match=r'"Cell.count"] < 5 .* after cycle 5 at 45 ms'):
