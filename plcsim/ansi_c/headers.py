@@ -8,19 +8,23 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import tempfile
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from st_types.writers.c_header import C_TYPES, Header, c_header
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from st_types.resolve.scope import Scope
 
 INCLUDE: Final = Path(__file__).parent / "include"
 """Folder of the headers that are the same for everybody: ``bur/plctypes.h``, the C library."""
+
+DEFAULT: Final = "AsDefault.h"
 
 _LAYOUT: Final = {
     "LREAL": "plclreal",
@@ -30,47 +34,138 @@ _LAYOUT: Final = {
 }
 """Types of 8 bytes, which C for WebAssembly would align to 8; those in plctypes.h have 4."""
 
+_SAME: Final = ("plc.h", "globalTYP.h", "globalVAR.h", "Libraries.h")
+"""Names by which Automation Studio has parts of what `DEFAULT` brings."""
 
-def program_headers(
-    local: Scope, project: Scope | None, libraries: Sequence[Scope]
-) -> dict[str, str]:
-    """Return the headers of one program by name.
+_PROTOTYPE = re.compile(r"^_BUR_PUBLIC [^(]*?\b(\w+)\(.*$", re.MULTILINE)
+
+
+def library_headers(libraries: Sequence[Scope], known: list[Header]) -> dict[str, str]:
+    """Return a header per library by name.
 
     Args:
-        local: what the program declares.
-        project: what the project declares, None for nothing.
         libraries: in the order in which they are included.
+        known: takes what the headers declare, for those that rest on them.
     """
     headers: dict[str, str] = {}
-    known: list[Header] = []
-    scopes = [(f"{library.name}.h", library, "") for library in libraries]
-    if project is not None:
-        scopes.append(("plcsim_project.h", project, "_GLOBAL"))
-    for name, scope, variables in (*scopes, ("plcsim_program.h", local, "_LOCAL")):
-        c_types = {**C_TYPES, **_LAYOUT}
-        known.append(Header(scope, known, variables=variables, c_types=c_types))
-        headers[name] = c_header(known[-1], scope.name)
-    default = [*headers]
-    includes = "".join(f"#include <{name}>\n" for name in ("bur/plctypes.h", *default))
-    headers["AsDefault.h"] = f"#ifndef _ASDEFAULT_H_\n#define _ASDEFAULT_H_\n{includes}#endif\n"
+    for library in libraries:
+        known.append(_header(library, known))
+        text = c_header(known[-1], library.name)
+        headers[f"{library.name}.h"] = _without_standard(text)
     return headers
 
 
-def write_headers(headers: Mapping[str, str], parent: Path | None) -> Path:
-    """Write headers into a folder and return it; the same headers give the same folder.
+def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict[str, str]:
+    """Return the headers of one program by name.
 
     Args:
-        headers: texts by name.
+        scopes: what the program declares, and around it the folders up to the project.
+        libraries: in the order in which they are included.
+    """
+    known: list[Header] = []
+    headers = library_headers(libraries, known)
+    local, *around = scopes
+    for scope in reversed(around):
+        known.append(_header(scope, known))
+        headers[f"plcsim_{len(headers)}.h"] = c_header(known[-1], f"plcsim {scope.name}")
+    known.append(_header(local, known))
+    headers["plcsim_program.h"] = c_header(known[-1], "plcsim_program")
+    return headers | _bringing_all(headers)
+
+
+def body_headers(library: Scope, libraries: Sequence[Scope]) -> dict[str, str]:
+    """Return the headers for the sources of a library by name.
+
+    Args:
+        library: whose bodies are in C.
+        libraries: all, in the order in which they are included.
+    """
+    known: list[Header] = []
+    headers = library_headers([each for each in libraries if each is not library], known)
+    known.append(_header(library, known))
+    headers[f"{library.name}.h"] = c_header(known[-1], library.name)
+    return headers | _bringing_all(headers)
+
+
+def _header(scope: Scope, known: Sequence[Header]) -> Header:
+    """Return what writes a scope; its variables are the controller's, C does not define them."""
+    return Header(scope, known, variables="extern", c_types={**C_TYPES, **_LAYOUT})
+
+
+def _bringing_all(headers: Iterable[str]) -> dict[str, str]:
+    includes = "".join(f"#include <{name}>\n" for name in ("bur/plctypes.h", *headers))
+    default = f"#ifndef _ASDEFAULT_H_\n#define _ASDEFAULT_H_\n{includes}#endif\n"
+    return {DEFAULT: default, **dict.fromkeys(_SAME, f"#include <{DEFAULT}>\n")}
+
+
+def _without_standard(text: str) -> str:
+    """Return a library's header where C's own headers declare what they have as well.
+
+    Libraries such as asstring make functions of C known to Structured Text.
+    """
+    standard = standard_functions()
+    found = {m[1] for m in _PROTOTYPE.finditer(text)} & standard.keys()
+    if not found:
+        return text
+    text = _PROTOTYPE.sub(lambda m: f"/* {m[1]}: of C */" if m[1] in found else m[0], text)
+    includes = "".join(f"#include <{name}>\n" for name in sorted({standard[f] for f in found}))
+    return text.replace("#include <bur/plctypes.h>\n", f"#include <bur/plctypes.h>\n{includes}", 1)
+
+
+@cache
+def standard_functions() -> Mapping[str, str]:
+    """Return the header of each function that C itself has, by its name."""
+    found: dict[str, str] = {}
+    for file in sorted(INCLUDE.glob("*.h")):
+        for name in re.findall(
+            r"^[\w *]+?[ *](\w+)\([^#]*?\)[^;{]*;", file.read_text("utf-8"), re.M
+        ):
+            found.setdefault(name, file.name)
+    return found
+
+
+def identity_of(kind: str, scopes: Iterable[Scope]) -> str:
+    """Return what headers of scopes depend on: a hash of their texts, and of who writes them.
+
+    Args:
+        kind: of the headers; those of a program and of a library differ.
+        scopes: in order.
+    """
+    state = hashlib.blake2b(_writer() + kind.encode(), digest_size=16)
+    for scope in scopes:
+        state.update(f"{scope.name}\0".encode())
+        for file in scope.files:
+            text = file.tokens.source.text
+            state.update(f"{len(text)}\0".encode() + text.encode("utf-8", "surrogateescape"))
+    return state.hexdigest()
+
+
+@cache
+def _writer() -> bytes:
+    """Return what changes when headers are written in another way."""
+    state = hashlib.blake2b()
+    files = [Path(__file__), *sorted(Path(c_header.__code__.co_filename).parent.glob("*.py"))]
+    for file in (*files, *sorted(INCLUDE.rglob("*.h"))):
+        state.update(file.read_bytes())
+    return state.digest()
+
+
+def written_headers(
+    identity: str, make: Callable[[], Mapping[str, str]], parent: Path | None
+) -> Path:
+    """Return a folder with headers; it is written where it is not there.
+
+    Args:
+        identity: of the headers: what has the same one is not made again.
+        make: gives their texts by name.
         parent: where the folder lies; None, or one that cannot be written, takes a temporary one.
     """
-    state = hashlib.blake2b(digest_size=16)
-    for name, text in sorted(headers.items()):
-        state.update(f"{name}\0{text}\0".encode())
     for place in (parent, Path(tempfile.gettempdir()) / f"plcsim-headers-{os.getuid()}"):
         if place is not None:
-            folder = place / state.hexdigest()
+            folder = place / identity
             try:
-                _write(headers, folder)
+                if not folder.is_dir():
+                    _write(make(), folder)
             except OSError:
                 continue
             return folder
@@ -79,8 +174,6 @@ def write_headers(headers: Mapping[str, str], parent: Path | None) -> Path:
 
 def _write(headers: Mapping[str, str], folder: Path) -> None:
     """Make a folder as a whole: another process may make the same one at the same time."""
-    if folder.is_dir():
-        return
     folder.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     made = Path(tempfile.mkdtemp(dir=folder.parent, prefix="new-"))
     for name, text in headers.items():

@@ -44,6 +44,11 @@ class CModule:
         surroundings: where it finds what it does not hold itself.
         address: of its data; None allocates it.
 
+    Attributes:
+        name: as above.
+        address: of its data.
+        instance: its functions.
+
     Raises:
         ConfigurationError: something that it uses is nowhere; all of it is told.
     """
@@ -71,7 +76,7 @@ class CModule:
             self._addresses(),
             self._pointers(),
         )
-        self._instance = machine.instantiate(
+        self.instance = machine.instantiate(
             machine.compile_made(self._identity(), lambda: self._placed.wasm), self._functions()
         )
         for pointer, index in self._placement.pointers.items():
@@ -123,7 +128,7 @@ class CModule:
     def extern(self, name: str) -> Extern:
         """Return a function of the module, or of its surroundings, for others to import."""
         if name in self._linked.functions:
-            return self._instance.extern(name)
+            return self.instance.extern(name)
         found = self._surroundings.function(name)
         if found is None:
             raise ConfigurationError(f"{self.name}: uses {name}, which is nowhere")
@@ -131,10 +136,10 @@ class CModule:
 
     def function(self, name: str, params: str | None = None, results: str | None = None) -> Any:
         """Return a function of the module as a Python callable."""
-        return self._instance.function(name, params, results)
+        return self.instance.function(name, params, results)
 
     def _optional(self, name: str) -> Callable[[], None]:
-        return self._instance.function(name) if name in self._linked.functions else _nothing
+        return self.instance.function(name) if name in self._linked.functions else _nothing
 
     def address_of(self, variable: str) -> int | None:
         """Return the address of a variable that the module itself defines, None without one."""

@@ -87,6 +87,7 @@ class Memory:
         self._limit = FIRST
         self._followers: list[Callable[[Memory], None]] = []
         self._kept: list[tuple[int, bytes]] = []
+        self._at_boot: list[Callable[[], None]] = []
         self.stack = SYSTEM_AREA
         self.size = size
         if system_fd is None:
@@ -141,9 +142,15 @@ class Memory:
         return address
 
     def restore(self) -> None:
-        """Write what `keep` was given as it was."""
+        """Write what `keep` was given as it was, and call what `at_boot` was given."""
         for address, data in self._kept:
             self.write(address, data)
+        for act in self._at_boot:
+            act()
+
+    def at_boot(self, act: Callable[[], None]) -> None:
+        """Have ``act`` called at each boot of the controller, before the first program runs."""
+        self._at_boot.append(act)
 
     def open_stack(self, size: int) -> None:
         """Make at least ``size`` bytes below `SYSTEM_AREA` valid as stack of compiled programs.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
-from plcsim.program.c.language import C_LANGUAGE
+from plcsim.program.c.language import C_LANGUAGE, CBodies
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
 from plcsim.program.python.blocks import give_views
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, STRUCTURED_TEXT, C_LANGUAGE)
 """A program is written in one of them."""
 
-BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(), StructuredTextBodies())
+BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(), StructuredTextBodies(), CBodies())
 """Bodies of libraries are written in one of them."""
 
 _counter = itertools.count(1)

@@ -129,7 +129,7 @@ class Header:
         scope: the declarations.
         included: the headers that it includes, and those that they include.
         variables: what stands before a variable: ``_GLOBAL``, in a program ``_BUR_LOCAL`` or
-            ``_LOCAL``; with "" only constants are written.
+            ``_LOCAL``, or ``extern``; with "" only constants are written.
         c_types: C type of each elementary type.
 
     Attributes:
@@ -226,7 +226,8 @@ class Header:
             while name in self._taken or name in taken:
                 name += "_"
             taken.add(name)
-            retain = "_RETAIN" if "RETAIN" in variable.block.qualifiers else ""
+            is_retained = self._storage[:1] == "_" and "RETAIN" in variable.block.qualifiers
+            retain = "_RETAIN" if is_retained else ""
             yield f"{self._storage}{retain} {self._declarator(variable.data_type, name)};"
 
     def _type(self, data_type: DataType[object]) -> Iterator[str]:

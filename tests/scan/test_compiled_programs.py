@@ -8,11 +8,12 @@ from plcsim.core.system import State
 from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
 from plcsim.machine import CodeCache, Machine
+from plcsim.program.compiled import fault_of
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.fault import fault_of
+from plcsim.program.structured_text.fault import locator
 from st_types import UDINT, Struct, var
 from st_types.types.views import address_of, type_of
 
@@ -48,12 +49,13 @@ class Counter:
         linker = Linker(Machine(site.memory, cache=CodeCache(None)))
         tag = Tag(name, type_of(Variables), address_of(view))
         instance = linker.link(self.code, {"program": tag.address}, lambda _: None)
+        lines = {"counter": locator(self.code.lines)}.get
         units = {one: instance.function(one.value) for one in Unit}
         return Task(
             name,
             tag,
             units,
-            fault_of=lambda error: fault_of(error, linker.lines_of),
+            fault_of=lambda error: fault_of(error, lines),
             interrupt=lambda reason: None,  # the machine ends it by its budget
         )
 

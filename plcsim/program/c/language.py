@@ -1,36 +1,37 @@
-"""Programs in ANSI C and C++: all C files of a folder are one program.
+"""ANSI C and C++ as languages of programs, and of the bodies of libraries.
 
-Its units are the functions marked ``_INIT``, ``_CYCLIC`` and ``_EXIT``. Variables that a .var file
-of the program declares are those of the controller; what C defines itself lies in PLC memory as
-well.
+All C files of a program's folder and of the folders in it are one program. Its units are the
+functions marked ``_INIT``, ``_CYCLIC`` and ``_EXIT``. Variables that a .var file declares are those
+of the controller; what C defines itself lies in PLC memory as well.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.program.c.names import NAME, c_files
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from plcsim.library.executable import Executable
+    from plcsim.library.library import Library
     from plcsim.program.language import ProgramCode, ProgramSource
     from st_types.syntax.tree import DeclarationFile
-
-SUFFIXES: Final = (".c", ".cpp", ".cc", ".cxx")
-"""Of files that are compiled."""
 
 
 class C:
     """The language; see `plcsim.program.language.Language`."""
 
-    name: Final = "ANSI C"
+    name: Final = NAME
 
     def units(self, folder: Path) -> list[Path]:
         """Return the C files of a folder: which of them hold units, the compiler finds out."""
-        return sorted(f for f in folder.iterdir() if f.suffix.lower() in SUFFIXES and f.is_file())
+        return c_files(folder)
 
     def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
-        """Return nothing: what C defines is seen by C."""
+        """Return nothing: what C declares is its own."""
         return ()
 
     def load(self, source: ProgramSource) -> ProgramCode:
@@ -38,6 +39,21 @@ class C:
         from plcsim.program.c.code import load  # noqa: PLC0415  # 50 ms that few projects need
 
         return load(source)
+
+
+class CBodies:
+    """See `plcsim.library.executable.BodyLanguage`."""
+
+    name: Final = NAME
+
+    def bodies(self, library: Library) -> dict[str, Executable]:
+        """Compile the C files of a library; return the bodies in them."""
+        files = c_files(library.folder)
+        if not files:
+            return {}
+        from plcsim.program.c.library import bodies_in  # noqa: PLC0415  # as in `load` above
+
+        return bodies_in(library, files)
 
 
 C_LANGUAGE: Final = C()

@@ -5,11 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from plcsim.core.errors import ConfigurationError
-from plcsim.library.executable import Compiled
+from plcsim.program.compiled import CompiledPrograms, no_function_body
 from plcsim.program.site import no_body
-from plcsim.program.structured_text.calling import extern_of, interface_of
 from plcsim.program.structured_text.codegen.link import Linker
+from plcsim.program.structured_text.fault import locator
 from plcsim.program.structured_text.layout import SHARED, addresses
 
 if TYPE_CHECKING:
@@ -33,7 +32,7 @@ class Linkage:
         self._site = site
         self._linker = Linker(site.machine)
         self._libraries: dict[object, Instance | None] = {}
-        self._externs: dict[object, Extern] = {}
+        self._compiled = CompiledPrograms.of(site)
         self._shared = addresses(SHARED, site.shared)
 
     @staticmethod
@@ -60,6 +59,7 @@ class Linkage:
         for segment in code.segments:
             if segment.data is not None:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
+        self._compiled.locate_by(code.name, locator(code.lines))
         return self._linker.link(code, places, partial(self._provide, scope))
 
     def library(self, key: object, link: Callable[[], Instance]) -> Instance | None:
@@ -76,38 +76,14 @@ class Linkage:
 
     def fault_of(self, error: BaseException) -> Fault:
         """Return what something that a unit raised means."""
-        from plcsim.program.structured_text.fault import fault_of  # noqa: PLC0415  # rarely needed
-
-        return fault_of(error, self._linker.lines_of)
+        return self._compiled.fault_of(error)
 
     def _provide(self, scope: Scope, wanted: ir.Import) -> Extern:
-        declared = _declared_by(scope, wanted)
-        if declared not in self._externs:
-            self._externs[declared] = self._made(scope, wanted)
-        return self._externs[declared]
-
-    def _made(self, scope: Scope, wanted: ir.Import) -> Extern:
-        site = self._site
-        executable = executable_of(site.catalogue, scope, wanted)
-        if executable is None:
-            raise ConfigurationError(_no_body(scope, wanted))
-        if isinstance(executable, Compiled):
-            return executable.extern(site.context)
         if wanted.space == "block":
-            return site.machine.host_function(site.block(_data_block(scope, wanted)), "I")
+            return self._compiled.block(_data_block(scope, wanted))
         function = scope.find_function(wanted.name)
         assert function is not None
-        call = executable.bind(site.context)
-        return extern_of(site.machine, site.memory, interface_of(function), call)
-
-
-def _declared_by(scope: Scope, wanted: ir.Import) -> object:
-    """Return what is one and the same for all who import a block or function."""
-    if wanted.space == "block":
-        return _data_block(scope, wanted)
-    function = scope.find_function(wanted.name)
-    assert function is not None
-    return function.scope
+        return self._compiled.function(function)
 
 
 def _data_block(scope: Scope, wanted: ir.Import) -> DataBlockType[Any]:
@@ -139,4 +115,4 @@ def missing(catalogue: Catalogue, scope: Scope, imports: Iterable[ir.Import]) ->
 def _no_body(scope: Scope, wanted: ir.Import) -> str:
     if wanted.space == "block":
         return no_body(_data_block(scope, wanted))
-    return f"FUNCTION {wanted.name} has no body: it is declared, and nothing executes it"
+    return no_function_body(wanted.name)

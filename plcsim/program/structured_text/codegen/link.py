@@ -56,10 +56,6 @@ class Linker:
             imports[wanted.space, wanted.name] = provide(wanted)
         return self._machine.instantiate(compiled, imports | self._mathematical())
 
-    def lines_of(self, module: str) -> LineTable | None:
-        """Return the lines of a linked module, None where there is no such module."""
-        return self._lines.get(module)
-
     def _mathematical(self) -> dict[tuple[str, str], Extern | int]:
         if not self._mathematics:
             library = self._machine.shared(CLibrary)

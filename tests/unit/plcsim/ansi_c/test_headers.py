@@ -3,7 +3,7 @@ import subprocess
 import pytest
 
 from plcsim.ansi_c.build import Order, build
-from plcsim.ansi_c.headers import INCLUDE, program_headers, write_headers
+from plcsim.ansi_c.headers import INCLUDE, identity_of, program_headers, written_headers
 from plcsim.machine import CodeCache
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
@@ -46,11 +46,11 @@ def scope(name, text, *outer):
 def headers():
     library = scope("Motion", LIBRARY)
     project = scope("cell", "VAR gain : REAL; END_VAR", library)
-    return program_headers(scope("conveyor", PROGRAM, project, library), project, [library])
+    return program_headers([scope("conveyor", PROGRAM, project, library), project], [library])
 
 
 def test_a_program_finds_what_is_declared_around_it(headers, each_toolchain, source, tmp_path):
-    folder = write_headers(headers, tmp_path / "include")
+    folder = written_headers("x", lambda: headers, tmp_path / "include")
     file = source("main.c", CHECK)
     built = build(Order("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
     assert built.warnings == []
@@ -61,17 +61,40 @@ def test_each_library_has_its_header(headers):
     assert "conveyor" not in headers["Motion.h"]
 
 
-def test_headers_lie_in_a_folder_of_their_content(headers, tmp_path):
-    one = write_headers(headers, tmp_path)
-    assert write_headers(dict(reversed(headers.items())), tmp_path) == one
-    assert write_headers({**headers, "AsDefault.h": ""}, tmp_path) != one
+def test_headers_are_made_once_for_an_identity(headers, tmp_path):
+    one = written_headers("x", lambda: headers, tmp_path)
+    assert written_headers("x", dict, tmp_path) == one
+    assert written_headers("y", lambda: headers, tmp_path) != one
     assert sorted(f.name for f in one.iterdir()) == sorted(headers)
     assert len(list(tmp_path.iterdir())) == 2
 
 
+def test_an_identity_is_that_of_the_declarations():
+    one, other = scope("a", PROGRAM), scope("a", PROGRAM.replace("weight", "mass"))
+    assert identity_of("program", [one]) == identity_of("program", [scope("a", PROGRAM)])
+    assert identity_of("program", [one]) != identity_of("program", [other])
+    assert identity_of("program", [one]) != identity_of("library", [one])
+    assert identity_of("program", [one, other]) != identity_of("program", [other, one])
+
+
 def test_a_folder_that_cannot_be_written_is_replaced(headers):
-    folder = write_headers(headers, INCLUDE / "bur" / "plctypes.h")
+    folder = written_headers("unwritable", lambda: headers, INCLUDE / "bur" / "plctypes.h")
     assert (folder / "AsDefault.h").is_file()
+
+
+def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, source, tmp_path):
+    text = """
+    FUNCTION strcpy : UDINT VAR_INPUT pDest : UDINT; pSrc : UDINT; END_VAR END_FUNCTION
+    FUNCTION mine : UDINT VAR_INPUT pDest : UDINT; END_VAR END_FUNCTION
+    """
+    library = scope("asstring", text)
+    headers = program_headers([scope("p", "")], [library])
+    assert "mine(" in headers["asstring.h"]
+    assert "strcpy(" not in headers["asstring.h"]
+    folder = written_headers("x", lambda: headers, tmp_path / "include")
+    file = source("main.c", "#include <AsDefault.h>\nchar *f(char *a) { return strcpy(a, a); }")
+    built = build(Order("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
+    assert built.warnings == []
 
 
 def test_types_are_those_of_the_32_bit_target(each_toolchain, source):

@@ -76,6 +76,7 @@ def load(tmp_path):
         folder = tmp_path / "conveyor"
         folder.mkdir(exist_ok=True)
         for name, text in files.items():
+            (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_text(text)
         units = C_LANGUAGE.units(folder)
         declarations = Declarations(tmp_path, "package", [folder])
@@ -196,6 +197,57 @@ def test_what_is_nowhere_is_told_when_the_task_is_made(controller):
         controller({"Main.c": text})
 
 
-def test_errors_in_declarations_are_told(load):
-    with pytest.raises(ConfigurationError, match=r"Variables\.var:2"):
-        load({"Main.c": MAIN, "Variables.var": "VAR\n x : NoSuchType;\nEND_VAR"})
+HEAP = """
+#include <AsDefault.h>
+#include <stdlib.h>
+unsigned long bur_heap_size = 4096;
+static char *kept;
+void _INIT init(void) { kept = malloc(1000); all = kept && !malloc(4000); }
+void _CYCLIC cyclic(void)
+{
+	kept = realloc(kept, 1500);
+	free(malloc(100));
+	if (twice)
+		free(kept), free(kept);
+}
+"""
+
+
+def test_a_program_has_a_heap_of_the_size_that_it_wants(controller):
+    plc = controller({"Main.c": HEAP, "V.var": "VAR all, twice : BOOL; END_VAR"}, "a", "b")
+    for _ in range(2):
+        plc.boot()
+        plc.run(cycles=1)
+        assert value(plc, "a.all") is value(plc, "b.all") is True
+        plc.run(cycles=100)
+        assert plc.state is State.RUN
+        plc.tags.write(plc.tags.find("a.twice"), value=True)
+        plc.run(cycles=1)
+        assert plc.fault.reason == "an area of the heap is freed that was freed before"
+        assert plc.fault.location.endswith("Main.c:12")
+
+
+def test_headers_are_found_in_any_case(controller):
+    files = {
+        "Main.c": '#include <bur/PlcTypes.h>\n#include "ASDEFAULT.H"\n#include "Sub/Own.h"\n'
+        '#include <String.h>\nvoid _CYCLIC run(void) { x = OWN + strlen("ab"); }\n',
+        "sub/own.h": "#define OWN 5\n",
+        "V.var": "VAR x : INT; END_VAR",
+    }
+    plc = controller(files)
+    plc.boot()
+    plc.run(cycles=1)
+    assert value(plc, "conveyor.x") == 7
+
+
+def test_parts_of_a_program_lie_in_several_files_and_folders(controller):
+    files = {
+        "Main.c": "#include <AsDefault.h>\nint part(int);\n"
+        "void _CYCLIC run(void) { x = part(x); }\n",
+        "sub/Part.c": "int part(int x) { return x + 2; }\n",
+        "V.var": "VAR x : INT; END_VAR",
+    }
+    plc = controller(files)
+    plc.boot()
+    plc.run(cycles=3)
+    assert value(plc, "conveyor.x") == 6

@@ -6,10 +6,11 @@ from plcsim.core.errors import CycleTimeViolation
 from plcsim.core.memory import FIRST, PAGE, Memory
 from plcsim.core.system_area import STALLED
 from plcsim.machine import CodeCache, Machine
+from plcsim.program.compiled import fault_of
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.fault import fault_of
+from plcsim.program.structured_text.fault import locator
 
 from .codegen.build import (
     address,
@@ -41,8 +42,9 @@ def fault(memory):
         linker = Linker(machine)
         action = function("ACTION", (), None, *body, kind="action", exported=False)
         whole = module(unit(evaluate(call("ACTION"), line=3)), action, imports=imports)
+        code = generate(whole)
         instance = linker.link(
-            generate(whole),
+            code,
             {"program": FIRST},
             lambda wanted: machine.host_function(provide, "I"),
         )
@@ -51,7 +53,7 @@ def fault(memory):
         try:
             cyclic()
         except BaseException as error:
-            return fault_of(error, linker.lines_of)
+            return fault_of(error, {code.name: locator(code.lines)}.get)
         finally:
             machine.close()
         raise AssertionError("nothing was raised")

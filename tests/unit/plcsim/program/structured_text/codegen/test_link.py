@@ -100,13 +100,11 @@ def test_mathematics_is_there_by_itself(memory, machine):
     assert struct.unpack("<d", memory.read(start + 16, 8)) == (1024.0,)
 
 
-def test_lines_are_found_by_module(machine):
+def test_names_of_modules_are_unique(machine):
     linker = Linker(machine)
     code = counter_library()
     linker.link(code, {}, nothing)
     linker.link(code, {}, nothing)
-    assert linker.lines_of("library") is code.lines
-    assert linker.lines_of("other") is None
     with pytest.raises(ValueError, match="two modules are called library"):
         linker.link(counter_library(), {}, nothing)
 

@@ -1,0 +1,145 @@
+"""Bodies of libraries in C: one module for each library and controller."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from plcsim.ansi_c.module import CModule
+from plcsim.core.errors import ConfigurationError
+from plcsim.program.c.code import locator
+from plcsim.program.c.names import NAME
+from plcsim.program.c.sources import compile_library
+from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
+from plcsim.program.compiled import CompiledPrograms
+from plcsim.program.site import Site
+from plcsim.program.structured_text.calling import callable_of, extern_of, interface_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from pathlib import Path
+
+    from plcsim.core.context import Context
+    from plcsim.library.executable import Executable
+    from plcsim.library.library import Library
+    from plcsim.machine import Extern
+    from plcsim.machine.shared_module import SharedModule
+    from plcsim.program.structured_text.calling import Interface
+
+
+def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
+    """Compile the files of a library and return the bodies in them, by declared name.
+
+    Raises:
+        ConfigurationError: there are errors in them; all are told.
+    """
+    whole = CLibraryCode(library, compile_library(library, files).module)
+    known = set(whole.module.functions)
+    found: dict[str, Executable] = {
+        block.name: CBody(whole, block.name)
+        for block in library.scope.function_blocks
+        if block.name in known
+    }
+    for function in library.scope.functions:
+        if function.name in known:
+            interface = interface_of(function)
+            if interface.large is not None:
+                raise ConfigurationError(
+                    f"{function.file.location(function.node)}: error: {function.name} gives "
+                    f"{interface.large.name}, which a function in C cannot give"
+                )
+            found[function.name] = CBody(whole, function.name, interface)
+    return found
+
+
+class CLibraryCode:
+    """The C of a library.
+
+    Args:
+        library: the library.
+        module: its module.
+
+    Attributes:
+        module: as above.
+    """
+
+    def __init__(self, library: Library, module: SharedModule) -> None:
+        self._library = library
+        self.module = module
+
+    def on(self, site: Site) -> CModule | None:
+        """Return the module on a controller; None while it is being placed."""
+        modules = site.context.settings(_Modules)
+        if modules is None:
+            modules = _Modules()
+            site.context.give_settings(modules)
+        if self not in modules.placed:
+            modules.placed[self] = None
+            modules.placed[self] = self._placed(site)
+        return modules.placed[self]
+
+    def _placed(self, site: Site) -> CModule:
+        name = f"library {self._library.name}"
+        scope = self._library.scope
+        surroundings = ProgramSurroundings(name, site, scope, (), heap_size_of(self.module))
+        module = CModule(name, self.module, site.machine, surroundings)
+        CompiledPrograms.of(site).locate_by(name, locator(module))
+
+        def reset() -> None:
+            surroundings.reset()
+            module.reset()
+
+        reset()
+        site.memory.at_boot(reset)
+        return module
+
+
+class _Modules:
+    """The libraries in C of one controller."""
+
+    def __init__(self) -> None:
+        self.placed: dict[CLibraryCode, CModule | None] = {}
+
+
+class CBody(NamedTuple):
+    """The body of a FUNCTION_BLOCK or of a FUNCTION; see `plcsim.library.executable.Compiled`.
+
+    Attributes:
+        library: that it belongs to.
+        name: of the function in C.
+        interface: of a FUNCTION; None for a block.
+    """
+
+    library: CLibraryCode
+    name: str
+    interface: Interface | None = None
+
+    @property
+    def language(self) -> str:
+        """ANSI C."""
+        return NAME
+
+    def bind(self, context: Context) -> Callable[..., Any]:
+        """Return what runs it on a controller, for Python."""
+        site = Site.of(context)
+        module = self.library.on(site)
+        if module is None:  # two libraries call each other
+
+            def call(*arguments: Any) -> Any:
+                return self.bind(context)(*arguments)
+
+            return call
+        if self.interface is None:
+            return site.machine.unit(module.function(self.name, "I"))
+        return site.machine.unit(
+            callable_of(site.memory, module.instance, self.name, self.interface)
+        )
+
+    def extern(self, context: Context) -> Extern:
+        """Return it for other modules to import."""
+        site = Site.of(context)
+        module = self.library.on(site)
+        if module is not None:
+            return module.extern(self.name)
+        if self.interface is None:
+            return site.machine.host_function(self.bind(context), "I")
+        return extern_of(site.machine, site.memory, self.interface, self.bind(context))

@@ -1,0 +1,89 @@
+"""What is compiled of programs and libraries in C: their files, with the headers around them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.case_blind import written_overlay
+from plcsim.ansi_c.headers import (
+    INCLUDE,
+    body_headers,
+    identity_of,
+    program_headers,
+    written_headers,
+)
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.machine.cache import CodeCache, default_folder
+from plcsim.machine.shared_module import read_shared
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from pathlib import Path
+
+    from plcsim.library.library import Library
+    from plcsim.machine.shared_module import SharedModule
+    from plcsim.program.language import ProgramSource
+    from st_types.resolve.scope import Scope
+
+
+class Compiled(NamedTuple):
+    """A linked module, and what the compiler said about its sources."""
+
+    module: SharedModule
+    warnings: Sequence[str]
+
+
+def compile_program(source: ProgramSource) -> Compiled:
+    """Compile and link the files of a program.
+
+    Raises:
+        ConfigurationError: there are errors in them, or no compiler; all are told.
+    """
+    libraries = [library.scope for library in source.declarations.catalogue.libraries]
+    around = [scope for scope in source.scope.chain if scope not in libraries]
+    headers = _headers("program", [*around, *libraries], lambda: program_headers(around, libraries))
+    own = _with_own_header(source.declarations.own_libraries)
+    return _compiled(source.name, source.files, [source.folder, *own, headers])
+
+
+def compile_library(library: Library, files: Sequence[Path]) -> Compiled:
+    """Compile and link the files in C of a library.
+
+    Raises:
+        ConfigurationError: as for `compile_program`.
+    """
+    libraries = [scope for scope in library.scope.chain if scope is not library.scope]
+    headers = _headers(
+        "library", [library.scope, *libraries], lambda: body_headers(library.scope, libraries)
+    )
+    option = f"-D_{library.name.upper()}_EXPORT"
+    return _compiled(library.name, files, [library.folder, headers], option)
+
+
+def _with_own_header(libraries: Iterable[Library]) -> list[Path]:
+    """Return the folders of libraries that bring their header themselves."""
+    return [
+        library.folder
+        for library in libraries
+        if any(f.name.lower() == f"{library.name.lower()}.h" for f in library.folder.iterdir())
+    ]
+
+
+def _headers(kind: str, scopes: Sequence[Scope], make: Callable[[], Mapping[str, str]]) -> Path:
+    cache = default_folder()
+    parent = cache.parent / "include" if cache else None
+    return written_headers(identity_of(kind, scopes), make, parent)
+
+
+def _compiled(name: str, files: Sequence[Path], folders: Sequence[Path], *options: str) -> Compiled:
+    cache = default_folder()
+    overlay = written_overlay([*folders, INCLUDE], folders[-1].parent)
+    order = Order(
+        name,
+        files,
+        [*folders, INCLUDE],
+        [*options, "-Xclang", "-ivfsoverlay", "-Xclang", str(overlay)],
+    )
+    built = build(order, find_toolchain(), CodeCache(cache.parent / "c" if cache else None))
+    return Compiled(read_shared(built.wasm), built.warnings)

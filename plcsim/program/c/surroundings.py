@@ -1,0 +1,127 @@
+"""What a module of C finds on its controller: variables, blocks, functions, its heap."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from plcsim.ansi_c.c_library import CLibrary
+from plcsim.ansi_c.heap import HEAP_SIZE, Heap, is_of_heap
+from plcsim.library.executable import Compiled
+from plcsim.machine.placement import Placement, initial_values
+from plcsim.program.compiled import CompiledPrograms
+from st_types.types.derived import StructType
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.core.tag import Tag
+    from plcsim.machine import Extern
+    from plcsim.machine.shared_module import SharedModule
+    from plcsim.program.site import Site
+    from st_types.resolve.scope import Scope
+
+HEAP_SIZE_NAMES: Final = ("bur_heap_size", "_bur_heap_size")
+"""Variables by which a program says how many bytes its heap has."""
+
+
+class ProgramSurroundings:
+    """What a program or a library finds; see `plcsim.ansi_c.module.Surroundings`.
+
+    Args:
+        name: of its module.
+        site: its controller.
+        scope: in which names are looked up.
+        own: the program's variables, and its constants.
+        heap_size: in bytes, of the heap that it gets where it uses one.
+
+    Attributes:
+        heap: its heap, None where it uses none.
+    """
+
+    def __init__(
+        self, name: str, site: Site, scope: Scope, own: Sequence[Tag], heap_size: int
+    ) -> None:
+        self._name = name
+        self._site = site
+        self._scope = scope
+        self._variables: dict[str, int] = {}
+        for tag in reversed((*own, *site.shared)):
+            self._variables |= _addresses(tag)
+        self._heap_size = heap_size
+        self._library = site.machine.shared(CLibrary)
+        self._compiled = CompiledPrograms.of(site)
+        self.heap: Heap | None = None
+
+    def variable(self, name: str) -> int | None:
+        """Return the address of a variable, what is declared nearest; None where there is none."""
+        known = self._variables
+        while name not in known and name.endswith("_"):
+            name = name[:-1]  # headers write it behind words of C, and behind names of types
+        return known.get(name) or self._library.variable(name)
+
+    def function(self, name: str) -> Extern | None:
+        """Return a block, a FUNCTION of a library or a function of C, None where there is none."""
+        if is_of_heap(name):
+            return self._own_heap().extern(name)
+        return self._block(name) or self._compiled_function(name) or self._any_function(name)
+
+    def _block(self, name: str) -> Extern | None:
+        block = self._scope.find_function_block(name)
+        if block is None or block.name != name or block.data_type is None:
+            return None
+        if self._site.catalogue.executable(block.data_type) is None:
+            return None
+        return self._compiled.block(block.data_type)
+
+    def _compiled_function(self, name: str) -> Extern | None:
+        """Return a FUNCTION that was compiled: a user's own hides one of C by the same name."""
+        function = self._scope.find_function(name)
+        found = self._site.catalogue.find_function(name)
+        if function is None or found is None or not isinstance(found[1], Compiled):
+            return None
+        return self._compiled.function(function)
+
+    def _any_function(self, name: str) -> Extern | None:
+        """Return a function of C, else a FUNCTION in Python."""
+        extern = self._library.extern(name)
+        function = self._scope.find_function(name)
+        if extern is not None or function is None or function.name != name:
+            return extern
+        found = self._site.catalogue.find_function(name)
+        return None if found is None or found[1] is None else self._compiled.function(function)
+
+    def _own_heap(self) -> Heap:
+        if self.heap is None:
+            self.heap = Heap(self._name, self._site.machine, self._library, self._heap_size)
+        return self.heap
+
+    def reset(self) -> None:
+        """Forget what lies on the heap."""
+        if self.heap is not None:
+            self.heap.reset()
+
+
+def _addresses(tag: Tag) -> dict[str, int]:
+    kind = tag.data_type
+    assert isinstance(kind, StructType)
+    members = zip(kind.members, kind.offsets, strict=True)
+    return {member.name: tag.address + offset for member, offset in members}
+
+
+class _Zeros(dict[str, int]):
+    """Places of what has none yet."""
+
+    def __missing__(self, _name: str) -> int:
+        return 0
+
+
+def heap_size_of(module: SharedModule) -> int:
+    """Return the size that a program wants its heap to have, in bytes."""
+    offsets = [module.variables[n] for n in HEAP_SIZE_NAMES if n in module.variables]
+    for address, content in (
+        initial_values(module, Placement(0, 0, _Zeros(), _Zeros())) if offsets else ()
+    ):
+        at = offsets[0] - address
+        if 0 <= at <= len(content) - 4:
+            return int.from_bytes(content[at : at + 4], "little") or HEAP_SIZE
+    return HEAP_SIZE
