@@ -103,6 +103,7 @@ class MasterClient:
         self._ping_ns = 0
         self._is_dirty = False
         self._is_closing = False
+        self._resting: list[Registration] = []
 
     @property
     def is_found(self) -> bool:
@@ -120,22 +121,46 @@ class MasterClient:
         return all(registration.is_settled for registration in self._registrations)
 
     def add(self, registration: Registration) -> None:
-        """Register from now on."""
-        self._registrations.append(registration)
-        self._is_dirty = True
+        """Register from now on, or when the node has returned."""
+        if self._is_closing:
+            self._resting.append(registration)
+        else:
+            self._registrations.append(registration)
+            self._is_dirty = True
 
     def remove(self, registration: Registration) -> None:
         """Take a registration back, now or when the master is found again."""
-        if registration.is_wanted:
+        if registration in self._resting:
+            self._resting.remove(registration)
+        elif registration.is_wanted:
             self._move(registration, RegistrationTrigger.REMOVED)
 
-    def remove_all(self) -> None:
-        """Take all registrations back; a master that is away is not waited for."""
+    def take_back_all(self, *, for_good: bool) -> None:
+        """Take all registrations back; a master that is away is not waited for.
+
+        Args:
+            for_good: False where ``give_again`` shall make them again.
+        """
         self._is_closing = True
+        self._resting = [] if for_good else [r for r in self._registrations if r.is_wanted]
         for registration in list(self._registrations):
-            self.remove(registration)
+            if registration.is_wanted:
+                self._move(registration, RegistrationTrigger.REMOVED)
             if registration.state is RegistrationState.STALE:
                 self._move(registration, RegistrationTrigger.GIVEN_UP)
+
+    def give_up(self) -> None:
+        """Wait no longer for the master to let registrations go."""
+        for registration in list(self._registrations):
+            self._move(registration, RegistrationTrigger.GIVEN_UP)
+
+    def give_again(self) -> None:
+        """Make the registrations again that were taken back, not for good."""
+        self._is_closing, again = False, self._resting
+        self._resting = []
+        for registration in again:
+            registration.renew()
+            self.add(registration)
 
     def call(
         self, method: str, params: list[Value], on_end: Callable[[ApiCall], None] | None = None
@@ -196,6 +221,8 @@ class MasterClient:
             registration.on_value(call.value)
 
     def _unregistered(self, registration: Registration, call: ApiCall) -> None:
+        if registration.state is not RegistrationState.LEAVING:
+            return  # given up meanwhile
         if call.was_answered:
             self._move(registration, RegistrationTrigger.LET_GO)
         elif self._is_closing:

@@ -14,6 +14,7 @@ from crosnode.graph.hosts import HostTable, own_interface
 from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.core import NodeCore
+from crosnode.node.life import Life, LifeState
 from crosnode.node.master_client import MasterClient
 from crosnode.node.options import NodeOptions
 from crosnode.node.parameter import ParameterSubscription, check_parameters
@@ -47,9 +48,6 @@ STATUSES: Final = 200
 SHORTAGE_NS: Final = 10_000_000_000
 """Nanoseconds in which it is told at most once that no ident is free."""
 
-CLOSING_NS: Final = 3_000_000_000
-"""Nanoseconds that ``close`` gives the master to take the registrations back, as in cROS."""
-
 
 class CrosNode:
     """A node.
@@ -72,8 +70,7 @@ class CrosNode:
         publishers: by topic. ``subscribers`` by topic, ``providers`` by service.
         statuses: news for the program, to be popped.
         statistics: how long the steps took.
-        is_shut_down: somebody asked the node to end, or ``close`` was called.
-        is_closed: all is taken back and closed.
+        life: how far it is from its start to its end, and who ended it.
     """
 
     def __init__(
@@ -96,9 +93,6 @@ class CrosNode:
         self.callers: list[ServiceCaller] = []
         self.statuses: DropOldestQueue[Status] = DropOldestQueue(STATUSES)
         self.statistics = Histogram()
-        self.is_shut_down = False
-        self.is_closed = False
-        self._closing_ns: int | None = None
         self._shortages = 0
         self._next_shortage_ns = 0
         self._context = context
@@ -127,11 +121,22 @@ class CrosNode:
         api = ApiCaller(loop, hosts, options.xmlrpc)
         master = MasterClient(api, master_uri, self.name, self.uri, self.statuses)
         self.core = NodeCore(self.name, loop, api, master, hosts, options.tcpros, self.statuses)
+        self.life = Life(self.core, respawns=options.respawns)
 
     @property
     def now_ns(self) -> int:
         """ROS time of this cycle: nanoseconds since 1970, or simulated; 0 before it is known."""
         return self._time.now_ns(self._context.release_ns)
+
+    @property
+    def is_shut_down(self) -> bool:
+        """Whether the node ends for good: others ended it, or ``close`` was called."""
+        return self.life.is_over
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether all is taken back and closed."""
+        return self.life.state is LifeState.ENDED
 
     @property
     def is_registered(self) -> bool:
@@ -382,8 +387,7 @@ class CrosNode:
         core.loop.step_new(now_ns, budget)
         if core.loop.pool.shortages != self._shortages:
             self._tell_shortage(now_ns)
-        if self.is_shut_down:
-            self._go_on_closing(now_ns)
+        self.life.step(now_ns)
 
     def _tell_shortage(self, now_ns: int) -> None:
         """Tell that AsTCP had no ident, but not in every step."""
@@ -407,17 +411,15 @@ class CrosNode:
     # The end
 
     def shut_down(self, reason: str) -> None:
-        """Begin to close, as ``close`` does, and tell the program why."""
+        """End the node because others ask for it; with `NodeOptions.respawns` it returns."""
+        self.life.kill(reason, self._context.release_ns)
         if not self.is_shut_down:
-            self.core.tell(StatusKind.SHUTDOWN, self.name, reason)
-            self.close()
+            for subscriber in self.subscribers.values():
+                subscriber.close()
 
     def close(self) -> None:
         """Begin to take all registrations back; ``do_events_loop`` goes on until ``is_closed``."""
-        if not self.is_shut_down:
-            self.is_shut_down = True
-            self._closing_ns = self._context.release_ns + CLOSING_NS
-            self.core.master.remove_all()
+        self.life.close(self._context.release_ns)
 
     def destroy(self, steps: int = 20_000) -> None:
         """Close at once: for EXIT, which has no further cycles.
@@ -431,17 +433,7 @@ class CrosNode:
             if self.options.beside:
                 self.options.beside()
             steps -= 1
-        self._end(self._context.release_ns)
-
-    def _go_on_closing(self, now_ns: int) -> None:
-        is_late = self._closing_ns is not None and now_ns >= self._closing_ns
-        if is_late or (self.core.master.is_clean and self.core.api.is_idle):
-            self._end(now_ns)
-
-    def _end(self, now_ns: int) -> None:
-        if not self.is_closed:
-            self.is_closed = True
-            self.core.loop.close(now_ns)
+        self.life.finish(self._context.release_ns)
 
 
 def _no_port(bind_ip: str, status: int) -> str:

@@ -25,6 +25,7 @@ class NodeOptions(NamedTuple):
         hosts: addresses of host names.
         epoch: turns releases into nanoseconds since 1970, None for those that are so already.
         clock_ns: measures the step for ``statistics``; None measures nothing.
+        respawns: whether the node returns when others end it.
         beside: called between the steps of ``destroy``: an embedded master that must answer.
     """
 
@@ -35,4 +36,5 @@ class NodeOptions(NamedTuple):
     hosts: Mapping[str, str] | None = None
     epoch: Epoch | None = None
     clock_ns: Callable[[], int] | None = None
+    respawns: bool = False
     beside: Callable[[], None] | None = None

@@ -41,6 +41,7 @@ class RegistrationTrigger(Enum):
     REMOVED = "the program takes it back"
     LET_GO = "the master let it go"
     GIVEN_UP = "the node ends and waits for no master"
+    RETURNED = "the node has returned"
 
 
 _State = RegistrationState
@@ -63,7 +64,7 @@ REGISTRATION: Final[Transitions[RegistrationState, RegistrationTrigger]] = {
         _Trigger.UNANSWERED: _State.STALE,
         _Trigger.GIVEN_UP: _State.GONE,
     },
-    _State.GONE: {},
+    _State.GONE: {_Trigger.RETURNED: _State.NEW},
 }
 
 
@@ -96,6 +97,11 @@ class Registration:
     def is_wanted(self) -> bool:
         """Whether it was not taken back."""
         return self.state not in (_State.STALE, _State.LEAVING, _State.GONE)
+
+    def renew(self) -> None:
+        """Be made once more; one that no master ever heard of is new as it is."""
+        if self.state is not _State.NEW:
+            self.move(_Trigger.RETURNED)
 
     def move(self, trigger: RegistrationTrigger) -> RegistrationState:
         """Go where the table says; return the state that follows."""

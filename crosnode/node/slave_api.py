@@ -129,7 +129,7 @@ class SlaveApi:
 
     def shutdown(self) -> Value:
         """End the node, which goes on until its registrations are taken back."""
-        self._node.shut_down("asked by the slave API")
+        self._node.shut_down("rosnode kill, or another node of its name")
         return [SUCCESS, "shutdown", 0]
 
     def get_pid(self) -> Value:

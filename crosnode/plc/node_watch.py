@@ -40,12 +40,14 @@ class _Watched:
         steps_ns: what its steps had taken when it was looked at, to see whether it does any.
         missed_ns: since when no master was found, None where one is.
         is_told: whether that was told.
+        kills: times that others ended it, as far as they were told.
     """
 
     node: CrosNode
     steps_ns: int = 0
     missed_ns: int | None = None
     is_told: bool = False
+    kills: int = 0
 
 
 class NodeWatch:
@@ -64,6 +66,8 @@ class NodeWatch:
     def look(self, now_ns: int) -> Iterator[News]:
         """Iterate over what is new; call it about once a second."""
         yield from self._shortage(now_ns)
+        for each in self._watched:
+            yield from _kills(each)
         self._watched = [each for each in self._watched if not each.node.is_shut_down]
         for each in self._watched:
             name, master = each.node.name, each.node.core.master
@@ -81,6 +85,16 @@ class NodeWatch:
             self._next_shortage_ns = now_ns + SHORTAGE_NS
             text = f"no AsTCP ident is free: all {self._pool.idents} of [library.AsTCP] are in use"
             yield News(Severity.WARNING, text)
+
+
+def _kills(each: _Watched) -> Iterator[News]:
+    """Tell that others ended the node, which a program may not look for."""
+    life = each.node.life
+    if life.kills != each.kills:
+        each.kills = life.kills
+        after = "for good; respawn = true in [ros] brings it back"
+        text = f"{each.node.name}: ended {after if life.is_over else 'and will return'}"
+        yield News(Severity.WARNING, f"{text}: {life.reason}")
 
 
 def _misses(each: _Watched, now_ns: int) -> bool:

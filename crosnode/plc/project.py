@@ -111,6 +111,7 @@ def make_node(
         hosts=ros.hosts,
         epoch=found.epoch,
         clock_ns=found.clock_ns,
+        respawns=ros.table.respawn,
         beside=partial(step_beside, context),
     )
     settings = _settings(ros, name, arguments, namespace)

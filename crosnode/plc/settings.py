@@ -96,6 +96,7 @@ class RosTable:
         arguments: remapping arguments.
         packages: folders of message packages, searched first.
         hosts: IPv4 addresses by host name.
+        respawn: whether nodes return that others end: rosnode kill, or another of their name.
         node: base name of the bridge's node.
         publish: tags to topics, by topic.
         subscribe: topics to tags, by topic.
@@ -109,6 +110,7 @@ class RosTable:
     arguments: tuple[str, ...] = ()
     packages: tuple[Annotated[Path, PathTo("folder")], ...] = ()
     hosts: Mapping[str, Annotated[str, Converted(_ipv4)]] = field(default_factory=dict)
+    respawn: bool = False
     node: Annotated[str, Converted(check_base_name)] = "plc_bridge"
     publish: Mapping[str, Publication] = field(default_factory=dict)
     subscribe: Mapping[str, Subscription] = field(default_factory=dict)

@@ -214,11 +214,15 @@ class EventLoop:
                 self.pool.put(link.socket)
         self.links = [link for link in self.links if not link.is_over]
 
-    def close(self, now_ns: int) -> None:
-        """End all links and close all ports at once."""
+    def end_links(self, now_ns: int) -> None:
+        """End all links at once; the ports stay open."""
         for link in self.links:
             link.abort("", now_ns)
         self._remove_ended()
+
+    def close(self, now_ns: int) -> None:
+        """End all links and close all ports at once."""
+        self.end_links(now_ns)
         for listener in self.listeners:
             listener.close()
         self.listeners.clear()

@@ -19,6 +19,7 @@ from crosnode.transport.connection import (
     Table,
     Trigger,
 )
+from crosnode.xmlrpc.host_field import HostField
 from crosnode.xmlrpc.values import (
     MethodCall,
     MethodFault,
@@ -235,6 +236,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
     def __init__(self, limits: XmlRpcLimits, now_ns: int) -> None:
         super().__init__(h11.SERVER, ConnectionState.REQUEST, limits, now_ns)
         self._is_idle = False
+        self._host_field = HostField()
         self._writer: ResponseWriter | None = None
 
     @property
@@ -254,6 +256,11 @@ class XmlRpcServerConnection(XmlRpcConnection):
             self.close()
             return None
         return super().handle_timer(now_ns)
+
+    def _receive(self, data: bytes) -> None:
+        completed = self._host_field.complete(data)
+        if completed or not data:  # no bytes are the end of the stream
+            super()._receive(completed)
 
     def next_event(self, now_ns: int) -> ConnectionEvent | None:
         """Return the next event, None where none can be had from the bytes so far."""
@@ -306,6 +313,8 @@ class XmlRpcServerConnection(XmlRpcConnection):
         self._writer = None
         self._send_document(document, 200)
         self._end_call()
+        if not self._http.trailing_data[0]:
+            self._host_field.begin()
         self._is_idle = True
 
     def _send_document(self, document: bytes, status: int, *headers: tuple[str, str]) -> None:

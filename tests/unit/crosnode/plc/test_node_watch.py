@@ -42,6 +42,14 @@ def test_a_missing_master_is_told_once_and_once_when_it_is_found() -> None:
     assert site.told(8) == [MISSING]
 
 
+def test_a_node_that_others_end_is_told_of() -> None:
+    site = Site(master=True)
+    site.told(2)
+    site.node.shut_down("rosnode kill")
+    text = "/talker: ended for good; respawn = true in [ros] brings it back: rosnode kill"
+    assert site.told(3) == [News(Severity.WARNING, text)]
+
+
 def test_the_program_gets_all_news_itself() -> None:
     site = Site()
     site.told(6)

@@ -387,3 +387,14 @@ def test_an_end_while_a_long_answer_is_written() -> None:
     theirs.close()
     assert theirs.next_event(0) is None
     assert sent(theirs) == b""
+
+
+def test_a_caller_that_names_no_host_is_served_again_and_again() -> None:
+    theirs = server()
+    bare = request(GET_PID).replace(b"Host: h:1\r\n", b"")
+    assert b"Host" not in bare
+    for _ in range(3):
+        theirs.receive_data(bare)
+        assert theirs.next_event(0) == CallReceived("getPid", ["/n"])
+        theirs.respond(1)
+        assert sent(theirs).startswith(b"HTTP/1.1 200")
