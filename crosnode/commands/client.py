@@ -77,7 +77,7 @@ class RosClient:
         self._context = context
         self._turn = turn
         self._options = (options or NodeOptions())._replace(step=UNPACED)
-        self._loop = EventLoop(context, UNPACED)
+        self._loop = EventLoop(context)
         self._hosts = HostTable(self._options.hosts)
         self._api = ApiCaller(self._loop, self._hosts, self._options.xmlrpc)
         self._made: CrosNode | None = None

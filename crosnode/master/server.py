@@ -77,7 +77,7 @@ class MasterServer:
     def __init__(self, context: Context, options: MasterOptions | None = None) -> None:
         self.options = options = options or MasterOptions()
         self._context = context
-        self._loop = EventLoop(context, options.step, CallerShare(context, CALLERS_PART))
+        self._loop = EventLoop(context, CallerShare(context, CALLERS_PART))
         acceptor = ApiAcceptor(self, options.xmlrpc)
         self.bind_ip = own_interface(options.host) if options.bind_ip is None else options.bind_ip
         self._listener = self._loop.listen(self.bind_ip, options.port, acceptor)

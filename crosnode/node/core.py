@@ -6,6 +6,7 @@ from itertools import count
 from typing import TYPE_CHECKING, Protocol
 
 from crosnode.node.status import Status, StatusKind
+from crosnode.transport.budget import TRANSFER_WORK, StepBudget, StepLimits
 
 if TYPE_CHECKING:
     from crosnode.graph.hosts import HostTable
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from crosnode.node.subscriber import Subscriber
     from crosnode.tcpros import TcprosLimits
     from crosnode.transport.event_loop import EventLoop, PortListener
+    from crosnode.transport.link import PeerLink
     from crosnode.xmlrpc.api_caller import ApiCaller
 
 
@@ -31,6 +33,8 @@ class NodeCore:
         hosts: finds hosts.
         tcpros_limits: of each topic or service connection.
         statuses: news for the program.
+        now_ns: time of the step.
+        budget: of the step, what is left of it for the program that follows.
     """
 
     def __init__(
@@ -50,11 +54,18 @@ class NodeCore:
         self.hosts = hosts
         self.tcpros_limits = tcpros_limits
         self.statuses = statuses
+        self.now_ns = 0
+        self.budget = StepBudget(StepLimits())
         self._numbers = count(1)
 
     def tell(self, kind: StatusKind, name: str, text: str = "") -> None:
         """Put news into the program's queue."""
         self.statuses.push(Status(kind, name, text[:1000]))
+
+    def flush(self, link: PeerLink) -> None:
+        """Write what waits in a link now, as far as the budget of the step allows."""
+        if self.budget.work >= TRANSFER_WORK:
+            link.flush(self.now_ns, self.budget)
 
     def next_number(self) -> int:
         """Return the number of a new connection, for getBusInfo."""

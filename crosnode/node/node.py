@@ -17,6 +17,7 @@ from crosnode.node.core import NodeCore
 from crosnode.node.life import Life, LifeState
 from crosnode.node.master_client import MasterClient
 from crosnode.node.options import NodeOptions
+from crosnode.node.pace import Pace
 from crosnode.node.parameter import ParameterSubscription, check_parameters
 from crosnode.node.publisher import Publisher, TopicAcceptor
 from crosnode.node.queues import DropOldestQueue
@@ -28,7 +29,7 @@ from crosnode.node.service_provider import ServiceAcceptor, ServiceProvider
 from crosnode.node.slave_api import SlaveApi
 from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
-from crosnode.transport.budget import StepBudget
+from crosnode.transport.budget import StepLimits
 from crosnode.transport.event_loop import EventLoop
 from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crosnode.graph.arguments import NodeSettings
+    from crosnode.transport.budget import StepBudget
     from crosnode.xmlrpc import Value
     from plcsim.core.context import Context
 
@@ -70,6 +72,7 @@ class CrosNode:
         publishers: by topic. ``subscribers`` by topic, ``providers`` by service.
         statuses: news for the program, to be popped.
         statistics: how long the steps took.
+        pace: how much it may do in a step, and whether that suffices.
         life: how far it is from its start to its end, and who ended it.
     """
 
@@ -93,6 +96,8 @@ class CrosNode:
         self.callers: list[ServiceCaller] = []
         self.statuses: DropOldestQueue[Status] = DropOldestQueue(STATUSES)
         self.statistics = Histogram()
+        step = self.options.step
+        self.pace = Pace(step._asdict() if isinstance(step, StepLimits) else step)
         self._shortages = 0
         self._next_shortage_ns = 0
         self._context = context
@@ -106,7 +111,7 @@ class CrosNode:
     def _open(self, master_uri: str) -> None:
         """Open the three ports and make what needs their numbers."""
         now_ns, options = self._context.release_ns, self.options
-        loop = EventLoop(self._context, options.step)
+        loop = EventLoop(self._context)
         slave = ApiAcceptor(SlaveApi(self), options.xmlrpc)
         topics, services = TopicAcceptor(self), ServiceAcceptor(self)
         bind_ip = own_interface(self.host) if options.bind_ip is None else options.bind_ip
@@ -366,14 +371,18 @@ class CrosNode:
             return
         clock_ns = self.options.clock_ns
         start_ns = clock_ns() if clock_ns else 0
-        self._step(self._context.release_ns, StepBudget(self.options.step))
+        now_ns = self._context.release_ns
+        self._step(now_ns, self.pace.begin(now_ns))
         if clock_ns:
             self.statistics.record(clock_ns() - start_ns)
 
     def _step(self, now_ns: int, budget: StepBudget) -> None:
         core = self.core
+        core.now_ns, core.budget = now_ns, budget
         core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)
+        if self.pace.end(now_ns, is_short=budget.is_short) and self.pace.is_behind:
+            core.tell(StatusKind.BEHIND, self.name, "peers send more than steps can take")
         for publisher in self.publishers.values():
             publisher.tick(now_ns)
         for subscriber in list(self.subscribers.values()):
@@ -421,13 +430,14 @@ class CrosNode:
         """Begin to take all registrations back; ``do_events_loop`` goes on until ``is_closed``."""
         self.life.close(self._context.release_ns)
 
-    def destroy(self, steps: int = 20_000) -> None:
+    def destroy(self, steps: int | None = None) -> None:
         """Close at once: for EXIT, which has no further cycles.
 
         Args:
-            steps: of the loop at most, within which the master can take the registrations back.
+            steps: of the loop at most, those of the options where none are given.
         """
         self.close()
+        steps = self.options.closing_steps if steps is None else steps
         while not self.is_closed and steps:
             self.do_events_loop()
             if self.options.beside:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 from crosnode.tcpros import TcprosLimits
-from crosnode.transport.budget import StepLimits
 from crosnode.xmlrpc import XmlRpcLimits
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from crosnode.node.ros_time import Epoch
+    from crosnode.transport.budget import StepLimits
 
 
 class NodeOptions(NamedTuple):
     """What a node may take and where it listens.
 
     Attributes:
-        step: bounds of one step.
+        step: bounds of one step; those that a mapping does not name are the default's, times the
+            milliseconds of the cycle.
         tcpros: bounds of a topic or service connection.
         xmlrpc: bounds of an XML-RPC connection.
         bind_ip: own interface to listen on, "" for all, None for that of the node's host.
@@ -26,10 +28,12 @@ class NodeOptions(NamedTuple):
         epoch: turns releases into nanoseconds since 1970, None for those that are so already.
         clock_ns: measures the step for ``statistics``; None measures nothing.
         respawns: whether the node returns when others end it.
+        closing_steps: of the loop in ``destroy`` at most, within which the master can let the node
+            go.
         beside: called between the steps of ``destroy``: an embedded master that must answer.
     """
 
-    step: StepLimits = StepLimits()
+    step: StepLimits | Mapping[str, int] = MappingProxyType({})
     tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
     xmlrpc: XmlRpcLimits = XmlRpcLimits()
     bind_ip: str | None = None
@@ -37,4 +41,5 @@ class NodeOptions(NamedTuple):
     epoch: Epoch | None = None
     clock_ns: Callable[[], int] | None = None
     respawns: bool = False
+    closing_steps: int = 20_000
     beside: Callable[[], None] | None = None

@@ -99,8 +99,8 @@ class Publisher:
         self.sent += 1
         if self.latching:
             self._latched = body
-        for owner in self.links.values():
-            owner.queue.push(body)
+        for link, owner in list(self.links.items()):
+            owner.send(link, body)
         self.bytes_sent += len(body) * len(self.links)
 
     def tick(self, now_ns: int) -> None:
@@ -166,6 +166,11 @@ class SubscriberLink:
         self._connection = connection
         self._publishers = publishers
         self._core = core
+
+    def send(self, link: PeerLink, body: bytes | memoryview) -> None:
+        """Send a message: in this cycle, where the step left something of its budget."""
+        self.queue.push(body)
+        self._core.flush(link)
 
     def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take or refuse the subscriber by its header."""

@@ -96,6 +96,15 @@ class ServiceCaller:
         self._overrun += self.requests.dropped - dropped
         if self._running is None:
             self._fail_dropped()
+            self._start()
+
+    def _start(self) -> None:
+        """Send a request in this cycle, where the connection to the provider was kept."""
+        if self._link and self._is_ready:
+            self._running = self.requests.pop()
+            assert self._running is not None
+            self._request(self._running, self._core.now_ns)
+            self._core.flush(self._link)
 
     def pop(self) -> ServiceReply | None:
         """Return the oldest reply, None where there is none yet."""

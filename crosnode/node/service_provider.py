@@ -54,11 +54,13 @@ class ServiceRequest:
         body = self._owner.response_type.encode(response)
         if self._take():
             self._owner.connection.send_response(body)
+            self._owner.flush()
 
     def fail(self, reason: str) -> None:
         """Answer that the call went wrong, and why."""
         if self._take():
             self._owner.connection.send_error(reason)
+            self._owner.flush()
 
     def _take(self) -> bool:
         is_open, self._is_open = self._is_open, False
@@ -145,6 +147,12 @@ class CallerLink:
         self.provider: ServiceProvider | None = None
         self._providers = providers
         self._core = core
+        self._link: PeerLink | None = None
+
+    def flush(self) -> None:
+        """Send the answer in this cycle, where the step left something of its budget."""
+        if self._link:
+            self._core.flush(self._link)
 
     @property
     def response_type(self) -> MessageType:
@@ -154,6 +162,7 @@ class CallerLink:
 
     def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Take or refuse the caller, then its requests."""
+        self._link = link
         if isinstance(event, HeaderReceived):
             self._decide(link, event.fields)
         elif isinstance(event, RequestReceived) and self.provider:

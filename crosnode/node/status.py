@@ -28,6 +28,8 @@ class StatusKind(Enum):
     """Another node, the master or ``rosnode kill`` asked this node to end."""
     NO_IDENT = auto()
     """AsTCP had no ident free for a connection; told once in ten seconds at most."""
+    BEHIND = auto()
+    """Nine in ten steps of the last second left work for the next; told when it begins."""
 
 
 class Status(NamedTuple):

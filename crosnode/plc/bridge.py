@@ -39,6 +39,7 @@ NEWS: Final = {
     StatusKind.MASTER_LOST: Severity.WARNING,
     StatusKind.REGISTRATION_REFUSED: Severity.WARNING,
     StatusKind.SHUTDOWN: Severity.WARNING,
+    StatusKind.BEHIND: Severity.WARNING,
 }
 REPEATED_NEWS: Final = frozenset(
     (StatusKind.BAD_MESSAGE, StatusKind.NAME_TAKEN, StatusKind.PEER_REFUSED)
@@ -107,7 +108,7 @@ class Bridge:
         """End with the controller, whose sockets are closed already: take back by a new one."""
         node = self.node
         for _ in range(QUIET_TURNS):
-            node.core.loop.step(self._controller.context.release_ns, StepBudget(node.options.step))
+            node.core.loop.step(self._controller.context.release_ns, StepBudget(node.pace.limits))
         node.destroy()
 
     def _log_news(self, status: Status) -> None:

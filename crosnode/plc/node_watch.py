@@ -41,6 +41,7 @@ class _Watched:
         missed_ns: since when no master was found, None where one is.
         is_told: whether that was told.
         kills: times that others ended it, as far as they were told.
+        is_behind: whether it was told that its steps do not suffice.
     """
 
     node: CrosNode
@@ -48,6 +49,7 @@ class _Watched:
     missed_ns: int | None = None
     is_told: bool = False
     kills: int = 0
+    is_behind: bool = False
 
 
 class NodeWatch:
@@ -68,6 +70,7 @@ class NodeWatch:
         yield from self._shortage(now_ns)
         for each in self._watched:
             yield from _kills(each)
+            yield from _pace(each)
         self._watched = [each for each in self._watched if not each.node.is_shut_down]
         for each in self._watched:
             name, master = each.node.name, each.node.core.master
@@ -95,6 +98,17 @@ def _kills(each: _Watched) -> Iterator[News]:
         after = "for good; respawn = true in [ros] brings it back"
         text = f"{each.node.name}: ended {after if life.is_over else 'and will return'}"
         yield News(Severity.WARNING, f"{text}: {life.reason}")
+
+
+def _pace(each: _Watched) -> Iterator[News]:
+    """Tell that peers send more than the node's steps take, and when they no longer do."""
+    pace = each.node.pace
+    if pace.is_behind and not each.is_behind:
+        text = "peers send more than its steps take; [ros.step] bounds a step"
+        yield News(Severity.WARNING, f"{each.node.name}: {text}")
+    elif each.is_behind and not pace.is_behind:
+        yield News(Severity.INFORMATION, f"{each.node.name}: keeps up again")
+    each.is_behind = pace.is_behind
 
 
 def _misses(each: _Watched, now_ns: int) -> bool:

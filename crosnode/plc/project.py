@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import time
+from dataclasses import fields
 from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -22,12 +23,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from crosnode.master.server import MasterServer
-    from crosnode.plc.settings import RosSettings
+    from crosnode.plc.settings import RosSettings, StepTable
     from crosnode.transport.budget import StepLimits
     from plcsim.core.context import Context
 
 MASTER_IP: Final = "192.168.0.1"
 """Where tests have the master, unless it is embedded (`crosnode.testing.Ros`)."""
+
+VIRTUAL_CLOSING_STEPS: Final = 1_000
+"""Virtual time stands still in EXIT: what has not come by then will not come."""
 
 
 class RosContext(NamedTuple):
@@ -79,7 +83,7 @@ def create_node(
         name: base name of the node.
         arguments: remapping arguments such as ``chatter:=/other``, beside those of [ros].
         namespace: of the node, where [ros] and the environment name none.
-        step: bounds of one step, by default those of `StepLimits`.
+        step: bounds of one step, by default those of [ros.step].
 
     Raises:
         InvalidNameError: a name is not legal.
@@ -101,6 +105,8 @@ def make_node(
     """Make a node that nobody watches; for the rest see ``create_node``."""
     found = surroundings(context)
     options = NodeOptions() if step is None else NodeOptions(step=step)
+    if not is_real(context):
+        options = options._replace(closing_steps=VIRTUAL_CLOSING_STEPS)
     if found is None:
         settings = node_settings(name, arguments, os.environ, namespace=namespace, host="127.0.0.1")
         options = options._replace(epoch=_epoch_now(context))
@@ -114,8 +120,16 @@ def make_node(
         respawns=ros.table.respawn,
         beside=partial(step_beside, context),
     )
+    if step is None:
+        options = options._replace(step=_step(ros.table.step))
     settings = _settings(ros, name, arguments, namespace)
     return CrosNode(context, settings, context.library(SharedTypes), options)
+
+
+def _step(table: StepTable) -> dict[str, int]:
+    """Return the bounds that [ros.step] names."""
+    found = {each.name: getattr(table, each.name) for each in fields(table)}
+    return {name: bound for name, bound in found.items() if bound is not None}
 
 
 def _epoch_now(context: Context) -> Epoch:

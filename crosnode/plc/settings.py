@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from plcsim.settings import Table
 
 EMBEDDED: Final = "embedded"
+MOST: Final = 1 << 30
+"""Of anything that bounds a step."""
 
 
 def _ipv4(text: str) -> str:
@@ -84,6 +86,24 @@ class Subscription:
 
 
 @settings
+class StepTable:
+    """The keys of [ros.step]: bounds of one step of each node, as in `StepLimits`.
+
+    Those that are given hold for each step as they are, whatever its cycle is; the others are the
+    default's, times the milliseconds of the cycle.
+    """
+
+    bytes_in: Annotated[int, Whole(1, MOST)] | None = None
+    bytes_out: Annotated[int, Whole(1, MOST)] | None = None
+    bytes_parsed: Annotated[int, Whole(1, MOST)] | None = None
+    messages: Annotated[int, Whole(1, MOST)] | None = None
+    accepts: Annotated[int, Whole(1, MOST)] | None = None
+    calls: Annotated[int, Whole(1, MOST)] | None = None
+    polls: Annotated[int, Whole(1, MOST)] | None = None
+    work: Annotated[int, Whole(1, MOST)] | None = None
+
+
+@settings
 class RosTable:
     """The keys of [ros].
 
@@ -97,6 +117,7 @@ class RosTable:
         packages: folders of message packages, searched first.
         hosts: IPv4 addresses by host name.
         respawn: whether nodes return that others end: rosnode kill, or another of their name.
+        step: bounds of one step.
         node: base name of the bridge's node.
         publish: tags to topics, by topic.
         subscribe: topics to tags, by topic.
@@ -111,6 +132,7 @@ class RosTable:
     packages: tuple[Annotated[Path, PathTo("folder")], ...] = ()
     hosts: Mapping[str, Annotated[str, Converted(_ipv4)]] = field(default_factory=dict)
     respawn: bool = False
+    step: StepTable = StepTable()
     node: Annotated[str, Converted(check_base_name)] = "plc_bridge"
     publish: Mapping[str, Publication] = field(default_factory=dict)
     subscribe: Mapping[str, Subscription] = field(default_factory=dict)

@@ -15,7 +15,7 @@ from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
 from plcsim.core.backoff import Backoff
 
 if TYPE_CHECKING:
-    from crosnode.transport.budget import StepBudget, StepLimits
+    from crosnode.transport.budget import StepBudget
     from crosnode.transport.connection import ProtocolConnection
     from crosnode.transport.link import Owner
     from plcsim.core.context import Context
@@ -130,7 +130,6 @@ class EventLoop:
 
     Args:
         context: of the controller.
-        limits: of each step.
         callers: of servers that it listens for; those of all nodes unless given.
 
     Attributes:
@@ -140,13 +139,10 @@ class EventLoop:
         listeners: all ports.
     """
 
-    def __init__(
-        self, context: Context, limits: StepLimits, callers: CallerShare | None = None
-    ) -> None:
+    def __init__(self, context: Context, callers: CallerShare | None = None) -> None:
         self.pool = context.library(SocketPool)
         self.callers = callers or context.library(NodeCallers)
         keep_large_blocks()
-        self.limits = limits
         self.links: list[PeerLink] = []
         self.listeners: list[PortListener] = []
         self._new: list[PeerLink] = []
@@ -177,13 +173,17 @@ class EventLoop:
     def step(self, now_ns: int, budget: StepBudget) -> None:
         """Look at one listener, then at each link in turn while the budget lasts.
 
-        The next step begins with the first link that had to wait.
+        Links with more to read have further turns. The next step begins with the first link that
+        had to wait.
         """
         if self.listeners:
             self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
             self.listeners[self._listener_turn].step(now_ns, budget)
         budget.is_short = False
         self._turn = self._go_round(now_ns, budget)
+        while not budget.is_short and (busy := [link for link in self.links if link.has_more]):
+            for link in busy:
+                self._give_turn(link, now_ns, budget)
         if any(link.state is LinkState.OVER for link in self.links):
             self._remove_ended()
 
@@ -193,6 +193,13 @@ class EventLoop:
         for link in new:
             if budget.polls > 0 and not link.is_over:
                 link.step(now_ns, budget)
+
+    def _give_turn(self, link: PeerLink, now_ns: int, budget: StepBudget) -> None:
+        """Give a link a further turn in this step, if there is one to give."""
+        if budget.polls > 0 and not budget.is_short and not link.is_over:
+            link.step(now_ns, budget)
+        else:
+            link.has_more = False
 
     def _go_round(self, now_ns: int, budget: StepBudget) -> int:
         """Give links their turn while the budget lasts; return where the next step begins."""

@@ -103,12 +103,13 @@ class PeerLink:
     Attributes:
         bytes_in: bytes read so far.
         bytes_out: bytes written so far.
+        has_more: whether the last turn left something to read.
         peer: who is at the other end, for messages and getBusInfo.
         state: how far it is.
     """
 
     __slots__ = ("_is_parsed", "_outbox", "_reason", "_since_ns", "_turn", "bytes_in", "bytes_out",
-                 "connection", "owner", "peer", "socket", "state")  # fmt: skip
+                 "connection", "has_more", "owner", "peer", "socket", "state")  # fmt: skip
 
     def __init__(
         self,
@@ -126,6 +127,7 @@ class PeerLink:
         self._outbox = DynBuffer(OUTBOX_MAX)
         self._since_ns = now_ns
         self._reason = ""
+        self.has_more = False
         self._is_parsed = connection.IS_PARSED
         self._turn = 0
 
@@ -162,13 +164,20 @@ class PeerLink:
 
     def _read(self, now_ns: int, budget: StepBudget, *, expects_data: bool) -> None:
         """Take the events that are there, then what the socket has."""
+        self.has_more = False
         if not self.connection.wants_data:
             self._take_events(now_ns, budget)
         if not expects_data and self._turn % QUIET_TURNS:
             return
         for _ in range(READS):
-            if not self.connection.wants_data or not self._receive(now_ns, budget):
+            self.has_more = self.connection.wants_data and self._receive(now_ns, budget)
+            if not self.has_more:
                 return
+
+    def flush(self, now_ns: int, budget: StepBudget) -> None:
+        """Write what waits within the budget, outside of a turn."""
+        if self.state is LinkState.OPEN and self.connection.state is not ConnectionState.CLOSED:
+            self._send(now_ns, budget)
 
     def close(self, reason: str = "") -> None:
         """End the link from this side: what waits is still written, for a while."""

@@ -71,7 +71,7 @@ class World:
     ) -> CrosNode:
         given = {"ROS_MASTER_URI": self.master_uri} | (environment or {})
         settings = node_settings(name, arguments, given, host=ip)
-        limits = NodeOptions(step=step or StepLimits(), **options)
+        limits = NodeOptions(step={} if step is None else step, **options)
         node = CrosNode(self.context(ip), settings, options=limits)
         self.steps.append(node.do_events_loop)
         return node
@@ -80,7 +80,7 @@ class World:
         """Let a node do as rospy does: it does not register again with a master that is new."""
         self.steps.remove(node.do_events_loop)
         loop, context = node.core.loop, node._context
-        self.steps.append(lambda: loop.step(context.release_ns, StepBudget(loop.limits)))
+        self.steps.append(lambda: loop.step(context.release_ns, StepBudget(StepLimits())))
 
     def run(self, ms: int = 50, step_ms: int = 1) -> None:
         for _ in range(0, ms, step_ms):

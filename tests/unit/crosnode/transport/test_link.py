@@ -84,7 +84,7 @@ class Wire:
         self.host = self.network.host(PEER_IP)
         self.listener = self._listen() if listens else None
         context = Context(Memory(), self.network.host(OWN_IP))
-        self.loop = EventLoop(context, StepLimits())
+        self.loop = EventLoop(context)
         self.protocol, self.told = Lines(farewell), Told()
         self.link = self.loop.connect(Address(PEER_IP, 99), self.protocol, self.told, 0)
 
