@@ -166,7 +166,7 @@ class _ProgramChecker:
 
     def _program_unit(self, unit: ProgramUnit) -> None:
         name = UNITS.get(unit.name.upper(), "cyclic")
-        owner = self._program
+        self._owner = owner = self._program
         if unit.blocks:
             file = DeclarationFile(unit.blocks, "", self._file.tokens, self._file.diagnostics)
             scope = Scope(unit.name, [file], (self._scope,), dialect=self._scope.dialect)

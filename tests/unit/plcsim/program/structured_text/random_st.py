@@ -1,14 +1,8 @@
-"""Random programs in Structured Text, each with its translation to C.
+"""Random statements and values in Structured Text, each with its translation to C.
 
 The translation says what Automation Studio's compiler makes of a program (docs/compliance.md): it
-is written down here a second time, as text, and shares nothing with our compiler. A program has
-variables of all elementary types, arrays, structures, strings, references and function blocks.
+is written down here a second time, as text, and shares nothing with our compiler.
 """
-
-import random
-
-BASE = 0x20000
-"""Address of the variables, in C too: what lies at an address is reached through it."""
 
 TYPES = {
     "BOOL": ("uint8_t", 1, "u"),
@@ -20,25 +14,17 @@ TYPES = {
     "UDINT": ("uint32_t", 4, "u"),
     "REAL": ("float", 4, "f"),
     "LREAL": ("double", 8, "f"),
+    "TIME": ("int32_t", 4, "s"),
+    "Colour": ("int32_t", 4, "s"),
 }
+"""Elementary types, and an enumeration: type in C, bytes, signed or unsigned or floating."""
+
 INTEGERS = ["SINT", "USINT", "INT", "UINT", "DINT", "UDINT"]
+SIGNED = ["SINT", "INT", "DINT"]
+UNSIGNED = ["USINT", "UINT", "UDINT"]
 REALS = ["REAL", "LREAL"]
 SIZES = {name: size for name, (_, size, _) in TYPES.items()}
-HEAD = """
-#include <stdint.h>
-#include <string.h>
-extern uint8_t *M;
-#define AT(T, address) (*(T *)(M + ((uint32_t)(address) - 0x20000u)))
-static void string_assign(char *target, const char *source, int limit) {
-    int i;
-    for (i = 0; i < limit && source[i] != 0; i++) target[i] = source[i];
-    target[i] = 0;
-}
-static int string_order(const char *a, const char *b) {
-    while (*a && *a == *b) a++, b++;
-    return (int)(unsigned char)*a - (int)(unsigned char)*b;
-}
-"""
+COLOURS = {"RED": 0, "GREEN": 5, "BLUE": 6}
 
 
 def common(a, b):
@@ -57,112 +43,73 @@ def common(a, b):
     return {1: "INT", 2: "DINT", 4: "UDINT"}[SIZES[unsigned]]
 
 
+def compared_as(type_name):
+    """The C type that both sides of a comparison are cast to."""
+    return "uint32_t" if TYPES[type_name][2] == "u" else "int32_t"
+
+
 class Term:
     """A value: its type (None for a whole number that takes any), its two texts."""
 
-    def __init__(self, type_name, st, c, *, leaf=False):
+    def __init__(self, type_name, st, c):
         self.type = type_name
         self.st = st
         self.c = c
-        self.leaf = leaf
 
 
-class Program:
-    """A random program.
+class Body:
+    """Statements of one body, over what it knows.
 
     Attributes:
-        st: its text.
-        c: its translation, a function ``cyclic_NAME(void)``.
+        places: variables by type, each its two texts, or a function that gives them for indices.
+        strings: (ST, C address, length).
+        aggregates: (ST, C address, bytes) of variables that are copied whole, by type.
+        references: (ST, C of the address in it, type that it refers to).
+        blocks: (ST, C address, inputs as (name, type, C offset), name of the block).
+        functions: (name, result, types of the parameters).
+        actions: (ST name, C name).
+        loops: variables for loops that are left, in both texts.
+        inside: whether a loop is around.
+        edges: how many edges were written, None where none may be.
+        can_return: whether RETURN may be written; C goes to ``out``.
     """
 
-    def __init__(self, seed):
-        self.random = random.Random(seed)
-        self.name = f"p{seed}"
-        self.variables = []  # name, ST type, C type, size, alignment, count
-        self.places = {}  # type: [(st, c)]
+    def __init__(self, chance):
+        self.random = chance
+        self.places = {}
         self.strings = []
+        self.aggregates = {}
         self.references = []
         self.blocks = []
-        self.loops = 0
-        self.edges = 0
-        self._declare()
-        body = [self.statement(0) for _ in range(self.random.randint(3, 12))]
-        self.st = self._st(body)
-        self.c = self._c(body)
+        self.functions = []
+        self.actions = []
+        self.loops = []
+        self.inside = False
+        self.edges = None
+        self.can_return = False
 
-    # Variables
-
-    def _declare(self):
-        offset = 0
-
-        def add(name, st_type, c_type, size, alignment):
-            nonlocal offset
-            offset += -offset % alignment
-            self.variables.append((name, st_type, c_type, offset, size))
-            offset += size
-            return self.variables[-1]
-
-        for type_name, (c_type, size, _) in TYPES.items():
-            for number in range(2):
-                name = f"{type_name.lower()}{number}"
-                place = add(name, type_name, c_type, size, min(size, 4))
-                self._known(type_name, name, f"AT({c_type}, {BASE + place[3]})")
-        for type_name in ("INT", "USINT", "DINT", "REAL"):
-            c_type, size, _ = TYPES[type_name]
-            low, count = self.random.choice([(-2, 5), (0, 4), (1, 3)])
-            name = f"list_{type_name.lower()}"
-            place = add(
-                name,
-                f"ARRAY[{low}..{low + count - 1}] OF {type_name}",
-                c_type,
-                count * size,
-                min(size, 4),
-            )
-            self._known(type_name, (name, low, count), (c_type, BASE + place[3], size))
-        for number, length in enumerate((5, 12)):
-            place = add(f"text{number}", f"STRING[{length}]", "char", length + 1, 1)
-            self.strings.append((f"text{number}", f"(char *)&AT(char, {BASE + place[3]})", length))
-        for number in range(2):  # edges are hidden in ours, and lie in C's memory behind the rest
-            place = add(f"pulse{number}", "Pulse", None, 8, 2)
-            self.blocks.append((f"pulse{number}", BASE + place[3]))
-        for type_name in ("INT", "UDINT"):
-            c_type, size, _ = TYPES[type_name]
-            name = f"ref_{type_name.lower()}"
-            place = add(name, f"REFERENCE TO {type_name}", None, 4, 4)
-            self.references.append((name, type_name, BASE + place[3]))
-            self._known(type_name, name, f"AT({c_type}, AT(uint32_t, {BASE + place[3]}))")
-        self.size = offset
-
-    def _known(self, type_name, st, c):
+    def know(self, type_name, st, c):
         self.places.setdefault(type_name, []).append((st, c))
 
-    def place(self, type_name, depth=0):
-        """A variable or an element."""
-        st, c = self.random.choice(self.places[type_name])
-        if isinstance(st, str):
-            return Term(type_name, st, c, leaf=True)
-        name, low, count = st
-        c_type, address, size = c
-        if self.random.random() < 0.6:
-            index = self.random.randrange(count)
-            return Term(
-                type_name,
-                f"{name}[{low + index}]",
-                f"AT({c_type}, {address + index * size})",
-                leaf=True,
-            )
-        inner = self.value(self.random.choice(["INT", "USINT", "DINT"]), depth + 2)
-        text = f"((int32_t){inner.c} % {count} + {count}) % {count}"
-        st_index = f"(({inner.st}) MOD {count} + {count}) MOD {count} + {low}"
-        if inner.type in ("USINT", "UINT", "UDINT") or inner.type is None:
-            inner = (
-                self.place("INT", 9) if depth > 6 else Term("INT", "int0", self.places["INT"][0][1])
-            )
-            text = f"((int32_t){inner.c} % {count} + {count}) % {count}"
-            st_index = f"(({inner.st}) MOD {count} + {count}) MOD {count} + {low}"
-        return Term(
-            type_name, f"{name}[{st_index}]", f"AT({c_type}, {address} + ({text}) * {size})"
-        )
+    def pick(self, *choices):
+        return self.random.choice(choices)
+
+    def place(self, type_name):
+        """A variable, a member or an element."""
+        found = self.random.choice(self.places[type_name])
+        return Term(type_name, *(found(self) if callable(found) else found))
+
+    def index(self, low, count):
+        """An index within bounds: its two texts, the one of C counted from 0."""
+        if self.random.random() < 0.5:
+            number = self.random.randrange(count)
+            return str(low + number), str(number)
+        if self.random.random() < 0.3:
+            a = self.place("USINT")
+            return f"{a.st} MOD {count} + ({low})", f"({a.c}%{count})"
+        a = self.place(self.random.choice(SIGNED))
+        st = f"(({a.st} MOD {count}) + {count}) MOD {count} + ({low})"
+        return st, f"(({a.c}%{count}+{count})%{count})"
 
     # Values
 
@@ -170,232 +117,386 @@ class Program:
         """A value of a type, or of one that goes into it by itself."""
         if type_name == "BOOL":
             return self.truth(depth)
+        if type_name == "TIME":
+            return self.time(depth)
+        if type_name == "Colour":
+            return self.colour()
         return self.real(depth, type_name) if type_name in REALS else self.integer(depth)
 
     def typed(self, type_name, depth=0):
         """A value that is no bare number, for that might not fit."""
         found = self.value(type_name, depth)
-        return self.place("INT", depth) if found.type is None else found
+        return self.place("INT") if found.type is None else found
+
+    def colour(self):
+        if self.random.random() < 0.4:
+            return self.place("Colour")
+        name = self.random.choice([*COLOURS])
+        return Term("Colour", name, str(COLOURS[name]))
+
+    def time(self, depth):
+        kind = self.random.random()
+        if depth > 3 or kind < 0.5:
+            return self.place("TIME")
+        if kind < 0.6:
+            number = self.random.randrange(5000)
+            return Term("TIME", f"T#{number}ms", str(number))
+        if kind < 0.75:
+            a = self.place("DINT")
+            return Term("TIME", f"DINT_TO_TIME({a.st})", a.c)
+        a, b, sign = self.time(depth + 1), self.time(depth + 1), self.pick("+", "-")
+        return Term("TIME", f"({a.st} {sign} {b.st})", f"({a.c}{sign}{b.c})")
 
     def literal(self):
-        number = self.random.choice(
-            [0, 1, 2, 3, 5, 7, 10, 100, 200, 1000, 40000, 70000, 2000000000]
-        )
-        return Term(None, str(number), str(number), leaf=True)
+        number = self.pick(0, 1, 2, 3, 5, 7, 10, 100, 200, 1000, 40000, 70000, 2000000000)
+        shown = str(number) if self.random.random() < 0.8 else f"16#{number:X}"
+        return Term(None, shown, str(number))
 
     def integer(self, depth):
-        pick = self.random.random()
-        if depth > 3 or pick < 0.3:
-            return self.place(self.random.choice(INTEGERS), depth)
-        if pick < 0.42:
+        kind = self.random.random()
+        if depth > 3 or kind < 0.3:
+            return self.place(self.random.choice(INTEGERS))
+        if kind < 0.4:
             return self.literal()
-        if pick < 0.75:
+        if kind < 0.7:
             return self.arithmetic(depth)
-        return self.random.choice(
-            [self.cast, self.rounded, self.absolute, self.negative, self.selected]
-        )(depth)
+        makers = [
+            self.cast,
+            self.rounded,
+            self.absolute,
+            self.negative,
+            self.selected,
+            self.shifted,
+        ]
+        makers += [self.extreme, self.limited, self.multiplexed, self.elapsed, self.counted]
+        if self.functions:
+            makers += [self.called] * 3
+        return self.random.choice(makers)(depth)
 
     def numbers(self, depth, make):
         a, b = make(depth + 1), make(depth + 1)
         if a.type is None and b.type is None:
-            a = self.place(self.random.choice(INTEGERS), depth + 1)
+            a = self.place(self.random.choice(INTEGERS))
         return a, b, common(a.type or b.type, b.type or a.type)
 
     def arithmetic(self, depth):
-        operator = self.random.choice(["+", "-", "*", "/", "MOD", "AND", "OR", "XOR"])
-        a, b, type_name = self.numbers(depth, self.integer)
+        operator = self.pick("+", "-", "*", "/", "MOD", "AND", "OR", "XOR")
         if operator in ("/", "MOD"):
-            b = Term(None, *(self.random.choice(["1", "2", "3", "7", "100"]),) * 2)
-            if a.type is None:
-                a = self.place("INT", depth)
-            type_name = a.type
-            cast = "uint32_t" if TYPES[type_name][2] == "u" else "int32_t"
-            sign = {"/": "/", "MOD": "%"}[operator]
-            return Term(
-                type_name,
-                f"({a.st} {operator} {b.st})",
-                f"((({cast})({a.c})){sign}(({cast})({b.c})))",
-            )
+            return self.division(depth, operator)
+        a, b, type_name = self.numbers(depth, self.integer)
         sign = {"AND": "&", "OR": "|", "XOR": "^"}.get(operator, operator)
         return Term(type_name, f"({a.st} {operator} {b.st})", f"({a.c}{sign}{b.c})")
 
-    def cast(self, depth):
-        target = self.random.choice(INTEGERS)
-        source = self.place(self.random.choice(INTEGERS), depth + 1)
-        return Term(
-            target, f"{source.type}_TO_{target}({source.st})", f"(({TYPES[target][0]})({source.c}))"
-        )
+    def division(self, depth, operator):
+        """Division by what is not 0, MOD by what may be; never the smallest DINT by -1."""
+        a = self.integer(depth + 1)
+        if a.type is None:
+            a = self.place("INT")
+        number = self.pick("1", "2", "3", "7", "100")
+        b, type_name = Term(None, number, number), a.type
+        if self.random.random() < 0.4:
+            b = self.place(self.random.choice(INTEGERS if operator == "MOD" else ["UINT"]))
+            if operator == "/":
+                b = Term("UINT", f"({b.st} MOD 9 + 1)", f"({b.c}%9+1)")
+            elif b.type in SIGNED:
+                b = Term(b.type, f"ABS({b.st} / 2)", f"({b.c}/2<0?-({b.c}/2):{b.c}/2)")
+            type_name = common(a.type, b.type)
+        cast = compared_as(type_name)
+        sign = {"/": "/", "MOD": "%"}[operator]
+        quotient = f"((({cast})({a.c})){sign}(({cast})({b.c})))"
+        c = f"(({b.c})==0?0:{quotient})" if operator == "MOD" else quotient
+        return Term(type_name, f"({a.st} {operator} {b.st})", c)
 
-    def rounded(self, depth):
-        target = self.random.choice(["SINT", "INT", "DINT", "USINT", "UINT", "UDINT"])
-        source = self.place(self.random.choice(REALS), depth + 1)
+    def cast(self, _depth):
+        target = self.random.choice(INTEGERS)
+        source = self.place(self.random.choice([*INTEGERS, "BOOL"]))
+        text = f"(({TYPES[target][0]})({source.c}))"
+        return Term(target, f"{source.type}_TO_{target}({source.st})", text)
+
+    def rounded(self, _depth):
+        target = self.pick("SINT", "INT", "DINT", "USINT", "UINT")
+        source = self.place(self.random.choice(REALS))
         x = f"({source.c})"
         text = f"(({TYPES[target][0]})({x}>=0.0?{x}+0.5:{x}-0.5))"
         return Term(target, f"{source.type}_TO_{target}({source.st})", text)
 
-    def absolute(self, depth):
-        a = self.place(self.random.choice(["SINT", "INT", "DINT"]), depth + 1)
+    def absolute(self, _depth):
+        a = self.place(self.random.choice(SIGNED))
         return Term(a.type, f"ABS({a.st})", f"(({a.c})<0?-({a.c}):({a.c}))")
 
-    def negative(self, depth):
-        a = self.place(self.random.choice(["SINT", "INT", "DINT"]), depth + 1)
+    def negative(self, _depth):
+        a = self.place(self.random.choice(SIGNED))
         return Term(a.type, f"(-{a.st})", f"(-{a.c})")
 
     def selected(self, depth):
         type_name = self.random.choice(INTEGERS)
-        g, a, b = self.truth(depth + 2), self.place(type_name, 9), self.place(type_name, 9)
+        g, a, b = self.truth(depth + 2), self.place(type_name), self.place(type_name)
         return Term(type_name, f"SEL({g.st}, {a.st}, {b.st})", f"(({g.c})?({b.c}):({a.c}))")
 
+    def shifted(self, _depth):
+        a = self.place(self.random.choice(UNSIGNED))
+        c_type, size, _ = TYPES[a.type]
+        bits = 8 * size
+        number = self.random.randrange(1, bits)
+        name = self.pick("SHL", "SHR", "ROL", "ROR")
+        left, right = f"({a.c}<<{number})", f"({a.c}>>{number})"
+        c = {
+            "SHL": left,
+            "SHR": right,
+            "ROL": f"({left}|({a.c}>>{bits - number}))",
+            "ROR": f"({right}|({a.c}<<{bits - number}))",
+        }[name]
+        return Term(a.type, f"{name}({a.st}, {number})", f"(({c_type}){c})")
+
+    def extreme(self, _depth):
+        type_name = self.random.choice(INTEGERS)
+        a, b, name = self.place(type_name), self.place(type_name), self.pick("MIN", "MAX")
+        sign = "<" if name == "MIN" else ">"
+        return Term(type_name, f"{name}({a.st}, {b.st})", f"(({a.c}){sign}({b.c})?({a.c}):({b.c}))")
+
+    def limited(self, _depth):
+        a = self.place(self.random.choice(SIGNED))
+        low, high = self.pick(-100, 0, 5), self.pick(7, 100)
+        c = f"(({a.c})<{low}?{low}:({a.c})>{high}?{high}:({a.c}))"
+        return Term(a.type, f"LIMIT({low}, {a.st}, {high})", c)
+
+    def multiplexed(self, _depth):
+        type_name = self.random.choice(INTEGERS)
+        k, a, b, c = self.place("USINT"), *(self.place(type_name) for _ in range(3))
+        text = f"({k.c}%3==0?({a.c}):{k.c}%3==1?({b.c}):({c.c}))"
+        return Term(type_name, f"MUX({k.st} MOD 3, {a.st}, {b.st}, {c.st})", text)
+
+    def elapsed(self, depth):
+        a = self.time(depth + 2)
+        return Term("DINT", f"TIME_TO_DINT({a.st})", f"((int32_t)({a.c}))")
+
+    def counted(self, _depth):
+        """SIZEOF, or a colour as a number."""
+        if not self.aggregates or self.random.random() < 0.3:
+            a = self.place("Colour")
+            return Term("DINT", f"{a.st}", a.c)
+        name, _, size = self.random.choice(self.aggregates[self.random.choice([*self.aggregates])])
+        return Term("UDINT", f"SIZEOF({name})", f"{size}u")
+
+    def called(self, depth):
+        name, result, parameters = self.random.choice(self.functions)
+        arguments = [self.typed(each, depth + 1) for _, each in parameters]
+        if self.random.random() < 0.5:
+            st = ", ".join(each.st for each in arguments)
+        else:
+            named = zip(parameters, arguments, strict=True)
+            st = ", ".join(f"{parameter} := {each.st}" for (parameter, _), each in named)
+        return Term(result, f"{name}({st})", f"{name}({','.join(each.c for each in arguments)})")
+
     def real(self, depth, wanted="LREAL"):
-        pick = self.random.random()
+        kind = self.random.random()
         types = ["REAL"] if wanted == "REAL" else REALS
-        if depth > 3 or pick < 0.45:
-            return self.place(self.random.choice(types), depth)
-        if pick < 0.6:
-            number = self.random.choice(["0.1", "1.5", "2.0", "1000.25"])
-            a = self.place("REAL", depth + 1)
-            operator = self.random.choice("+-*/")
+        if depth > 3 or kind < 0.4:
+            return self.place(self.random.choice(types))
+        if kind < 0.55:
+            number = self.pick("0.1", "1.5", "2.0", "1000.25")
+            a, operator = self.place("REAL"), self.pick("+", "-", "*", "/")
             return Term("REAL", f"({a.st} {operator} {number})", f"({a.c}{operator}{number})")
-        a = self.place(self.random.choice(types), depth + 1)
-        b = self.random.choice([self.integer, lambda d: self.real(d, wanted)])(depth + 2)
-        operator = self.random.choice("+-*")
+        if kind < 0.65:
+            return self.converted(wanted)
+        a = self.place(self.random.choice(types))
+        b = self.pick(self.integer, lambda d: self.real(d, wanted))(depth + 2)
+        operator = self.pick("+", "-", "*")
         type_name = common(a.type, b.type or a.type)
         return Term(type_name, f"({a.st} {operator} {b.st})", f"({a.c}{operator}{b.c})")
+
+    def converted(self, wanted):
+        target = "REAL" if wanted == "REAL" else self.random.choice(REALS)
+        a = self.place(self.random.choice([*INTEGERS, *REALS]))
+        if a.type == target:
+            return a
+        return Term(target, f"{a.type}_TO_{target}({a.st})", f"(({TYPES[target][0]})({a.c}))")
 
     # Truth values
 
     def truth(self, depth):
-        pick = self.random.random()
-        if depth > 3 or pick < 0.25:
-            return self.place("BOOL", depth)
-        if pick < 0.6:
+        kind = self.random.random()
+        if depth > 3 or kind < 0.25:
+            return self.place("BOOL")
+        if kind < 0.55:
             return self.comparison(depth)
-        if pick < 0.7:
+        if kind < 0.65:
             a = self.truth(depth + 1)
             return Term("BOOL", f"(NOT {a.st})", f"({a.c}^1)")
-        if pick < 0.78:
-            return self.bit(depth)
-        if pick < 0.84:
+        if kind < 0.73:
+            return self.bit()
+        if kind < 0.79 and self.strings:
             return self.strings_compared()
-        a, b = self.truth(depth + 1), self.truth(depth + 1)
-        operator = self.random.choice(["AND", "OR", "XOR"])
+        if kind < 0.84 and self.edges is not None:
+            return self.edge()
+        a, b, operator = self.truth(depth + 1), self.truth(depth + 1), self.pick("AND", "OR", "XOR")
         sign = {"AND": "&", "OR": "|", "XOR": "^"}[operator]
         return Term("BOOL", f"({a.st} {operator} {b.st})", f"({a.c}{sign}{b.c})")
 
     def comparison(self, depth):
-        operator = self.random.choice(["=", "<>", "<", ">", "<=", ">="])
+        operator = self.pick("=", "<>", "<", ">", "<=", ">=")
         sign = {"=": "==", "<>": "!="}.get(operator, operator)
-        if self.random.random() < 0.2:
-            a, b = self.real(depth + 1), self.real(depth + 1)
+        kind = self.random.random()
+        if kind < 0.35:
+            make = {0: self.real, 1: self.time, 2: lambda _: self.colour()}[int(kind * 10) % 3]
+            a, b = make(depth + 1), make(depth + 1)
             return Term("BOOL", f"({a.st} {operator} {b.st})", f"({a.c}{sign}{b.c})")
         a, b, type_name = self.numbers(depth, self.integer)
-        cast = "uint32_t" if TYPES[type_name][2] == "u" else "int32_t"
-        return Term(
-            "BOOL", f"({a.st} {operator} {b.st})", f"((({cast})({a.c})){sign}(({cast})({b.c})))"
-        )
+        cast = compared_as(type_name)
+        c = f"((({cast})({a.c})){sign}(({cast})({b.c})))"
+        return Term("BOOL", f"({a.st} {operator} {b.st})", c)
 
-    def bit(self, depth):
-        a = self.place(self.random.choice(INTEGERS), depth + 1)
+    def bit(self):
+        a = self.place(self.random.choice(INTEGERS))
         number = self.random.randrange(8 * SIZES[a.type])
         return Term("BOOL", f"{a.st}.{number}", f"(({a.c}>>{number})&1)")
 
+    def edge(self):
+        a, name = self.place("BOOL"), self.pick("EDGEPOS", "EDGENEG", "EDGE")
+        self.edges += 1
+        edge = f"edge{self.edges}"
+        fires = {"EDGEPOS": f"{a.c}&~{edge}&1", "EDGENEG": f"~{a.c}&{edge}&1"}
+        fires["EDGE"] = f"({a.c}^{edge})&1"
+        c = f"({{static uint8_t {edge};int f={fires[name]};{edge}={a.c}&1;f;}})"
+        return Term("BOOL", f"{name}({a.st})", c)
+
     def strings_compared(self):
         (a, c, _), (b, d, _) = self.random.choice(self.strings), self.random.choice(self.strings)
-        operator = self.random.choice(["=", "<", ">="])
-        sign = {"=": "=="}.get(operator, operator)
+        operator = self.pick("=", "<>", "<", ">=")
+        sign = {"=": "==", "<>": "!="}.get(operator, operator)
         return Term("BOOL", f"({a} {operator} {b})", f"(string_order({c},{d}){sign}0)")
 
     # Statements, each as its two texts
 
-    def statement(self, depth):
-        makers = [self.assignment] * 8
-        makers += [self.bit_assignment, self.string_assignment, self.link, self.pulse]
+    def statement(self, depth=0):
+        makers = [self.assignment] * 8 + [self.bit_assignment, self.chained]
+        makers += [self.string_assignment] * bool(self.strings) + [self.leave] * self.inside
+        makers += [self.copy] * bool(self.aggregates) + [self.link] * 2 * bool(self.references)
+        makers += [self.run_block] * 2 * bool(self.blocks) + [self.act] * bool(self.actions)
+        makers += [self.return_] * self.can_return
         if depth < 3:
-            makers += [self.if_, self.if_, self.case, self.for_, self.repeat]
+            makers += [self.if_, self.if_, self.case, self.case_of_colours]
+            makers += [self.for_, self.repeat, self.while_] * bool(self.loops)
         return self.random.choice(makers)(depth)
 
-    def assignment(self, depth):
-        type_name = self.random.choice([*TYPES])
-        target, value = self.place(type_name, 2), self.typed(type_name)
+    def statements(self, depth, most=3):
+        return [self.statement(depth + 1) for _ in range(self.random.randint(1, most))]
+
+    def assignment(self, _depth):
+        type_name = self.random.choice([each for each in TYPES if each in self.places])
+        target, value = self.place(type_name), self.typed(type_name)
         return f"{target.st} := {value.st};", f"{target.c}={value.c};"
 
-    def bit_assignment(self, depth):
-        target = self.place(self.random.choice(INTEGERS), 9)
+    def chained(self, _depth):
+        first, second = self.random.choice([("DINT", "INT"), ("INT", "SINT"), ("UDINT", "USINT")])
+        a, b, value = self.place(first), self.place(second), self.typed(second)
+        return f"{a.st} := {b.st} := {value.st};", f"{a.c}=({b.c}={value.c});"
+
+    def bit_assignment(self, _depth):
+        target = self.place(self.random.choice(INTEGERS))
         number, value = self.random.randrange(8 * SIZES[target.type]), self.truth(1)
-        mask = 1 << number
-        text = f"{{int v={value.c}; {target.c}=({target.c}&~{mask}u)|((v&1)?{mask}u:0u);}}"
+        mask = f"{1 << number}u"
+        text = f"{{int v={value.c}; {target.c}=({target.c}&~{mask})|((v&1)?{mask}:0u);}}"
         return f"{target.st}.{number} := {value.st};", text
 
-    def string_assignment(self, depth):
+    def string_assignment(self, _depth):
         name, target, length = self.random.choice(self.strings)
-        if self.random.random() < 0.6:
-            text = self.random.choice(["", "a", "hello", "Hello World!", "0123456789abcdef"])
-            return (
-                f"{name} := '{text}';",
-                f'string_assign({target},"{text}",{min(length, len(text))});',
-            )
+        if self.random.random() < 0.5:
+            text = self.pick("", "a", "hello", "Hello World!", "0123456789abcdef")
+            limit = min(length, len(text))
+            return f"{name} := '{text}';", f'string_assign({target},"{text}",{limit});'
         other, source, size = self.random.choice(self.strings)
         return f"{name} := {other};", f"string_assign({target},{source},{min(length, size)});"
 
-    def link(self, depth):
-        name, type_name, address = self.random.choice(self.references)
-        plain = [
-            (st, c)
-            for st, c in self.places[type_name]
-            if isinstance(st, str) and not st.startswith("ref")
-        ]
-        st, c = self.random.choice(plain)
-        offset = c.split(", ")[1].rstrip(")")
-        return f"{name} ACCESS ADR({st});", f"AT(uint32_t, {address})={offset};"
+    def copy(self, _depth):
+        """Copy a STRUCT or an ARRAY."""
+        alike = self.aggregates[self.random.choice([*self.aggregates])]
+        (a, c, size), (b, d, _) = self.random.choice(alike), self.random.choice(alike)
+        return f"{a} := {b};", f"memmove((void*)({c}),(void*)({d}),{size});"
 
-    def pulse(self, depth):
-        name, address = self.random.choice(self.blocks)
-        value, step = self.truth(1), self.typed("INT", 1)
-        c = f"AT(uint8_t,{address + 6})={value.c};AT(int16_t,{address})={step.c};pulse({address});"
-        return f"{name}(x := {value.st}, step := {step.st});", c
+    def link(self, _depth):
+        """Set a reference; to a 32-bit integer ``:=`` writes through it."""
+        name, c, type_name = self.random.choice(self.references)
+        if type_name not in TYPES:
+            target, address, _ = self.random.choice(self.aggregates[type_name])
+            if target == name:
+                return self.assignment(0)
+            return (
+                f"{name} {self.pick('ACCESS', ':=')} ADR({target});",
+                f"{c}=(uint32_t)({address});",
+            )
+        target = self.place(type_name)
+        if SIZES[type_name] == 4 and self.random.random() < 0.3:
+            c_type = TYPES[type_name][0]
+            return f"{name} := ADR({target.st});", f"*({c_type}*){c}=(uint32_t)&({target.c});"
+        word = "ACCESS" if SIZES[type_name] == 4 else self.pick("ACCESS", ":=")
+        return f"{name} {word} ADR({target.st});", f"{c}=(uint32_t)&({target.c});"
 
-    def body(self, depth):
-        return [self.statement(depth + 1) for _ in range(self.random.randint(1, 3))]
+    def run_block(self, _depth):
+        name, address, inputs, block = self.random.choice(self.blocks)
+        chosen = [each for each in inputs if self.random.random() < 0.8]
+        values = [self.typed(type_name, 1) for _, type_name, _ in chosen]
+        named = zip(chosen, values, strict=True)
+        st = ", ".join(f"{parameter} := {value.st}" for (parameter, _, _), value in named)
+        c = "".join(
+            f"{at(type_name, f'{address}+{offset}')}={value.c};"
+            for (_, type_name, offset), value in zip(chosen, values, strict=True)
+        )
+        return f"{name}({st});", f"{c}{block}({address});"
+
+    def act(self, _depth):
+        st, c = self.random.choice(self.actions)
+        return f"{st};", f"{c}();"
+
+    def leave(self, _depth):
+        condition, (st, c) = self.truth(2), self.pick(("EXIT", "break"), ("CONTINUE", "continue"))
+        return f"IF {condition.st} THEN {st}; END_IF", f"if({condition.c}){{{c};}}"
+
+    def return_(self, _depth):
+        condition = self.comparison(2)
+        return f"IF {condition.st} THEN RETURN; END_IF", f"if({condition.c})goto out;"
 
     def if_(self, depth):
-        condition, then, other = self.truth(1), self.body(depth), self.body(depth)
-        st = f"IF {condition.st} THEN {join(then, 0)} ELSE {join(other, 0)} END_IF"
-        return st, f"if({condition.c}){{{join(then, 1)}}}else{{{join(other, 1)}}}"
+        condition, then, other = self.truth(1), self.statements(depth), self.statements(depth)
+        second, more = self.truth(1), self.statements(depth)
+        st = f"IF {condition.st} THEN {join(then, 0)} ELSIF {second.st} THEN {join(more, 0)} "
+        c = f"if({condition.c}){{{join(then, 1)}}}else if({second.c}){{{join(more, 1)}}}"
+        return f"{st}ELSE {join(other, 0)} END_IF", f"{c}else{{{join(other, 1)}}}"
 
     def case(self, depth):
-        selector = self.place(self.random.choice(INTEGERS), 9)
+        selector = self.place(self.random.choice(INTEGERS))
         labels = self.random.sample(range(-3, 8), 3)
-        first, second, other = self.body(depth), self.body(depth), self.body(depth)
+        first, second, other = (self.statements(depth) for _ in range(3))
         st = (
             f"CASE {selector.st} OF {labels[0]}, {labels[1]}: {join(first, 0)} "
             f"10..99: {join(second, 0)} ELSE {join(other, 0)} END_CASE"
         )
         c = (
-            f"switch({selector.c}){{case {labels[0]}:case {labels[1]}:{{{join(first, 1)}}}break;"
-            f"case 10 ... 99:{{{join(second, 1)}}}break;default:{{{join(other, 1)}}}}}"
+            f"{{int64_t x={selector.c};if(x=={labels[0]}||x=={labels[1]}){{{join(first, 1)}}}"
+            f"else if(x>=10&&x<=99){{{join(second, 1)}}}else{{{join(other, 1)}}}}}"
         )
         return st, c
 
+    def case_of_colours(self, depth):
+        selector, (red, blue) = self.place("Colour"), (self.statements(depth) for _ in range(2))
+        st = f"CASE {selector.st} OF RED: {join(red, 0)} BLUE: {join(blue, 0)} END_CASE"
+        c = f"if(x==0){{{join(red, 1)}}}else if(x==6){{{join(blue, 1)}}}"
+        return st, f"{{int32_t x={selector.c};{c}}}"
+
+    # Loops
+
     def for_(self, depth):
-        self.loops += 1
-        variable = f"loop{self.loops}"
-        address = BASE + 4096 + 4 * self.loops
+        name, c = self.loops.pop()
         first, last = self.random.randint(-3, 3), self.random.randint(-3, 6)
-        step = self.random.choice([1, 1, 2, -1])
+        step = self.pick(1, 1, 2, -1)
         sign = "<=" if step > 0 else ">="
-        body = self.body(depth)
-        left, after = self.random.choice(
-            [("", ""), ("IF bool0 THEN EXIT; END_IF", "if(BOOL0)break;")]
-        )
-        after = after.replace("BOOL0", self.places["BOOL"][0][1])
-        c = f"AT(int16_t,{address})"
-        st = f"FOR {variable} := {first} TO {last} BY {step} DO {join(body, 0)} {left} END_FOR"
-        return st, f"for({c}={first};{c}{sign}{last};{c}+={step}){{{join(body, 1)}{after}}}"
+        body = self._inside(depth)
+        st = f"FOR {name} := {first} TO {last} BY {step} DO {join(body, 0)} END_FOR"
+        return st, f"for({c}={first};{c}{sign}{last};{c}+={step}){{{join(body, 1)}}}"
 
     def repeat(self, depth):
-        self.loops += 1
-        name, c = f"loop{self.loops}", f"AT(int16_t,{BASE + 4096 + 4 * self.loops})"
-        body, condition = self.body(depth), self.truth(2)
+        name, c = self.loops.pop()
+        body, condition = self._inside(depth), self.truth(2)
         st = (
             f"{name} := 0; REPEAT {name} := {name} + 1; {join(body, 0)} "
             f"UNTIL {condition.st} OR {name} > 3 END_REPEAT"
@@ -403,40 +504,28 @@ class Program:
         ends = f"({condition.c}|((int32_t){c}>(int32_t)3))"
         return st, f"{c}=0;do{{{c}={c}+1;{join(body, 1)}}}while(!{ends});"
 
-    # Texts
-
-    def _st(self, body):
-        loops = "".join(f"loop{n} : INT; " for n in range(1, self.loops + 1))
-        lines = [f"{name} : {st_type};" for name, st_type, *_ in self.variables]
-        statements = join(body, 0).replace("; ", ";\n")
-        return (
-            "FUNCTION_BLOCK Pulse VAR_INPUT step : INT; END_VAR VAR_OUTPUT n : INT; END_VAR\n"
-            "VAR m : INT; END_VAR VAR_INPUT x : BOOL; END_VAR VAR zzEdge00000 : BOOL; END_VAR\n"
-            "IF EDGEPOS(x) THEN n := n + step; END_IF m := m + 1;\nEND_FUNCTION_BLOCK\n"
-            f"PROGRAM _CYCLIC {statements}\nEND_PROGRAM\n"
-            "PROGRAM _INIT ref_int ACCESS ADR(int0); ref_udint ACCESS ADR(udint0); END_PROGRAM\n"
-            f"VAR\n{chr(10).join(lines)}\n{loops}END_VAR\n"
+    def while_(self, depth):
+        name, c = self.loops.pop()
+        condition, body = self.truth(2), self._inside(depth)
+        st = (
+            f"{name} := 0; WHILE {condition.st} AND {name} < 4 DO {name} := {name} + 1; "
+            f"{join(body, 0)} END_WHILE"
         )
+        goes_on = f"({condition.c}&((int32_t){c}<(int32_t)4))"
+        return st, f"{c}=0;while({goes_on}){{{c}={c}+1;{join(body, 1)}}}"
 
-    def _c(self, body):
-        return f"void cyclic_{self.name}(void){{\n{join(body, 1)}\n}}\n"
+    def _inside(self, depth):
+        before, self.inside = self.inside, True
+        found = self.statements(depth)
+        self.inside = before
+        return found
 
 
-PULSE = """
-static void pulse(uint32_t at) {
-    uint8_t x = AT(uint8_t, at + 6), *edge = &AT(uint8_t, at + 7);
-    if (x & ~*edge & 1 ? (*edge = x & 1, 1) : (*edge = x & 1, 0))
-        AT(int16_t, at + 2) = AT(int16_t, at + 2) + AT(int16_t, at);
-    AT(int16_t, at + 4) = AT(int16_t, at + 4) + 1;
-}
-"""
+def at(type_name, address):
+    """What lies at an address, in C."""
+    return f"(*({TYPES[type_name][0]}*)({address}))"
 
 
 def join(statements, which):
     """One text of several statements."""
     return " ".join(each[which] for each in statements)
-
-
-def c_file(programs):
-    """The translations of several programs."""
-    return HEAD + PULSE + "".join(program.c for program in programs)

@@ -84,3 +84,13 @@ def test_actions_of_a_block_may_stand_in_a_file_of_their_own() -> None:
     assert [record.message for file in files for record in file.diagnostics.records] == [
         "nothing calls the action never; it is not compiled"
     ]
+
+
+def test_an_action_behind_a_program_belongs_to_it_whatever_stands_before() -> None:
+    text = """
+FUNCTION_BLOCK B VAR n : INT; END_VAR END_FUNCTION_BLOCK
+PROGRAM _CYCLIC count; END_PROGRAM
+ACTION count: n := n + 1; END_ACTION
+VAR n : INT; END_VAR
+"""
+    assert not checked(text)[2]
