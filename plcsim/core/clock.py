@@ -18,6 +18,10 @@ LONGEST_SLEEP_NS = 100_000_000
 """A sleep is cut into pieces of this length, so that a stop request is seen in time."""
 
 
+VIRTUAL_DATE_NS = 946_684_800_000_000_000
+"""Date at which a controller on the virtual clock starts: 2000-01-01, nanoseconds since 1970."""
+
+
 class Clock(Protocol):
     """What the scan loop asks of time."""
 
@@ -138,3 +142,11 @@ class VirtualClock:
         """Let a program wait for something for ``duration_ns`` (a blocking call)."""
         self._now_ns += duration_ns
         self._waits += 1
+
+
+def first_date_ns(clock: Clock) -> int:
+    """Return the date of a controller that starts now, in nanoseconds since 1970.
+
+    On the real clock it is the host's, on the virtual one always the same.
+    """
+    return VIRTUAL_DATE_NS if clock.is_virtual else time.time_ns()

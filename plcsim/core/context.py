@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
+from plcsim.core.heap import Heap
 from plcsim.core.system_area import DATE, RELEASE
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ class Context:
     Attributes:
         memory: where all variables lie.
         network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
+        heap: what programs reserve while they run.
         globals: a view of the global variables; None where the project has none.
         violation: the violation an exception program was called for, None before the first.
     """
@@ -35,6 +37,7 @@ class Context:
         "_settings",
         "_system",
         "globals",
+        "heap",
         "memory",
         "network",
         "violation",
@@ -47,6 +50,7 @@ class Context:
         settings: Iterable[object] = (),
     ) -> None:
         self.memory = memory
+        self.heap = Heap(memory)
         self.network = network
         self.globals: Any = None
         self._system = memory.system.cells
@@ -108,10 +112,11 @@ class Context:
     def restart(self) -> None:
         """Forget the states of all libraries; those with a ``close`` method are closed first.
 
-        The last violation is forgotten too.
+        What is on the heap and the last violation are forgotten too; the date is kept.
         """
         for state in self.libraries():
             if hasattr(state, "close"):
                 state.close()
         self._libraries.clear()
+        self.heap.reset()
         self.violation = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
-from plcsim.core.clock import MonotonicClock
+from plcsim.core.clock import MonotonicClock, first_date_ns
 from plcsim.core.control import Step
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import ProgramError
@@ -68,6 +68,7 @@ class Controller:
         shared: the global variables and constants, as one tag each with the path "".
         exception_task: runs once for each violation under the policy "exception".
         clock: virtual or real; the real one by default.
+        start_date_ns: date and time now, nanoseconds since 1970; None for that of the clock.
         heartbeat: told of every program that starts and every cycle that ends.
         idle: see `plcsim.core.scan.Scan`.
 
@@ -94,6 +95,7 @@ class Controller:
         shared: Sequence[Tag] = (),
         exception_task: Task | None = None,
         clock: Clock | None = None,
+        start_date_ns: int | None = None,
         heartbeat: Heartbeat | None = None,
         idle: Callable[[int], None] = lambda _idle_ns: None,
     ) -> None:
@@ -120,11 +122,25 @@ class Controller:
         self.tags = TagTable(self.memory, self.areas)
         self._heartbeat = heartbeat or _Nobody()
         self.origin_ns = self.clock.now_ns()
+        context.release_ns = self.origin_ns
+        context.date_ns = first_date_ns(self.clock) if start_date_ns is None else start_date_ns
+        context.give_settings(self)
         self.requests: deque[Request] = deque()
         self._violation_followers: list[Callable[[Violation], None]] = []
         self._step_followers: list[Callable[[Step, int, int], None]] = []
         self.stop_requested = False
         self._started = False
+
+    @staticmethod
+    def of(context: Context) -> Controller | None:
+        """Return the controller that blocks run on, None where they run on none."""
+        return context.settings(Controller)
+
+    @property
+    def running(self) -> tuple[TaskClass | None, Task | None]:
+        """The task that runs now and its class; no class for the exception program."""
+        task = self.scan.active
+        return next((c for c in self.classes if task in c.tasks), None), task
 
     def boot(self) -> State:
         """Give all variables their initial values and run every INIT, in configured order.
@@ -146,6 +162,8 @@ class Controller:
         for area in self.areas:
             self.memory.write(area.address, initial_image(area.data_type))
         self.memory.restore()
+        for task in self.tasks:
+            task.resume()
         for task in self.tasks:
             self._run_unit(task, Unit.INIT)
             if self.state is not State.BOOT:

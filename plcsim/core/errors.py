@@ -3,6 +3,7 @@
 ::
 
     PlcError                         base of all
+    ├── ApplicationError             a program ended the application, by ERRxfatal
     ├── ConfigurationError           plc.toml or a project folder is wrong; names file and field
     ├── PageFault                    an address that no variable lies at
     ├── PhaseError                   an act in a phase of the scan that does not allow it
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
 
 class PlcError(Exception):
     """Base of all errors of this package."""
+
+
+class ApplicationError(PlcError):
+    """A program has found that the application must not go on."""
 
 
 class ConfigurationError(PlcError):

@@ -46,6 +46,7 @@ class Task:
     """
 
     __slots__ = (
+        "_suspended",
         "areas",
         "cyclic",
         "execution",
@@ -74,11 +75,31 @@ class Task:
         self.areas = (variables,) if constants is None else (variables, constants)
         self.units = units
         self.cyclic = units[Unit.CYCLIC]
+        self._suspended: Callable[[], None] | None = None
         self.fault_of = fault_of
         self.interrupt = interrupt
         self.instructions = instructions
         self.execution = Histogram()
         self.index = 0
+
+    @property
+    def is_suspended(self) -> bool:
+        """Whether CYCLIC is left out."""
+        return self._suspended is not None
+
+    def suspend(self) -> None:
+        """Leave CYCLIC out from the next cycle on."""
+        if self._suspended is None:
+            self._suspended, self.cyclic = self.cyclic, _nothing
+
+    def resume(self) -> None:
+        """Run CYCLIC again from the next cycle on."""
+        if self._suspended is not None:
+            self.cyclic, self._suspended = self._suspended, None
+
+
+def _nothing() -> None:
+    """Stand for the CYCLIC of a task that is suspended."""
 
 
 class Cause(Enum):

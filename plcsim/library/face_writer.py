@@ -7,6 +7,7 @@ declarations. A test shows that the files of this package are fresh.
 from __future__ import annotations
 
 import keyword
+import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.installed import installed
@@ -66,7 +67,7 @@ class _Writer:
     def text(self) -> str:
         """Return the module."""
         body = "".join((*self._constants(), *self._types()))
-        public = sorted(self._public)
+        public = sorted(self._public, key=_export_order)
         body += "".join(self._blocks())
         head = (
             f'"""Library {self._library.name} as Python sees it.\n\n'
@@ -193,6 +194,13 @@ def _module(other: str, own: str) -> str:
     while ours and theirs and ours[0] == theirs[0]:
         del ours[0], theirs[0]
     return "." * (len(ours) + 1) + ".".join(theirs)
+
+
+def _export_order(name: str) -> tuple[int, list[tuple[int, int, str]]]:
+    """Constants, then classes, then the rest, numbers in names by their value, as ruff wants it."""
+    kind = 0 if name.isupper() else 1 if name[0].isupper() else 2
+    parts = re.split(r"(\d+)", name)
+    return kind, [(0, int(p), p) if p.isdecimal() else (1, 0, p) for p in parts if p]
 
 
 def _all(names: Sequence[str]) -> str:

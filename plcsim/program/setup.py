@@ -58,6 +58,8 @@ class Setup:
         settings: what libraries find by `Context.settings`.
         shared: the global variables, None where there are none.
         catalogue: the libraries that programs see; by default those that are installed.
+        start_date_ns: date of the controller at its start, nanoseconds since 1970; None for that of
+            its clock.
     """
 
     classes: Sequence[TaskClassSetup]
@@ -66,6 +68,7 @@ class Setup:
     settings: Sequence[object] = ()
     shared: Variables | None = None
     catalogue: Catalogue | None = None
+    start_date_ns: int | None = None
 
 
 def make_controller(
@@ -106,6 +109,7 @@ def make_controller(
         shared=shared,
         exception_task=_task(exception, site) if exception else None,
         clock=clock,
+        start_date_ns=setup.start_date_ns,
         heartbeat=heartbeat,
         idle=idle,
     )

@@ -143,6 +143,7 @@ def _load(project: Project, loader: ProgramLoader) -> Application:
         settings=settings,
         shared=loader.shared if any(kind.members for kind in loader.shared) else None,
         catalogue=catalogue,
+        start_date_ns=project.plc.start_date_ns,
     )
     return Application(
         project.name, setup, project.extensions, tuple(loader.warnings), loader.unload

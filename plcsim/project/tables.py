@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from datetime import UTC, date, datetime, time
 from pathlib import Path
 from typing import Annotated, Final, Literal, NamedTuple
 
@@ -10,6 +11,7 @@ from plcsim.core.duration import parse_duration_ns
 from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.core.task import HIGHEST_CLASS, Policy
 from plcsim.settings import Converted, Duration, Key, Kind, PathTo, Size, Whole, settings
+from plcsim.settings.kinds import of_kind
 
 DEFAULT_CYCLES_MS: Final = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10}
 """Cycle time of each class where none is given, as in a new Automation Studio project."""
@@ -23,6 +25,9 @@ TOO_LONG_CYCLE_NS: Final = 60_000_000_000
 ANY_CPU: Final = -1
 LAST_CPU: Final = 1023
 """The last that sched_setaffinity(2) takes without a larger set."""
+
+LAST_SECOND: Final = 4_102_444_799
+"""The last second of 2099, the largest DATE_AND_TIME of the controller."""
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
@@ -68,6 +73,22 @@ def _cycle_ns(text: str) -> int:
     return cycle_ns
 
 
+class Date(Kind):
+    """A date and time such as ``2026-03-31T06:00:00``, in nanoseconds since 1970."""
+
+    def convert(self, value: object, _folder: Path) -> int:
+        """Return the nanoseconds; a date alone means its midnight."""
+        if type(value) is date:
+            value = datetime.combine(value, time())
+        found = of_kind(datetime, value, "2026-03-31T06:00:00")
+        if found.tzinfo is None:
+            found = found.replace(tzinfo=UTC)
+        seconds = int(found.timestamp())
+        if not 0 <= seconds <= LAST_SECOND:
+            raise ValueError(f"{value} does not lie between 1970 and 2099")
+        return seconds * 1_000_000_000 + found.microsecond * 1000
+
+
 @settings
 class PlcSettings:
     """Table [plc].
@@ -82,6 +103,8 @@ class PlcSettings:
         priority: of SCHED_FIFO.
         cpu: the processor to stay on, `ANY_CPU` for any.
         exception_program: runs for violations under the policy "exception".
+        start_date_ns: the controller's date at its start (key "start_date"), as people read it
+            there; None for the host's on the real clock, 2000-01-01 on the virtual one.
     """
 
     name: str = ""
@@ -93,6 +116,7 @@ class PlcSettings:
     priority: Annotated[int, Whole(1, 98)] = 50
     cpu: Annotated[int, Whole(ANY_CPU, LAST_CPU)] = ANY_CPU
     exception_program: Annotated[ProgramEntry | None, ProgramKind()] = None
+    start_date_ns: Annotated[int | None, Key("start_date"), Date()] = None
 
     @property
     def pinned_cpu(self) -> int | None:

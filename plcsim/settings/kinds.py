@@ -10,6 +10,7 @@ import os
 import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from datetime import datetime
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from plcsim.core.duration import format_duration, parse_duration_ns
@@ -69,6 +70,7 @@ KIND_NAMES: dict[type, str] = {
     float: "a number",
     dict: "a table",
     list: "a list",
+    datetime: "a date and time",
 }
 
 

@@ -1,12 +1,18 @@
-"""Folders that are libraries."""
+"""Folders that are libraries, and a controller that calls what they declare."""
 
 import textwrap
 
 import pytest
 
+from plcsim.core.clock import VirtualClock
 from plcsim.library import face
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library
+from plcsim.library.runtime import ERR_FUB_BUSY
+from plcsim.program.loader import installed_catalogue
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 
 FILES = {
     "ramps.fun": """
@@ -75,3 +81,78 @@ def library(files):
     face.register(made)
     yield made
     face.forget("ramp_lib")
+
+
+class Idle(Program):
+    """A program that does nothing."""
+
+    def cyclic(self):
+        pass
+
+
+class Plc:
+    """A controller whose program does nothing, and shortcuts to call blocks and functions on it."""
+
+    def __init__(self, settings=(), start_date_ns=None, network=None):
+        self.clock = VirtualClock(0)
+        tasks = TaskClassSetup(1, 10_000_000, [ProgramSetup("idle", PythonCode(Idle))])
+        self.controller = make_controller(
+            Setup([tasks], settings=settings, start_date_ns=start_date_ns),
+            clock=self.clock,
+            network=network,
+        )
+        self.context = self.controller.context
+        self.memory = self.controller.memory
+
+    def pass_ms(self, milliseconds):
+        """Let the next release be later."""
+        self.clock.sleep_until_ns(self.clock.now_ns() + milliseconds * 1_000_000)
+        self.context.release_ns = self.clock.now_ns()
+
+    def new(self, view):
+        return self.memory.new(view, self.context)
+
+    def bytes(self, data):
+        """Store bytes; return their address."""
+        address = self.memory.allocate(max(len(data), 1), 8)
+        self.memory.write(address, data)
+        return address
+
+    def text(self, text, size=256):
+        """Store a STRING with room behind it; return its address."""
+        data = text.encode("latin-1")
+        return self.bytes(data + bytes(size - len(data)))
+
+    def string(self, address):
+        return self.memory.string(address, 1000).decode("latin-1")
+
+    def call(self, view, **inputs):
+        """Make a block, enable it and call it once."""
+        block = self.new(view)
+        block(enable=True, **inputs)
+        return block
+
+    def finish(self, view, **inputs):
+        """Make an asynchronous block and call it until it is done; it is BUSY in the first call."""
+        block = self.call(view, **inputs)
+        assert block.status == ERR_FUB_BUSY
+        calls = 1
+        while block.status == ERR_FUB_BUSY:
+            block()
+            calls += 1
+            assert calls < 1000
+        return block
+
+    def function(self, name):
+        """Return a FUNCTION of any library, ready to be called."""
+        return installed_catalogue().find_function(name)[1].bind(self.context)
+
+
+@pytest.fixture
+def plc():
+    return Plc()
+
+
+@pytest.fixture
+def make_plc():
+    return Plc

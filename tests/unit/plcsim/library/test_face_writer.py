@@ -39,7 +39,7 @@ def test_a_face_tells_types_and_comments(library):
         "    name: str\n",
         "    level: float\n",
         "from plcsim.library.standard import TON\n",
-        '__all__ = ["Axis", "Mode", "NAME", "STEP"]\n',
+        '__all__ = ["NAME", "STEP", "Axis", "Mode"]\n',
     ):
         assert part in text
 

@@ -1,0 +1,1 @@
+"""Library AsIOTime: times of the I/O cycle."""
