@@ -18,12 +18,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     """Add the command and its sub-commands."""
     parser = subparsers.add_parser(
         "st",
-        help="check programs in Structured Text",
+        help="check and run programs in Structured Text",
         description="Work with Structured Text: programs of B&R projects and standard files.",
         epilog=EPILOG,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_check(commands)
+    _add_run(commands)
 
 
 def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -55,6 +56,52 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="file, or folder with all .st files below it",
     )
     parser.set_defaults(func=_run, act="check")
+
+
+def _add_run(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "run",
+        help="run a file for some cycles and show variables",
+        description="Run the programs of a file on the virtual clock, without a project. Task "
+        "classes are the TASKs of its CONFIGURATION, where it has one. To the file of a program "
+        "of Automation Studio belong the files beside it.",
+        examples=(
+            ("plcsim st run counter.st", "100 cycles, and the last value of every variable"),
+            ("plcsim st run Main.st --cycles 5 --trace count,timer.Q", "a row for each cycle"),
+            ("plcsim st run Main.st --set limit=10 --format csv --trace count", ""),
+        ),
+        epilog=epilog(DONE="", FAILED="the file is wrong", WRONG_USAGE="", SERVICE=""),
+    )
+    parser.add_argument("--cycles", type=_count, default=100, metavar="N", help="default: 100")
+    parser.add_argument(
+        "--cycle", metavar="TIME", help="cycle time of what no TASK has (default: 10ms)"
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="give a variable a value after INIT",
+    )
+    parser.add_argument(
+        "--trace",
+        action="append",
+        default=[],
+        metavar="NAME,...",
+        help="variables to show after each cycle of the first task class",
+    )
+    parser.add_argument(
+        "--format", choices=("table", "csv", "json"), default="table", help="default: table"
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="an .st file")
+    parser.set_defaults(func=_run, act="run")
+
+
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
@@ -11,11 +12,14 @@ from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.layout import OWN, Layout, addresses
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
+from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
 from st_types.errors import Severity
+from st_types.resolve import dialect as dialects
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from plcsim.library.catalogue import Catalogue
     from plcsim.machine import Instance, Machine
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
@@ -32,24 +36,56 @@ def load(source: ProgramSource) -> StructuredTextCode:
     Raises:
         ConfigurationError: there are errors in it; all are told, with file, line and column.
     """
-    scope = source.scope
-    files = [each.file for each in scope.files if isinstance(each, UnitDeclarations)]
-    program, warnings = checked(source.name, files, scope)
+    files = [each.file for each in source.scope.files if isinstance(each, UnitDeclarations)]
+    catalogue = source.declarations.catalogue
+    return compile_program(source.name, files, source.scope, source.shared, catalogue)
+
+
+def compile_program(
+    name: str,
+    files: Sequence[StructuredTextFile],
+    scope: Scope,
+    shared: Variables,
+    catalogue: Catalogue,
+    only: str = "",
+) -> StructuredTextCode:
+    """Check and compile a program.
+
+    Args:
+        name: of the program.
+        files: parsed without errors.
+        scope: what it declares and sees.
+        shared: the global variables of the project.
+        catalogue: libraries of the project.
+        only: of several PROGRAMs in the files the one that is meant: what the files declare outside
+            of them is global then; "" where all are units of one program.
+
+    Raises:
+        ConfigurationError: there are errors; all are told, with file, line and column.
+    """
+    program, warnings = checked(name, files, scope, "global" if only else "program", only)
     if not any(body.kind == "unit" for body in program.bodies):
         raise ConfigurationError(
-            f"{source.folder}: no PROGRAM is in its files; "
+            f"{files[0].path}: no PROGRAM is here or in the files beside it; "
             "one of them holds PROGRAM _CYCLIC ... END_PROGRAM"
         )
-    layout = Layout(source.name, program.scopes, scope.chain, source.shared)
-    code = generate(lower(program, layout.areas))
-    absent = missing(source.declarations.catalogue, scope, code.imports)
+    layout = Layout(name, program.scopes, scope.chain, shared)
+    semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
+    module = lower(program, layout.areas, semantics)
+    module.name = f"{name}.{only}" if only else name
+    code = generate(module)
+    absent = missing(catalogue, scope, code.imports)
     if absent:
-        raise ConfigurationError(*(f"{source.folder}: {each}" for each in absent))
+        raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
     return StructuredTextCode(code, scope, layout.variables, warnings)
 
 
 def checked(
-    name: str, files: Sequence[StructuredTextFile], scope: Scope, storage: Storage = "program"
+    name: str,
+    files: Sequence[StructuredTextFile],
+    scope: Scope,
+    storage: Storage = "program",
+    only: str = "",
 ) -> tuple[Program, list[str]]:
     """Check bodies; return what is to be lowered, and the warnings about them.
 
@@ -57,7 +93,7 @@ def checked(
         ConfigurationError: there are errors; all are told.
     """
     known = {id(record) for file in files for record in file.diagnostics.records}
-    program = check_program(name, files, scope, storage=storage)
+    program = check_program(name, files, scope, storage=storage, only=only)
     records = [each for file in files for each in file.diagnostics.records if id(each) not in known]
     errors = [each.render() for each in records if each.severity is Severity.ERROR]
     if errors:

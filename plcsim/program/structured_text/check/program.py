@@ -90,6 +90,7 @@ def check_program(
     *,
     hidden: Collection[Code] = QUIET,
     storage: Storage = "program",
+    only: str = "",
 ) -> typed.Program:
     """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
 
@@ -101,8 +102,9 @@ def check_program(
         scope: what the program declares, what stands in the files (`declarations_of`) included.
         hidden: codes of warnings that are not wanted.
         storage: of the variables of the scope; those of a library are global ones.
+        only: name of the PROGRAM that is meant; "" for all.
     """
-    checker = _ProgramChecker(scope, hidden, storage)
+    checker = _ProgramChecker(scope, hidden, storage, only)
     for file in files:
         checker.add(file)
     bodies = checker.bodies()
@@ -137,7 +139,8 @@ class _Job:
 
 
 class _ProgramChecker:
-    def __init__(self, scope: Scope, hidden: Collection[Code], storage: Storage) -> None:
+    def __init__(self, scope: Scope, hidden: Collection[Code], storage: Storage, only: str) -> None:
+        self._only = only.upper()
         self.symbols = Symbols({scope: storage})
         self._scope = scope
         self._hidden = hidden
@@ -165,6 +168,8 @@ class _ProgramChecker:
     # Units
 
     def _program_unit(self, unit: ProgramUnit) -> None:
+        if self._only not in ("", unit.name.upper()):
+            return
         name = UNITS.get(unit.name.upper(), "cyclic")
         self._owner = owner = self._program
         if unit.blocks:

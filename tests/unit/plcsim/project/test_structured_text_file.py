@@ -1,0 +1,114 @@
+"""Controllers from one file of Structured Text."""
+
+import pytest
+
+from plcsim.core.clock import VirtualClock
+from plcsim.core.errors import ConfigurationError
+from plcsim.project.assembly import assemble
+from plcsim.project.structured_text_file import load_file
+
+MS = 1_000_000
+PLANT = """
+    FUNCTION_BLOCK Counter
+        VAR_INPUT step : INT; END_VAR
+        VAR_OUTPUT out : INT; END_VAR
+        out := out + step;
+    END_FUNCTION_BLOCK
+    PROGRAM Fill
+        VAR_EXTERNAL level : INT; END_VAR
+        VAR c : Counter; END_VAR
+        c(step := 1);
+        Level := Level + 1;
+    END_PROGRAM
+    PROGRAM Drain
+        VAR_EXTERNAL level : INT; END_VAR
+        VAR c : Counter; seen : INT; END_VAR
+        c(step := 10);
+        seen := level;
+    END_PROGRAM
+    CONFIGURATION plant
+        VAR_GLOBAL level : INT := 100; END_VAR
+        RESOURCE station ON PLC
+            TASK slow (INTERVAL := T#40ms, PRIORITY := 5);
+            TASK fast (INTERVAL := T#10ms, PRIORITY := 1);
+            PROGRAM drain WITH slow : Drain;
+            PROGRAM left WITH fast : Fill;
+            PROGRAM right WITH fast : Fill;
+        END_RESOURCE
+    END_CONFIGURATION
+"""
+
+
+@pytest.fixture
+def load(project):
+    return lambda text, **options: load_file(project({"plant.st": text}) / "plant.st", **options)
+
+
+def run(application, cycles):
+    controller = assemble(application, clock=VirtualClock(), network=None)
+    controller.boot()
+    controller.run(cycles=cycles)
+    return controller, lambda path: controller.tags.read(controller.tags.find(path))
+
+
+def test_tasks_become_task_classes_by_their_priority(load):
+    controller, value = run(load(PLANT), 8)
+    classes = [(c.number, c.cycle_ns, [t.name for t in c.tasks]) for c in controller.classes]
+    assert classes == [(1, 10 * MS, ["left", "right"]), (2, 40 * MS, ["drain"])]
+    assert value("level") == 116
+    assert (value("left.c.out"), value("drain.c.out"), value("drain.seen")) == (8, 20, 112)
+
+
+def test_without_a_configuration_every_program_runs_in_class_1(load):
+    text = PLANT[: PLANT.index("CONFIGURATION")] + "VAR_GLOBAL level : INT; END_VAR\n"
+    controller, value = run(load(text, cycle_ns=5 * MS), 2)
+    assert [(c.number, c.cycle_ns) for c in controller.classes] == [(1, 5 * MS)]
+    assert [task.name for task in controller.tasks] == ["Fill", "Drain"]
+    assert value("level") == 2
+
+
+def test_files_of_automation_studio_belong_together(project):
+    folder = project(
+        {
+            "pump/Cyclic.st": "PROGRAM _CYCLIC\nx := LIMIT;\nEND_PROGRAM\n",
+            "pump/Init.st": "PROGRAM _INIT\ny := 5;\nEND_PROGRAM\n",
+            "pump/a.var": "VAR x : INT; y : INT; END_VAR VAR CONSTANT LIMIT : INT := 3; END_VAR",
+        }
+    )
+    _, value = run(load_file(folder / "pump" / "Cyclic.st"), 1)
+    assert (value("pump.x"), value("pump.y")) == (3, 5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        (
+            "INTERVAL := T#10ms, ",
+            "",
+            "plant.st:23:9: error: TASK fast has no INTERVAL; tasks that wait",
+        ),
+        ("T#10ms", "T#0ms", "plant.st:23:9: error: INTERVAL of TASK fast must be above 0"),
+        ("WITH fast : Fill", "WITH quick : Fill", "error: PROGRAM left: there is no TASK quick"),
+        ("WITH fast : Fill", "WITH fast : Mix", "error: PROGRAM left: the file has no PROGRAM Mix"),
+        ("fast : Fill;", "fast : Fill(a := 1);", "values of its variables are not supported"),
+        ("Level + 1", "Leve + 1", "error ST2001: no variable is called Leve"),
+        ("PROGRAM Fill", "PROGRAM", "error ST1001"),
+    ],
+)
+def test_what_is_wrong_is_told_with_its_place(load, old, new, told):
+    with pytest.raises(ConfigurationError) as raised:
+        load(PLANT.replace(old, new, 1))
+    assert told in str(raised.value)
+
+
+def test_nine_tasks_are_too_many(load):
+    tasks = "".join(f"TASK t{n} (INTERVAL := T#10ms, PRIORITY := {n});" for n in range(9))
+    programs = "".join(f"PROGRAM p{n} WITH t{n} : Fill;" for n in range(9))
+    head = PLANT[: PLANT.index("RESOURCE")]
+    with pytest.raises(ConfigurationError, match="9 tasks; a controller has 8 task classes"):
+        load(f"{head}{tasks}{programs}END_CONFIGURATION\n")
+
+
+def test_a_file_without_a_program_has_nothing_to_run(load):
+    with pytest.raises(ConfigurationError, match="no PROGRAM is in it"):
+        load("FUNCTION f : INT VAR_INPUT x : INT; END_VAR f := x; END_FUNCTION\n")
