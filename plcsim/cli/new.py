@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     import argparse
 
 DEFAULT_EXAMPLE = "blinky"
+_SUFFIXES = {"python": "", "st": "_st"}
+"""What the names of examples end in, by the language of their programs."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -31,6 +33,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         f"example. Examples: {examples}.",
         examples=(
             ("plcsim new my_plc", ""),
+            ("plcsim new my_plc --language st", "its program is in Structured Text"),
             ("plcsim new my_plc --like tank", "tags over Modbus for an HMI, and a plant"),
         ),
         epilog=epilog(DONE="", FAILED="the folder is there already, or cannot be made"),
@@ -39,8 +42,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--like",
         metavar="EXAMPLE",
-        default=DEFAULT_EXAMPLE,
         help=f"the example to start from (default: {DEFAULT_EXAMPLE})",
+    )
+    parser.add_argument(
+        "--language",
+        choices=tuple(_SUFFIXES),
+        default="python",
+        help="of the default example's program (default: python)",
     )
     parser.set_defaults(func=new)
 
@@ -71,10 +79,11 @@ def _make_its_own(target: Path, example: str) -> None:
 def new(options: argparse.Namespace) -> int:
     """Copy the example."""
     target: Path = options.name
-    example = _examples().get(options.like)
+    like = options.like or DEFAULT_EXAMPLE + _SUFFIXES[options.language]
+    example = _examples().get(like)
     if example is None:
         known = ", ".join(sorted(_examples()))
-        raise ConfigurationError(f"--like {options.like}: no such example; there are {known}")
+        raise ConfigurationError(f"--like {like}: no such example; there are {known}")
     if target.exists():
         raise ConfigurationError(f"{target}: exists already; nothing was changed")
     if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_-]*", target.name):
@@ -89,7 +98,7 @@ def new(options: argparse.Namespace) -> int:
         _make_its_own(target, example.name)
     except OSError as err:
         raise ConfigurationError(f"{target}: cannot be made: {err}") from None
-    print(f"Made {target} from the example {options.like}. Try:")
+    print(f"Made {target} from the example {like}. Try:")
     print(f"    plcsim run {shlex.quote(str(target))}")
     if (target / "tests").is_dir():
         if find_spec("pytest") is None:

@@ -137,6 +137,7 @@ class StructuredTextCode:
             constants=constants,
             fault_of=linkage.fault_of,
             interrupt=_interrupt,
+            instructions=site.machine.meter,
         )
 
 

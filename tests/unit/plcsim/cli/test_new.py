@@ -34,6 +34,15 @@ def test_a_new_project_runs_and_tests_itself(empty_folder, capsys):
     assert done.returncode == 0, done.stdout
 
 
+def test_a_new_project_in_structured_text_runs_and_tests_itself(empty_folder, capsys):
+    assert main(["new", "my_plc", "--language", "st"]) == 0
+    assert "from the example blinky_st." in capsys.readouterr().out
+    assert (empty_folder / "my_plc" / "blinky" / "Main.st").is_file()
+    assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
+    done = pytest_of("my_plc/tests")
+    assert done.returncode == 0, done.stdout
+
+
 def pytest_of(*arguments):
     """The result of pytest in a process of its own."""
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
