@@ -220,7 +220,7 @@ def test_what_has_no_body_is_told_before_the_run(wrong):
 
 
 def test_a_folder_without_a_unit_is_no_program(wrong):
-    assert "no PROGRAM is in its files" in wrong({"main/a.st": "ACTION A:\nEND_ACTION\n"})
+    assert "no PROGRAM is here" in wrong({"main/a.st": "ACTION A:\nEND_ACTION\n"})
 
 
 def test_blocks_and_functions_of_libraries_in_python_are_called(run, value, ramp):
