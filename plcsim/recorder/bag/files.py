@@ -54,13 +54,19 @@ def create(path: Path) -> Bag:
     if path.suffix not in SUFFIXES:
         raise RecordingError(f"{path}: the name of a bag ends in {', '.join(SUFFIXES)}")
     typestore()
-    if path.exists():
-        raise RecordingError(f"{path}: exists already, and is not written over")
+    for file in (path, active(path)):
+        if file.exists():
+            raise RecordingError(f"{file}: exists already, and is not written over")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         return Ros1Bag(path) if path.suffix == ".bag" else Ros2Bag(path)
     except OSError as err:
         raise RecordingError(f"{path}: cannot be made: {err}") from None
+
+
+def active(path: Path) -> Path:
+    """Return the name of a bag while it is being written."""
+    return path.with_name(path.name + ACTIVE)
 
 
 class Ros1Bag:
@@ -75,8 +81,7 @@ class Ros1Bag:
         from rosbags.rosbag1 import Writer  # noqa: PLC0415
 
         self._path = path
-        self._active = path.with_name(path.name + ACTIVE)
-        self._active.unlink(missing_ok=True)
+        self._active = active(path)
         self._writer = Writer(self._active)
         self._writer.open()
         assert self._writer.bio is not None
@@ -143,9 +148,7 @@ class Ros2Bag:
         from rosbags.rosbag2 import StoragePlugin, Writer  # noqa: PLC0415
 
         self._path = path
-        self._folder = path.with_name(path.name + ACTIVE)
-        if self._folder.exists():
-            shutil.rmtree(self._folder)
+        self._folder = active(path)
         plugin = StoragePlugin.MCAP if path.suffix == ".mcap" else StoragePlugin.SQLITE3
         self._writer = Writer(self._folder, version=9, storage_plugin=plugin)
         self._writer.open()

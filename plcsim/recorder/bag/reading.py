@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.recorder.bag.changes import changed
-from plcsim.recorder.bag.files import ACTIVE
+from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
 from plcsim.recorder.bag.types import CYCLES, HEAD, cycle_from, typestore
 from plcsim.recorder.errors import RecordingError
@@ -143,8 +143,8 @@ def open_bag(path: Path) -> Iterator[BagReader]:
     from rosbags import rosbag1, rosbag2  # noqa: PLC0415
 
     if not path.exists():
-        active = path.with_name(path.name + ACTIVE)
-        hint = f"; {active.name} was not closed: try rosbag reindex" if active.exists() else ""
+        left = active(path)
+        hint = f"; {left.name} was not closed: try rosbag reindex" if left.exists() else ""
         raise RecordingError(f"{path}: there is no such file{hint}")
     is_ros2 = path.is_dir() or path.suffix in (".mcap", ".db3")
     with _told(path):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import find_tag
 from plcsim.recorder.bag.changes import changes
-from plcsim.recorder.bag.files import create
+from plcsim.recorder.bag.files import active, create
 from plcsim.recorder.bag.head import head_text
 from plcsim.recorder.bag.types import (
     CYCLE_TYPE,
@@ -88,7 +88,7 @@ class Writing:
         self.lost = 0
         self.files: list[Path] = []
         self._latest_ns = max(FIRST_NS, head.epoch_ns + head.origin_ns)
-        while beside_others and self._file.exists():
+        while beside_others and (self._file.exists() or active(self._file).exists()):
             self._number += 1
         self._open()
 
