@@ -13,6 +13,7 @@ from crosnode.errors import InvalidNameError, NodeError
 from crosnode.graph.hosts import HostTable, own_interface
 from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
+from crosnode.node.border import Border
 from crosnode.node.core import NodeCore
 from crosnode.node.life import Life, LifeState
 from crosnode.node.master_client import MasterClient
@@ -34,12 +35,14 @@ from crosnode.transport.event_loop import EventLoop
 from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 from plcsim.core.statistics import Histogram
+from plcsim.core.traffic import Topic
 from plcsim.library.astcp import tcpERR_INTERFACE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crosnode.graph.arguments import NodeSettings
+    from crosnode.messages import MessageType
     from crosnode.transport.budget import StepBudget
     from crosnode.xmlrpc import Value
     from plcsim.core.context import Context
@@ -188,6 +191,7 @@ class CrosNode:
             queue_size=queue_size,
             latching=latching,
             loop_period_ns=loop_period_ns,
+            border=self._border(topic, message_type, is_sent=True, is_latching=latching),
         )
         self.core.master.add(registration)
         return publisher
@@ -211,10 +215,26 @@ class CrosNode:
             self.core,
             queue_size=queue_size,
             tcp_nodelay=tcp_nodelay,
+            border=self._border(topic, message_type),
         )
         registration.on_value = subscriber.registered
         self.core.master.add(registration)
         return subscriber
+
+    def _border(
+        self,
+        topic: str,
+        message_type: MessageType,
+        *,
+        is_sent: bool = False,
+        is_latching: bool = False,
+    ) -> Border:
+        """Return what tells of the messages of a topic."""
+        found = message_type
+        told = Topic(
+            topic, found.name, found.md5sum, found.full_text, self.name, is_sent, is_latching
+        )
+        return Border(self.options.traffic, told)
 
     def register_service_provider(
         self, service: str, type_name: str, *, queue_size: int = 100

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from crosnode.node.ros_time import Epoch
     from crosnode.transport.budget import StepLimits
+    from plcsim.core.traffic import Traffic
 
 
 class NodeOptions(NamedTuple):
@@ -30,6 +31,7 @@ class NodeOptions(NamedTuple):
         respawns: whether the node returns when others end it.
         closing_steps: of the loop in ``destroy`` at most, within which the master can let the node
             go.
+        traffic: is told of all messages; None for nobody.
         beside: called between the steps of ``destroy``: an embedded master that must answer.
     """
 
@@ -42,4 +44,5 @@ class NodeOptions(NamedTuple):
     clock_ns: Callable[[], int] | None = None
     respawns: bool = False
     closing_steps: int = 20_000
+    traffic: Traffic | None = None
     beside: Callable[[], None] | None = None

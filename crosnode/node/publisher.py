@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from crosnode.messages import Message, MessageType
+    from crosnode.node.border import Border
     from crosnode.node.core import NodeCore, NodeView
     from crosnode.node.registration import Registration
     from crosnode.transport.connection import ConnectionEvent
@@ -50,6 +51,7 @@ class Publisher:
         queue_size: int,
         latching: bool,
         loop_period_ns: int,
+        border: Border,
     ) -> None:
         self.topic = topic
         self.message_type = message_type
@@ -63,6 +65,7 @@ class Publisher:
         self._latched: memoryview | bytes | None = None
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
         self._period = Period(loop_period_ns)
+        self._border = border
         first = message_type.fields[:1]
         self._has_header = bool(first and first[0].base == HEADER and first[0].name == "header")
 
@@ -97,6 +100,7 @@ class Publisher:
     def send_raw(self, body: bytes | memoryview) -> None:
         """Send the bytes of a message, which must not change any more."""
         self.sent += 1
+        self._border.cross(body)
         if self.latching:
             self._latched = body
         for link, owner in list(self.links.items()):

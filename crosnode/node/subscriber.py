@@ -13,6 +13,7 @@ from crosnode.tcpros import TypeInfo
 
 if TYPE_CHECKING:
     from crosnode.messages import Message, MessageType
+    from crosnode.node.border import Border
     from crosnode.node.core import NodeCore
     from crosnode.node.registration import Registration
     from crosnode.transport.budget import StepBudget
@@ -53,6 +54,7 @@ class Subscriber:
         *,
         queue_size: int,
         tcp_nodelay: bool,
+        border: Border,
     ) -> None:
         self.topic = topic
         self.message_type = message_type
@@ -62,6 +64,7 @@ class Subscriber:
         self.peers: dict[str, PublisherLink] = {}
         self.tcp_nodelay = tcp_nodelay
         self.core = core
+        self._border = border
         self._is_overtaken = False
         self._has_unnamed = False
 
@@ -91,6 +94,7 @@ class Subscriber:
 
     def receive(self, body: bytes | memoryview, publisher: PublisherLink) -> None:
         """Put a message into the program's queue."""
+        self._border.cross(body)
         self.queue.push(QueuedMessage(body, publisher))
 
     def registered(self, uris: Value) -> None:

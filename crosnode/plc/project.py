@@ -118,6 +118,7 @@ def make_node(
         epoch=found.epoch,
         clock_ns=found.clock_ns,
         respawns=ros.table.respawn,
+        traffic=context.traffic,
         beside=partial(step_beside, context),
     )
     if step is None:

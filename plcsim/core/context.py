@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from plcsim.core.heap import Heap
 from plcsim.core.system_area import DATE, RELEASE
+from plcsim.core.traffic import Traffic
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -28,6 +29,7 @@ class Context:
         memory: where all variables lie.
         network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
         heap: what programs reserve while they run.
+        traffic: messages that programs send and receive, told to whoever follows them.
         globals: a view of the global variables; None where the project has none.
         violation: the violation an exception program was called for, None before the first.
     """
@@ -40,6 +42,7 @@ class Context:
         "heap",
         "memory",
         "network",
+        "traffic",
         "violation",
     )
 
@@ -55,6 +58,7 @@ class Context:
         self.globals: Any = None
         self._system = memory.system.cells
         self.violation: Violation | None = None
+        self.traffic = Traffic()
         self._settings = {type(value): value for value in settings}
         self._libraries: dict[object, object] = {}
 

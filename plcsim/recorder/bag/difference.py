@@ -5,13 +5,14 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from plcsim.core.control import Step
 from plcsim.recorder.bag.types import CYCLES, HEAD, LOGBOOK
 from plcsim.recorder.bag.values import first_difference
 from plcsim.recorder.journal.record import CYCLE
 from plcsim.shared_image.directory import describe_type
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from plcsim.recorder.bag.head import Head
     from plcsim.recorder.bag.reading import BagReader
     from plcsim.recorder.journal.record import Record
@@ -45,30 +46,32 @@ def _of_variables(first: Head, second: Head) -> str:
 
 
 def _of_cycles(head: Head, first: BagReader, second: BagReader) -> str:
-    for one, other in zip_longest(first.records(), second.records()):
+    for one, other in zip_longest(_cycles(first), _cycles(second)):
         if one is None or other is None:
             path = (second if other is None else first).path
             missing = one or other
             assert missing is not None
-            return f"{path} ends before {_name(missing[1])}"
-        if text := _of_records(head, one[1], other[1]):
+            return f"{path} ends before {_name(missing)}"
+        if text := _of_records(head, one, other):
             return text
     return ""
 
 
+def _cycles(bag: BagReader) -> Iterator[Record]:
+    return (record for _, record in bag.records() if record.step == CYCLE)
+
+
 def _of_records(head: Head, one: Record, other: Record) -> str:
-    if (one.step, one.task_class, one.cycle) != (other.step, other.task_class, other.cycle):
+    if (one.task_class, one.cycle) != (other.task_class, other.cycle):
         return f"{_name(one)} against {_name(other)}"
-    if one.step == CYCLE and one.variables != other.variables:
+    if one.variables != other.variables:
         tag, here, there = first_difference(head, one.variables, other.variables)
         return f"{_name(one)}: {tag} is {here} against {there}"
     return ""
 
 
 def _name(record: Record) -> str:
-    if record.step == CYCLE:
-        return f"cycle {record.cycle} of task class {record.task_class}"
-    return f"the step {Step(record.step).name.lower()} of the controller"
+    return f"cycle {record.cycle} of task class {record.task_class}"
 
 
 def _of_messages(first: BagReader, second: BagReader) -> str:

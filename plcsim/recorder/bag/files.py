@@ -10,12 +10,21 @@ from __future__ import annotations
 import shutil
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from plcsim.recorder.bag.types import LOG_TYPE, LOG_TYPE_2, log_message_2, typestore
+from plcsim.recorder.bag.types import (
+    LOG_TYPE,
+    LOG_TYPE_2,
+    log_message_2,
+    register,
+    stored_name,
+    typestore,
+)
 from plcsim.recorder.errors import RecordingError
 
 if TYPE_CHECKING:
     from io import BytesIO
     from pathlib import Path
+
+    from plcsim.core.traffic import Topic
 
 ACTIVE: Final = ".active"
 SUFFIXES: Final = (".bag", ".mcap", ".db3")
@@ -34,6 +43,13 @@ class Bag(Protocol):
 
     def add(self, topic: str, type_name: str, *, latching: bool = False) -> Any:
         """Return a connection for messages of a type such as ``std_msgs/msg/Bool``."""
+
+    def add_foreign(self, topic: Topic) -> Any:
+        """Return a connection for messages of a type that comes with its definition.
+
+        Raises:
+            RecordingError: the format has no such type.
+        """
 
     def write(self, connection: Any, time_ns: int, data: bytes) -> None:
         """Write a message, as ROS 1 serialises it."""
@@ -111,6 +127,17 @@ class Ros1Bag:
             topic, type_name, typestore=typestore(), callerid="/plcsim", latching=int(latching)
         )
 
+    def add_foreign(self, topic: Topic) -> Any:
+        """See `Bag`."""
+        return self._writer.add_connection(
+            topic.name,
+            stored_name(topic.type_name),
+            msgdef=topic.definition,
+            md5sum=topic.md5sum,
+            callerid=topic.node if topic.is_sent else f"{topic.node}/received",
+            latching=int(topic.is_latching),
+        )
+
     def write(self, connection: Any, time_ns: int, data: bytes) -> None:
         """See `Bag`."""
         chunks = len(self._writer.chunks)
@@ -168,6 +195,12 @@ class Ros2Bag:
         connection = self._writer.add_connection(topic, type_name, typestore=store)
         self._types[connection.id] = type_name
         return connection
+
+    def add_foreign(self, topic: Topic) -> Any:
+        """See `Bag`."""
+        name = stored_name(topic.type_name)
+        register(name, topic.definition)
+        return self.add(topic.name, name)
 
     def write(self, connection: Any, time_ns: int, data: bytes) -> None:
         """See `Bag`."""

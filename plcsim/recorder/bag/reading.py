@@ -127,6 +127,7 @@ class BagReader:
                     numbers,
                     cycle.network,
                     cycle.writes,
+                    b"",
                     before if cycle.step == CYCLE else cycle.variables,
                 ),
             )

@@ -155,6 +155,32 @@ def typestore(*, ros2: bool = False) -> Typestore:
     return store
 
 
+def stored_name(name: str) -> str:
+    """Return ``std_msgs/msg/String`` for ``std_msgs/String``, as rosbags calls types."""
+    package, _, rest = name.partition("/")
+    return name if "/" in rest else f"{package}/msg/{rest}"
+
+
+def register(name: str, definition: str) -> None:
+    """Make a type known to ROS 2, with all that it contains.
+
+    Args:
+        name: as rosbags calls it.
+        definition: text of ROS 1 with that of all its parts.
+
+    Raises:
+        RecordingError: rosbags does not understand the text.
+    """
+    from rosbags.typesys import TypesysError, get_types_from_msg  # noqa: PLC0415
+
+    store = typestore(ros2=True)
+    try:
+        found = get_types_from_msg(definition, name)
+        store.register({key: value for key, value in found.items() if key not in store.types})
+    except TypesysError as err:
+        raise RecordingError(f"type {name}: {err}") from None
+
+
 class TagMessages(NamedTuple):
     """How a tag becomes messages.
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import struct
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import find_tag
+from plcsim.core.traffic import Topic
 from plcsim.recorder.bag.changes import changes
 from plcsim.recorder.bag.files import active, create
 from plcsim.recorder.bag.head import head_text
@@ -23,7 +25,7 @@ from plcsim.recorder.bag.types import (
     messages_of,
     text_message,
 )
-from plcsim.recorder.journal.record import CYCLE
+from plcsim.recorder.journal.record import CYCLE, packets
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,7 +34,7 @@ if TYPE_CHECKING:
     from plcsim.core.tag import Tag
     from plcsim.recorder.bag.files import Bag
     from plcsim.recorder.bag.head import Head
-    from plcsim.recorder.journal.record import Record
+    from plcsim.recorder.journal.record import Packet, Record
 
 FIRST_NS: Final = 1
 """ROS takes 0 for "no time"."""
@@ -68,6 +70,7 @@ class Writing:
     Attributes:
         files: those written and the one being written.
         lost: records that never came.
+        lost_messages: whose topic was described in one of those.
 
     Raises:
         RecordingError: the file is there already or cannot be made.
@@ -85,7 +88,8 @@ class Writing:
         self._before = b""
         self._since_whole = 0
         self._logged = 0
-        self.lost = 0
+        self._topics: dict[int, Topic] = {}
+        self.lost = self.lost_messages = 0
         self.files: list[Path] = []
         self._latest_ns = max(FIRST_NS, head.epoch_ns + head.origin_ns)
         while beside_others and (self._file.exists() or active(self._file).exists()):
@@ -105,6 +109,7 @@ class Writing:
         self._logbook = self._bag.add(LOGBOOK, LOG_TYPE)
         self._channels: dict[str, Any] = {}
         self._shown: dict[str, bytes] = {}
+        self._borders: dict[int, Any] = {}
         self._before = b""
         self._since_ns = self._latest_ns
         head = self._bag.add(HEAD, TEXT_TYPE, latching=True)
@@ -149,9 +154,27 @@ class Writing:
             variables,
         )
         self._bag.write(self._cycles, bag_ns, message.to_bytes())
+        for packet in packets(record.messages):
+            self._write_packet(bag_ns, packet)
         if is_cycle and record.variables:
             self._before = record.variables
             self._write_tags(bag_ns, record.variables)
+
+    def _write_packet(self, bag_ns: int, packet: Packet) -> None:
+        """Write a message of a topic, or note what comes over it."""
+        number = packet.topic
+        if packet.is_topic:
+            topic = Topic(**json.loads(bytes(packet.data)))
+            if self._topics.get(number) != topic:
+                self._topics[number] = topic
+                self._borders.pop(number, None)
+            return
+        if number not in self._topics:  # described in a record that was lost
+            self.lost_messages += 1
+            return
+        if number not in self._borders:
+            self._borders[number] = self._bag.add_foreign(self._topics[number])
+        self._bag.write(self._borders[number], bag_ns, bytes(packet.data))
 
     def _write_tags(self, bag_ns: int, variables: bytes) -> None:
         shown = self._shown

@@ -14,8 +14,9 @@ CYCLE: Final = 0
 LIMITS: Final = struct.Struct("<qq")
 """``variables`` of the step RUN: its end on the clock and its cycles, 0 for none."""
 
-_HEAD: Final = struct.Struct("<BBxxIIIqq")
+_HEAD: Final = struct.Struct("<BBxxIIIIqq")
 _ENTRY: Final = struct.Struct("<III")
+_PACKET: Final = struct.Struct("<H?xI")
 
 
 class Record(NamedTuple):
@@ -29,6 +30,7 @@ class Record(NamedTuple):
         clock: answers of the clock, in nanoseconds and counts, in order.
         network: answers of the network, as `plcsim.recorder.journal.network` writes them.
         writes: what was written and forced from outside, see `entries`.
+        messages: that programs sent and received, see `packets`.
         variables: all variables afterwards, empty where they are too many; of a step see `LIMITS`.
     """
 
@@ -39,6 +41,7 @@ class Record(NamedTuple):
     clock: Sequence[int]
     network: bytes
     writes: bytes
+    messages: bytes
     variables: bytes
 
     def to_bytes(self) -> bytes:
@@ -50,30 +53,55 @@ class Record(NamedTuple):
             len(clock),
             len(self.network),
             len(self.writes),
+            len(self.messages),
             self.cycle,
             self.time_ns,
         )
         numbers = struct.pack(f"<{len(clock)}q", *clock)
-        return b"".join((head, numbers, self.network, self.writes, self.variables))
+        parts = (head, numbers, self.network, self.writes, self.messages, self.variables)
+        return b"".join(parts)
 
 
 def record_of(data: bytes) -> Record:
     """Return the record of `Record.to_bytes`."""
-    step, task_class, numbers, network, writes, cycle, time_ns = _HEAD.unpack_from(data)
+    step, task_class, numbers, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
     at = _HEAD.size
     clock = struct.unpack_from(f"<{numbers}q", data, at)
     at += 8 * numbers
-    behind = at + network
-    return Record(
-        step,
-        task_class,
-        cycle,
-        time_ns,
-        clock,
-        data[at:behind],
-        data[behind : behind + writes],
-        data[behind + writes :],
-    )
+    parts = []
+    for size in sizes:
+        parts.append(data[at : at + size])
+        at += size
+    network, writes, messages = parts
+    return Record(step, task_class, cycle, time_ns, clock, network, writes, messages, data[at:])
+
+
+class Packet(NamedTuple):
+    """A message that crossed the border, or what it goes over.
+
+    Attributes:
+        topic: number of the topic.
+        is_topic: ``data`` is the `plcsim.core.traffic.Topic` as JSON, not a message.
+        data: the bytes.
+    """
+
+    topic: int
+    is_topic: bool
+    data: bytes | memoryview
+
+    def to_bytes(self) -> bytes:
+        """Return the packet as `packets` reads it."""
+        return _PACKET.pack(self.topic, self.is_topic, len(self.data)) + self.data
+
+
+def packets(messages: bytes) -> Iterator[Packet]:
+    """Return the packets of `Record.messages`."""
+    at = 0
+    while at < len(messages):
+        topic, is_topic, size = _PACKET.unpack_from(messages, at)
+        at += _PACKET.size
+        yield Packet(topic, is_topic, messages[at : at + size])
+        at += size
 
 
 class Entry(NamedTuple):

@@ -37,7 +37,8 @@ def test_a_recording_that_ends_early_is_named(recordings: Recordings) -> None:
     recordings("a.bag", application_of(Fast))
     recordings("b.bag", application_of(Fast), cycles=10)
 
-    assert "cycle 11 of task class 1 against" in differences(recordings, "a.bag", "b.bag")
+    found = differences(recordings, "a.bag", "b.bag")
+    assert found == f"{recordings.folder / 'b.bag'} ends before cycle 21 of task class 1"
 
 
 def test_other_variables_are_named(recordings: Recordings) -> None:
