@@ -15,7 +15,7 @@ from crosnode.graph.uri import DEFAULT_PORT, make_uri, parse_uri
 from crosnode.node.parameter import check_parameters
 from plcsim.core.errors import Findings
 from plcsim.network.protocol import is_ipv4
-from plcsim.project.plc_toml import FILE_NAME
+from plcsim.project.project_file import FILE_NAME
 from plcsim.settings import Converted, Duration, Key, PathTo, Whole, settings
 
 if TYPE_CHECKING:

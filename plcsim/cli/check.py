@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from plcsim.cli.console import CommandConsole, print_error
-from plcsim.cli.exit_codes import epilog
-from plcsim.cli.project_argument import add_project
+from plcsim.cli.exit_codes import ExitCode, epilog
+from plcsim.cli.project_argument import add_configuration, add_project, configuration_of
+from plcsim.cli.survey import show
 from plcsim.core.duration import format_duration
 from plcsim.core.tag import leaves
 from plcsim.host.processors import missing_cpu
 from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project
+from plcsim.project.survey import survey
 
 if TYPE_CHECKING:
     import argparse
@@ -34,16 +36,27 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         examples=(
             ("plcsim check my_plc", ""),
             ("plcsim check", "the project that this folder belongs to"),
+            ("plcsim check machine --config Simulation", "an Automation Studio project"),
         ),
         epilog=epilog(DONE="the project is right", FAILED="it is not"),
     )
     add_project(parser)
+    add_configuration(parser)
+    parser.add_argument(
+        "--all",
+        action="store_true",
+        help="of an Automation Studio project, show every finding and every warning",
+    )
     parser.set_defaults(func=check)
 
 
 def check(options: argparse.Namespace) -> int:
     """Check the project and print what it consists of."""
-    project = read_project(options.project)
+    project = read_project(options.project, configuration_of(options))
+    if project.automation_studio is not None:
+        found = survey(project, project.automation_studio)
+        show(CommandConsole(), project.automation_studio, found, everything=options.all)
+        return ExitCode.DONE if found.is_right else ExitCode.FAILED
     application = load(project)
     controller = still_controller(application)
     notes = [*check_settings(project.extensions, controller), *notes_on_cpu(project)]

@@ -16,22 +16,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.cli.declaration_files import SUFFIXES, find_files, read_files
-from plcsim.project.logical_view import (
+from plcsim.project.automation_studio.logical_view import (
     LIBRARY_LISTS,
     PROGRAM_LISTS,
     is_listed,
     is_package,
     logical_folder,
-    names_in,
     read_logical_view,
 )
+from plcsim.project.automation_studio.names import names_in
 from st_types.resolve.scope import Scope
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from plcsim.cli.declaration_files import Reading
-    from plcsim.project.logical_view import Package, SourceFolder
+    from plcsim.project.automation_studio.logical_view import Package, SourceFolder
     from st_types.syntax.tree import DeclarationFile
 
 LIBRARY = Path(__file__).parents[1] / "library"

@@ -9,9 +9,10 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.library.face import INTERFACE
 from plcsim.library.face_writer import interface_source
 from plcsim.library.installed import Scopes, installed
-from plcsim.library.library import Library, check_scope, declaration_files
+from plcsim.library.library import Library, check_scope, declarations_of, files_in
 from plcsim.program.declarations import Declarations
-from plcsim.project.plc_toml import FILE_NAME, read_project
+from plcsim.project.plc_toml import read_project
+from plcsim.project.project_file import project_file
 
 if TYPE_CHECKING:
     import argparse
@@ -46,7 +47,7 @@ def _written(folder: Path, only_checked: bool) -> Path | None:  # of the command
 
 def _library_in(folder: Path) -> tuple[Library, Sequence[Library]]:
     """Return the library in a folder, and those of its project."""
-    if not declaration_files(folder):
+    if not declarations_of(files_in(folder)):
         raise ConfigurationError(f"{folder}: no .typ, .var or .fun file was found")
     here = folder.resolve()
     own: Sequence[Library] = [each for each in installed().values() if each.folder == here]
@@ -59,8 +60,7 @@ def _library_in(folder: Path) -> tuple[Library, Sequence[Library]]:
 def _of_project(folder: Path) -> Sequence[Library]:
     """Return the libraries of the project that a folder lies in."""
     for parent in folder.parents:
-        if (parent / FILE_NAME).is_file():
-            project = read_project(parent)
-            programs = [parent / entry.source for entry in project.programs]
-            return Declarations(parent, "project", programs, project.library_folders).own_libraries
+        if project_file(parent) is not None:
+            layout = read_project(parent).layout
+            return Declarations(layout, "project").own_libraries
     return ()

@@ -13,7 +13,7 @@ import plcsim
 from plcsim.cli.exit_codes import epilog
 from plcsim.cli.new_files import GITIGNORE, PYTEST_INI, commented
 from plcsim.core.errors import ConfigurationError
-from plcsim.project.plc_toml import FILE_NAME
+from plcsim.project.project_file import FILE_NAME
 
 if TYPE_CHECKING:
     import argparse

@@ -5,12 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.project.plc_toml import FILE_NAME
+from plcsim.project.project_file import AUTOMATION_STUDIO, FILE_NAME, project_file
 
 if TYPE_CHECKING:
     import argparse
 
-HELP = "folder with plc.toml (default: the one that this folder belongs to)"
+HELP = (
+    "folder with plc.toml, or of an Automation Studio project (default: the one that this "
+    "folder belongs to)"
+)
 
 
 def add_project(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +23,26 @@ def add_project(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_configuration(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``config``, "" where it is not given."""
+    parser.add_argument(
+        "--config",
+        default="",
+        metavar="NAME",
+        help="configuration of an Automation Studio project (default: the active one)",
+    )
+
+
+def configuration_of(options: argparse.Namespace) -> dict[str, dict[str, object]]:
+    """Return what the option ``config`` gives to a project."""
+    return {"as": {"config": options.config}} if options.config else {}
+
+
 def own_project() -> Path:
-    """Return the nearest folder with a plc.toml, this one or above it; this one where none has."""
+    """Return the nearest folder that is a project, this one or above it; this one where none is."""
     here = Path()
     for depth, folder in enumerate((here.absolute(), *here.absolute().parents)):
-        if (folder / FILE_NAME).is_file():
+        if project_file(folder) is not None:
             return Path(*[".."] * depth)
     return here
 
@@ -44,7 +62,7 @@ def project_and_tags(options: argparse.Namespace) -> tuple[Path, list[str]]:
     if options.project is None:
         return here, []
     first = Path(options.project)
-    is_project = (first / FILE_NAME).is_file() or first.name == FILE_NAME
-    if is_project or not (here / FILE_NAME).is_file():
+    is_file = first.name == FILE_NAME or first.suffix.lower() == AUTOMATION_STUDIO
+    if is_file or project_file(first) is not None or project_file(here) is None:
         return first, options.tags
     return here, [options.project, *options.tags]

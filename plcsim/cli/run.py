@@ -20,12 +20,13 @@ from plcsim.cli.display import LiveTable, print_summary
 from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.live_logbook import LiveLogbook
 from plcsim.cli.output_file import check_output, write_output
-from plcsim.cli.project_argument import add_project
+from plcsim.cli.project_argument import add_configuration, add_project, configuration_of
 from plcsim.cli.terminal import Terminal
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError
 from plcsim.process.output import Output
 from plcsim.process.supervisor import Supervisor
+from plcsim.project.assembly import runnable
 from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
@@ -91,6 +92,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         action="store_true",
         help="in SERVICE, do not end before Ctrl-C: the last values can still be read",
     )
+    add_configuration(parser)
+    parser.add_argument(
+        "--keep-going",
+        action="store_true",
+        help="leave out the programs that cannot run, say why, and run the rest",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(func=run)
 
@@ -139,17 +146,23 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _read_project(options: argparse.Namespace) -> Project:
-    """Return the project, with ``--record`` in its table [record].
+    """Return the project, with what the options say about it; ``--keep-going`` tells what it costs.
 
     Raises:
         ConfigurationError: something is wrong with it, or the bag is there already.
     """
+    given = configuration_of(options)
     file: Path | None = options.record
-    if file is None:
-        return read_project(options.project)
-    if file.exists():
-        raise ConfigurationError(f"--record {file}: exists already, and is not written over")
-    return read_project(options.project, {"record": {"file": str(file.resolve())}})
+    if file is not None:
+        if file.exists():
+            raise ConfigurationError(f"--record {file}: exists already, and is not written over")
+        given["record"] = {"file": str(file.resolve())}
+    project = read_project(options.project, given)
+    if options.keep_going:
+        project = runnable(project)
+        for text in project.left_out:
+            print_error(text)
+    return project
 
 
 def _look(logbook: LiveLogbook | None) -> None:

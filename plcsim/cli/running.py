@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.errors import PlcError
 from plcsim.core.system import State
 from plcsim.process.run_file import find_runs
-from plcsim.project.plc_toml import find_project
+from plcsim.project.project_file import find_project
 from plcsim.shared_image import ImageNotReady, ImageReader, Outcome
 from plcsim.shared_image.guest import guest
 from plcsim.shared_image.status_page import StatusPage

@@ -48,14 +48,19 @@ class Findings:
     """Gathers what is wrong, so that a person is told everything in one go."""
 
     def __init__(self) -> None:
-        self._texts: list[str] = []
+        self._texts: dict[str, None] = {}
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """Everything that is wrong so far, each once."""
+        return tuple(self._texts)
 
     def __bool__(self) -> bool:
         return bool(self._texts)
 
     def add(self, error: ConfigurationError) -> None:
         """Add the findings of an error; what is there already is not told twice."""
-        self._texts += [text for text in error.findings if text not in self._texts]
+        self._texts |= dict.fromkeys(error.findings)
 
     @contextmanager
     def gathered(self) -> Iterator[None]:

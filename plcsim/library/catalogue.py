@@ -8,16 +8,18 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.installed import Scopes
+from plcsim.library.stub import Stub
 from plcsim.settings import is_settings
+from st_types.types.derived import StringType, StructType, resolve_alias
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from plcsim.library.executable import BodyLanguage, Executable
     from plcsim.library.library import Library
     from plcsim.settings import Table
+    from st_types.resolve.declared import Function
     from st_types.resolve.index import NameSpace
-    from st_types.types.derived import StructType
 
 SETTINGS: Final = "settings"
 """The module of a library's package that holds the class of its settings, where it has some."""
@@ -29,14 +31,23 @@ class Catalogue:
     Args:
         libraries: as above.
         languages: that bodies may be written in.
+        stubs: names of libraries, in small letters, in which what has no body is idle.
 
     Attributes:
         libraries: as above.
         scopes: of the libraries; read when a name is looked up.
+        stubbed: names that somebody looked up and that are idle, by library.
     """
 
-    def __init__(self, libraries: Sequence[Library], languages: Sequence[BodyLanguage]) -> None:
+    def __init__(
+        self,
+        libraries: Sequence[Library],
+        languages: Sequence[BodyLanguage],
+        stubs: Collection[str] = (),
+    ) -> None:
         self.libraries = tuple(libraries)
+        self._stubs = frozenset(stubs)
+        self.stubbed: dict[str, dict[str, None]] = {}
         self.scopes = Scopes(self.libraries)
         self._languages = languages
         self._bodies: dict[Library, dict[str, Executable]] = {}
@@ -63,6 +74,17 @@ class Catalogue:
                 found[name] = body
         return found
 
+    def has_stubs(self, library: Library) -> bool:
+        """Whether what has no body in a library is idle."""
+        return library.name.lower() in self._stubs
+
+    def _body(self, library: Library, name: str) -> Executable | None:
+        body = self.bodies(library).get(name)
+        if body is None and self.has_stubs(library):
+            self.stubbed.setdefault(library.name, {})[name] = None
+            return Stub(_zero(library.scope.find_function(name)))
+        return body
+
     def find_block(self, name: str) -> tuple[Library, Executable | None] | None:
         """Return the library that declares a FUNCTION_BLOCK, and its body; None for no such block.
 
@@ -77,7 +99,7 @@ class Catalogue:
     def _find(self, space: NameSpace, name: str) -> tuple[Library, Executable | None] | None:
         for library in self.libraries:
             if name in library.scope.index.names(space):
-                return library, self.bodies(library).get(name)
+                return library, self._body(library, name)
         return None
 
     def executable(self, data_type: StructType[Any]) -> Executable | None:
@@ -86,7 +108,7 @@ class Catalogue:
         for library in self.libraries:
             declared = name in library.scope.index.names("types")
             if declared and library.scope.find_type(name) is data_type:
-                return self.bodies(library).get(name)
+                return self._body(library, name)
         return None
 
     def read_settings(self, tables: Mapping[str, Table]) -> list[object]:
@@ -98,7 +120,7 @@ class Catalogue:
         Raises:
             ConfigurationError: there is no such library, it has no settings, or they are wrong.
         """
-        by_name = {library.name: library for library in self.libraries}
+        by_name = {library.name: library for library in reversed(self.libraries)}
         findings = Findings()
         result: list[object] = []
         for name, table in tables.items():
@@ -112,6 +134,16 @@ class Catalogue:
                 result.append(table.read(kind))
         findings.check()
         return result
+
+
+def _zero(function: Function | None) -> object:
+    """Return what a function returns that does nothing; None for a block, or for a STRUCT."""
+    if function is None or function.result is None:
+        return None
+    result = resolve_alias(function.result)
+    if isinstance(result, StructType):
+        return None
+    return "" if isinstance(result, StringType) else 0
 
 
 def _settings_of(library: Library) -> type | None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, overload
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.library.library import Library, declaration_files
+from plcsim.library.library import Library, declarations_of, files_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -60,7 +60,7 @@ def installed() -> Mapping[str, Library]:
 
 def _own() -> Iterator[tuple[str, Path]]:
     for folder in sorted(_OWN.iterdir()):
-        if folder.is_dir() and declaration_files(folder):
+        if folder.is_dir() and declarations_of(files_in(folder)):
             yield f"plcsim.library.{folder.name}", folder
 
 

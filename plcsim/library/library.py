@@ -6,8 +6,10 @@ views in Python, names in Structured Text and headers for C follow from them.
 
 from __future__ import annotations
 
+import os
 import sys
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
@@ -17,11 +19,16 @@ from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-    from pathlib import Path
+    from collections.abc import Iterable, Iterator, Sequence
     from types import ModuleType
 
     from st_types.syntax.tree import DeclarationFile
+
+NESTED: Final = (".st", ".c", ".cpp", ".cc", ".cxx")
+"""Suffixes of the files that belong to a program or a library from folders inside its own."""
+
+DEEPEST: Final = 8
+"""Folders one in another that hold one program."""
 
 DECLARATIONS: Final = (".typ", ".var", ".fun")
 """Suffixes of files with declarations, in small letters."""
@@ -34,19 +41,35 @@ class Library:
         folder: where it lies.
         package: name under which Python finds the folder, for bodies in Python.
         outer: the scopes of the libraries that it sees.
+        name: of the library; by default that of its .fun file where it has one only, else that of
+            its folder.
+        files: that belong to it; by default those in its folder.
 
     Attributes:
-        name: of its .fun file where it has one only, else of its folder.
-        folder: as above.
+        name: as above.
+        folder: likewise.
         package: likewise.
+        files: likewise: declarations, sources, and whatever else there is.
+
+    Raises:
+        ConfigurationError: the folder cannot be read.
     """
 
-    def __init__(self, folder: Path, package: str, outer: Sequence[Scope] = ()) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        package: str,
+        outer: Sequence[Scope] = (),
+        *,
+        name: str = "",
+        files: Sequence[Path] | None = None,
+    ) -> None:
         self.folder = folder
         self.package = package
+        self.files = tuple(sources_in(folder) if files is None else files)
         self._outer = outer
-        interfaces = [file.stem for file in declaration_files(folder) if file.suffix == ".fun"]
-        self.name = interfaces[0] if len(interfaces) == 1 else folder.name
+        interfaces = [file.stem for file in self.files if file.suffix.lower() == ".fun"]
+        self.name = name or (interfaces[0] if len(interfaces) == 1 else folder.name)
 
     def __repr__(self) -> str:
         return f"Library({self.name})"
@@ -58,7 +81,7 @@ class Library:
         Raises:
             ConfigurationError: a file cannot be read.
         """
-        return Scope(self.name, read_declarations(declaration_files(self.folder)), self._outer)
+        return Scope(self.name, read_declarations(declarations_of(self.files)), self._outer)
 
     @property
     def module(self) -> ModuleType:
@@ -66,16 +89,46 @@ class Library:
         return sys.modules[self.package]
 
 
-def declaration_files(folder: Path) -> list[Path]:
-    """Return the files with declarations that lie in a folder itself, in order of their names.
+def files_in(folder: Path) -> list[Path]:
+    """Return the files that lie in a folder itself, in order of their names.
 
     Raises:
         ConfigurationError: the folder cannot be read.
     """
     try:
-        return sorted(file for file in folder.iterdir() if file.suffix.lower() in DECLARATIONS)
+        return sorted(file for file in folder.iterdir() if file.is_file())
     except OSError as err:
         raise ConfigurationError(f"{folder}: cannot be read: {err.strerror}") from None
+
+
+def sources_in(folder: Path) -> list[Path]:
+    """Return the files of a library's or a program's folder, and the sources in folders inside.
+
+    Such folders hold actions, as packages in a program of Automation Studio do.
+
+    Raises:
+        ConfigurationError: the folder cannot be read.
+    """
+    return [*files_in(folder), *_nested(os.fspath(folder), DEEPEST)]
+
+
+def _nested(folder: str, depth: int) -> Iterator[Path]:
+    """Iterate over the sources in the folders inside a folder."""
+    with os.scandir(folder) as found:
+        names = sorted(e.name for e in found if e.name[0] not in "._" and _is_folder(e))
+    for name in names if depth else ():
+        inside = Path(folder, name)
+        yield from (file for file in files_in(inside) if file.suffix.lower() in NESTED)
+        yield from _nested(os.fspath(inside), depth - 1)
+
+
+def _is_folder(entry: os.DirEntry[str]) -> bool:
+    return entry.is_dir(follow_symlinks=False) and os.access(entry.path, os.R_OK | os.X_OK)
+
+
+def declarations_of(files: Iterable[Path]) -> list[Path]:
+    """Return those of some files that hold declarations."""
+    return [file for file in files if file.suffix.lower() in DECLARATIONS]
 
 
 def read_declarations(files: Iterable[Path]) -> list[DeclarationFile]:

@@ -18,7 +18,8 @@ from plcsim.modbus.export.entry import Entry, Export
 from plcsim.modbus.map.automatic import LOCK_FILE, write_lock
 from plcsim.modbus.map.load import TagMap, load_map
 from plcsim.project.assembly import load, still_controller
-from plcsim.project.plc_toml import find_project, read_project
+from plcsim.project.plc_toml import read_project
+from plcsim.project.project_file import find_project
 
 if TYPE_CHECKING:
     import argparse

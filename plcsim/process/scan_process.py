@@ -27,7 +27,7 @@ from plcsim.process import printing
 from plcsim.process.operation import Operation
 from plcsim.process.report import report
 from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load
-from plcsim.project.plc_toml import FILE_NAME, Project
+from plcsim.project.project_file import FILE_NAME
 from plcsim.shared_image.status_page import StatusPage
 from st_types.errors import TypeSystemError
 
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
+    from plcsim.project.plc_toml import Project
 
 STALLED = signal.SIGUSR1
 """The supervisor sends this when a program does not return: it is ended by an exception."""

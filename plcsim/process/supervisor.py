@@ -259,7 +259,9 @@ class Supervisor:
 
     def _limit_ns(self, active: int | None, now_ns: int) -> int:
         """Return how long it may take what the scan process does now."""
-        if self._is_loading or self.page.state is not State.RUN:
+        if self._is_loading:
+            return self._project.load_timeout_ns
+        if self.page.state is not State.RUN:
             return self._project.plc.init_timeout_ns
         if active is None:
             return self._limit_outside_ns(now_ns)

@@ -1,61 +1,49 @@
 """The declarations of a project: types, global variables, libraries, the variables of its programs.
 
-::
-
-    my_plc/
-      plc.toml
-      Global.typ Global.var       any .typ and .var file here: what all programs see
-      conveyor/                   a program
-        Variables.var Types.typ   any .typ, .var and .fun file here: its own
-      my_lib/                     a folder with a .fun file that is no program: a library
-
-A name means what is declared nearest: in the program, in the folders between it and the project, in
-the project, in the libraries. Among these the project's own come first, then those that plc.toml
-names, then the installed ones. Local hides global.
+A name means what is declared nearest: in the program, in the places between it and the project, in
+the project, in the libraries. Among these the project's own come first, in the order of its layout,
+then the installed ones, then those that come without source: where plcsim has a library itself, it
+executes what it has, and the rest of the vendor's is at least declared. Local hides global.
 """
 
 from __future__ import annotations
 
-import contextlib
-import os
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import Scopes, installed
-from plcsim.library.library import Library, check_scope, declaration_files, read_declarations
+from plcsim.library.library import Library, check_scope, declarations_of, read_declarations
 from st_types.resolve.scope import Scope
+from st_types.syntax.declarations import parse_declarations
+from st_types.syntax.source import Source
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.library.executable import BodyLanguage
+    from plcsim.program.layout import Layout, LibraryPlace, MadeVariable, Place
     from st_types.resolve.declared import Variable
     from st_types.syntax.tree import DeclarationFile
 
-DEEPEST: Final = 4
-"""Folders below the project's in which libraries are looked for."""
-
-_NOT_LOOKED_INTO: Final = frozenset(["tests", "Temp", "Binaries"])
-"""Folders of a project that hold no libraries; neither do those that begin with "." or "_"."""
+MADE: Final = "configuration"
+"""Stands for the file of variables that no file declares."""
 
 
 class Declarations:
     """What a project declares.
 
     Args:
-        folder: of the project.
+        layout: where its sources lie.
         package: name under which Python finds it.
-        programs: folders of its programs.
-        libraries: folders of libraries outside it.
         languages: that bodies of libraries may be written in.
 
     Attributes:
+        layout: as above.
         folder: of the project.
-        package: name under which Python finds it.
-        own_libraries: those of the project, and those that plc.toml names.
+        package: as above.
+        own_libraries: those of the project with their sources, and those that plc.toml names.
         catalogue: all libraries that its programs see.
 
     Raises:
@@ -63,64 +51,77 @@ class Declarations:
     """
 
     def __init__(
-        self,
-        folder: Path,
-        package: str,
-        programs: Collection[Path] = (),
-        libraries: Sequence[Path] = (),
-        languages: Sequence[BodyLanguage] = (),
+        self, layout: Layout, package: str, languages: Sequence[BodyLanguage] = ()
     ) -> None:
-        self.folder = folder
+        self.layout = layout
+        self.folder = layout.folder
         self.package = package
-        self._scopes: dict[Path, Scope] = {}
+        self._scopes: dict[tuple[Place, ...], Scope] = {}
         around: list[Library] = []
         scopes = Scopes(around)
-        inside = library_folders(folder, programs)
-        outside = [
-            path for path in dict.fromkeys(p.resolve() for p in libraries) if path not in inside
-        ]
-        own = [
-            Library(path, ".".join((package, *path.relative_to(folder).parts)), scopes)
-            for path in inside
-        ]
-        own += [Library(path, f"{package}.{path.name}", scopes) for path in outside]
+        own: list[Library] = []
+        vendors: list[Library] = []
+        for place in layout.libraries:
+            library = _library(place, package, scopes)
+            (vendors if place.is_vendor else own).append(library)
         _check_names(own)
         hidden = {library.name.upper() for library in own}
-        others = [each for each in installed().values() if each.name.upper() not in hidden]
-        around += [*own, *others]
+        around += own
+        around += [each for each in installed().values() if each.name.upper() not in hidden]
+        around += [each for each in vendors if each.name.upper() not in hidden]
         self.own_libraries = tuple(own)
-        self.catalogue = Catalogue(around, languages)
+        stubs = layout.stubs | ({v.name.lower() for v in vendors} if "*" in layout.stubs else set())
+        self.catalogue = Catalogue(around, languages, stubs)
 
     @cached_property
     def scope(self) -> Scope:
-        """What the files in the project's own folder declare.
+        """What all programs see.
 
         Raises:
             ConfigurationError: a file cannot be read.
         """
-        files = read_declarations(declaration_files(self.folder))
-        return Scope(self.folder.name, files, self.catalogue.scopes, strict=True)
+        common = self.layout.common
+        files = read_declarations(declarations_of(common.files))
+        made = self._made_file()
+        outer = self.catalogue.scopes
+        return Scope(common.name, [*files, *([made] if made else [])], outer, strict=True)
 
-    def scope_of(self, folder: Path, more: Iterable[DeclarationFile] = ()) -> Scope:
+    def _made_file(self) -> DeclarationFile | None:
+        """Return what declares the variables that no file declares, None where there are none."""
+        variables = [each for each in self.layout.made_variables if self._is_known(each)]
+        if not variables:
+            return None
+        lines = "".join(f"\t{each.name} : {each.data_type};\n" for each in variables)
+        return parse_declarations(Source(MADE, f"VAR\n{lines}END_VAR\n"))
+
+    def _is_known(self, variable: MadeVariable) -> bool:
+        names = (scope.index.names("types") for scope in self.catalogue.scopes)
+        return any(variable.data_type in each for each in names)
+
+    def scope_of(self, source: str, more: Iterable[DeclarationFile] = ()) -> Scope:
         """Return what a program sees: its own declarations, and around them all others.
 
         Args:
-            folder: of the program, or one between it and the project.
+            source: the program, as the layout names it.
             more: what the files with its units declare; told at the first call.
 
         Raises:
             ConfigurationError: a file cannot be read.
         """
-        if folder == self.folder:
+        place = self.layout.programs[source]
+        return self._scope_of((*place.around, place.own), more)
+
+    def _scope_of(self, places: tuple[Place, ...], more: Iterable[DeclarationFile] = ()) -> Scope:
+        if not places:
             return self.scope
-        if folder not in self._scopes:
-            outer = self.scope_of(folder.parent)
-            files = [*read_declarations(declaration_files(folder)), *more]
-            self._scopes[folder] = Scope(folder.name, files, (outer,), strict=True)
-        return self._scopes[folder]
+        if places not in self._scopes:
+            outer = self._scope_of(places[:-1])
+            files = [*read_declarations(declarations_of(places[-1].files)), *more]
+            self._scopes[places] = Scope(places[-1].name, files, (outer,), strict=True)
+        return self._scopes[places]
 
     def check(self) -> list[str]:
-        """Resolve everything that the project, its programs and its own libraries declare.
+        """Resolve everything that the project, its packages and its own libraries declare.
 
         Returns:
             warnings, each with file, line, column and caret.
@@ -130,34 +131,53 @@ class Declarations:
         """
         findings = Findings()
         warnings: list[str] = []
-        own = [library.scope for library in self.own_libraries]
-        for scope in (*own, self.scope, *self._scopes.values()):
+        for scope in (*(each.scope for each in self.own_libraries), *self._common_scopes()):
             with findings.gathered():
                 warnings += check_scope(scope)
+        with findings.gathered():
+            _check_unique(self._global_variables())
         findings.check()
         return warnings
 
-    def global_variables(self, programs: Collection[Path] = ()) -> list[Variable]:
+    def check_program(self, source: str) -> list[str]:
+        """Resolve everything that a program declares; see `check`."""
+        return check_scope(self.scope_of(source))
+
+    def _common_scopes(self) -> Iterator[Scope]:
+        """Yield the scopes that several programs see."""
+        yield self.scope
+        programs = self.layout.programs.values()
+        for places in dict.fromkeys(place.around for place in programs):
+            for depth in range(1, len(places) + 1):
+                yield self._scope_of(places[:depth])
+
+    def global_variables(self) -> list[Variable]:
         """Return the variables and constants that several programs see.
 
-        They are those of the project, of the folders between it and its programs, and of its own
-        libraries; constants of libraries need no memory.
-
-        Args:
-            programs: folders whose scopes are programs.
-
-        Raises:
-            ConfigurationError: two have one name.
+        They are those of the project, of the places between it and its programs, and of its own
+        libraries; constants of libraries need no memory. Of two with one name, which `check`
+        tells, it is the first.
         """
-        between = [scope for folder, scope in self._scopes.items() if folder not in programs]
-        found = [v for scope in (self.scope, *between) for v in scope.variables]
+        found: dict[str, Variable] = {}
+        for variable in self._global_variables():
+            found.setdefault(variable.name, variable)
+        return [*found.values()]
+
+    def _global_variables(self) -> list[Variable]:
+        scopes = dict.fromkeys(self._common_scopes())
+        found = [variable for scope in scopes for variable in scope.variables]
         for library in self.own_libraries:
             found += [v for v in library.scope.variables if not v.is_constant]
-        _check_unique(found)
         return found
 
 
+def _library(place: LibraryPlace, package: str, around: Scopes) -> Library:
+    name = f"{package}.{place.package}"
+    return Library(place.folder, name, around, name=place.name, files=place.files)
+
+
 def _check_unique(variables: Sequence[Variable]) -> None:
+    """Raise a ConfigurationError where two files declare one global variable."""
     findings = Findings()
     seen: dict[str, Variable] = {}
     for variable in variables:
@@ -182,36 +202,3 @@ def _check_names(libraries: Sequence[Library]) -> None:
             raise ConfigurationError(
                 f"{library.folder}: library {library.name} is in {other.folder} already"
             )
-
-
-def library_folders(folder: Path, programs: Collection[Path] = ()) -> list[Path]:
-    """Return the folders of a project that are libraries, in order.
-
-    A folder with a .fun file is one, unless it is a program or lies in one.
-    """
-    found = _libraries_below(os.fspath(folder), {os.fspath(p) for p in programs}, DEEPEST)
-    return sorted(Path(path) for path in found)
-
-
-def _libraries_below(folder: str, programs: Collection[str], depth: int) -> Iterator[str]:
-    for path in _folders_in(folder):
-        if path in programs:
-            continue
-        if any(name.lower().endswith(".fun") for name in os.listdir(path)):  # noqa: PTH208  # likewise
-            yield path
-        elif depth > 1:
-            yield from _libraries_below(path, programs, depth - 1)
-
-
-def _folders_in(folder: str) -> list[str]:
-    """Return the folders that may hold libraries; what may not be read holds none."""
-    with contextlib.suppress(OSError), os.scandir(folder) as entries:  # a Path each takes longer
-        return [
-            entry.path
-            for entry in entries
-            if entry.name[0] not in "._"
-            and entry.name not in _NOT_LOOKED_INTO
-            and entry.is_dir()
-            and os.access(entry.path, os.R_OK | os.X_OK)
-        ]
-    return []

@@ -25,7 +25,7 @@ class ProgramSource(NamedTuple):
     """A program on disk.
 
     Attributes:
-        name: as plc.toml names the folder.
+        name: of the program, as task classes name it.
         folder: where it lies.
         files: those of its language that hold units.
         declarations: of the project.
@@ -75,10 +75,13 @@ class Language(Protocol):
     def name(self) -> str:
         """As people call it, such as "Structured Text"."""
 
-    def units(self, folder: Path) -> Sequence[Path]:
-        """Return the files of this language that hold units of the program in a folder.
+    def units(self, files: Sequence[Path]) -> Sequence[Path]:
+        """Return those files of a program that are in this language and hold units.
 
         None makes it a program of another language.
+
+        Args:
+            files: all that belong to the program, of any kind.
         """
 
     def declarations(self, files: Sequence[Path]) -> Sequence[DeclarationFile]:

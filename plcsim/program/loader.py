@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import os
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
+from plcsim.library.library import files_in
 from plcsim.program.c.language import C_LANGUAGE, CBodies
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import BodyLanguage
     from plcsim.library.library import Library
     from plcsim.program.language import Language, ProgramCode
+    from plcsim.program.layout import Layout
     from st_types.resolve.declared import Function, FunctionBlock
     from st_types.syntax.tree import DeclarationFile
 
@@ -36,6 +38,16 @@ LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, STRUCTURED_TEXT, C_LANGUAGE)
 
 BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(), StructuredTextBodies(), CBodies())
 """Bodies of libraries are written in one of them."""
+
+NOT_THERE: Final = {
+    ".ab": "Automation Basic",
+    ".cfc": "CFC",
+    ".fbd": "Function Block Diagram",
+    ".il": "Instruction List",
+    ".ld": "Ladder Diagram",
+    ".sfc": "Sequential Function Chart",
+}
+"""Languages of Automation Studio that no language here loads, by suffix in small letters."""
 
 _counter = itertools.count(1)
 
@@ -46,13 +58,31 @@ def installed_catalogue() -> Catalogue:
     return Catalogue([*installed().values()], BODIES)
 
 
+class Loaded(NamedTuple):
+    """What came of loading programs.
+
+    Attributes:
+        codes: the programs that can run, by name.
+        common: what is wrong in what several programs see.
+        failures: what is wrong in the others, by name.
+    """
+
+    codes: Mapping[str, ProgramCode]
+    common: tuple[str, ...]
+    failures: Mapping[str, tuple[str, ...]]
+
+    def check(self) -> None:
+        """Raise a ConfigurationError where anything is wrong; all of it is told."""
+        findings = (*self.common, *itertools.chain.from_iterable(self.failures.values()))
+        if findings:
+            raise ConfigurationError(*dict.fromkeys(findings))
+
+
 class ProgramLoader:
     """Loads the programs of one project; two projects in one process do not mix.
 
     Args:
-        folder: where plc.toml lies.
-        sources: folders of the programs, as plc.toml names them.
-        libraries: folders of libraries outside the project.
+        layout: where the sources of the project lie.
         languages: that programs may be written in.
 
     Attributes:
@@ -64,50 +94,75 @@ class ProgramLoader:
         ConfigurationError: two libraries have one name.
     """
 
-    def __init__(
-        self,
-        folder: Path,
-        sources: Sequence[str] = (),
-        libraries: Sequence[Path] = (),
-        languages: Sequence[Language] = LANGUAGES,
-    ) -> None:
-        folder = folder.resolve()
-        self._folder = folder
+    def __init__(self, layout: Layout, languages: Sequence[Language] = LANGUAGES) -> None:
+        self._layout = layout
         self._languages = languages
         self.warnings: list[str] = []
-        self._programs = {source: folder / source for source in sources}
         self.package = f"plcsim_project_{next(_counter)}"
-        self.declarations = Declarations(
-            folder, self.package, [*self._programs.values()], libraries, BODIES
-        )
-        add_package(self.package, folder, lambda: self.declarations.scope)
+        self.declarations = Declarations(layout, self.package, BODIES)
+        add_package(self.package, layout.folder, lambda: self.declarations.scope)
         for library in self.declarations.own_libraries:
             add_library(library)
 
     def load(self) -> Mapping[str, ProgramCode]:
-        """Return all programs by their source.
+        """Return all programs by name.
 
         Raises:
             ConfigurationError: a program is not there, or something is wrong in it or in what is
                 declared; everything is told, with file and line.
         """
-        declared, loaded = Findings(), Findings()
-        for folder in self._programs.values():
-            with declared.gathered():
-                self._declare(folder)
-        with declared.gathered():
-            self.warnings = self.declarations.check()
+        declared = self._declare()
         declared.check()  # or what follows from a wrong declaration would be told too
-        for library in self.declarations.own_libraries:
-            with loaded.gathered():
-                self._check_bodies(library)
-        codes = {}
-        for source, folder in self._programs.items():
-            with loaded.gathered():
-                codes[source] = self._load(source, folder)
-                self.warnings += codes[source].warnings
+        loaded = self._load_declared(declared)
         loaded.check()
-        return codes
+        return loaded.codes
+
+    def load_each(self) -> Loaded:
+        """Load each program that can be loaded, whatever is wrong in the rest."""
+        return self._load_declared(self._declare())
+
+    def _declare(self) -> Loaded:
+        """Check all declarations; no program is loaded yet."""
+        common = Findings()
+        failures = {}
+        with common.gathered():
+            self.warnings += self.declarations.check()
+        for name in self._layout.programs:
+            wrong = Findings()
+            with wrong.gathered():
+                self.declarations.scope_of(name, self._declared_in(name))
+                self.warnings += self.declarations.check_program(name)
+            if wrong:
+                failures[name] = wrong.texts
+        return Loaded({}, common.texts, failures)
+
+    def _declared_in(self, name: str) -> Iterator[DeclarationFile]:
+        """Iterate over what the files with units of a program declare."""
+        files = self._layout.programs[name].own.files
+        try:
+            for language in self._languages:
+                yield from language.declarations(language.units(files))
+        except OSError as err:
+            raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
+
+    def _load_declared(self, declared: Loaded) -> Loaded:
+        """Load the programs whose declarations are right."""
+        common = Findings()
+        failures = dict(declared.failures)
+        codes = {}
+        for library in self.declarations.own_libraries:
+            with common.gathered():
+                self._check_bodies(library)
+        for name in self._layout.programs:
+            if name in failures:
+                continue
+            wrong = Findings()
+            with wrong.gathered():
+                codes[name] = self._load(name)
+                self.warnings += codes[name].warnings
+            if wrong:
+                failures[name] = wrong.texts
+        return Loaded(codes, (*declared.common, *common.texts), failures)
 
     def _check_bodies(self, library: Library) -> None:
         """Load the bodies of a library of the project, and note what has none.
@@ -127,19 +182,6 @@ class ProgramLoader:
         """Forget the modules of the project."""
         unload(self.package)
 
-    def _declare(self, folder: Path) -> None:
-        """Read what a program declares, where its folder is there."""
-        if _is_folder(folder):
-            self.declarations.scope_of(folder, self._declared_in(folder))
-
-    def _declared_in(self, folder: Path) -> Iterator[DeclarationFile]:
-        """Iterate over what the files with units of a program declare."""
-        try:
-            for language in self._languages:
-                yield from language.declarations(language.units(folder))
-        except OSError as err:
-            raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
-
     @cached_property
     def shared(self) -> Variables:
         """The global variables: of the declarations, or of the class in ``globals.py``.
@@ -147,51 +189,53 @@ class ProgramLoader:
         Raises:
             ConfigurationError: there are both, or what is there is wrong.
         """
-        declared = self.declarations.global_variables(self._programs.values())
+        declared = self.declarations.global_variables()
         shared = variables_of("globals", declared)
-        view = globals_in(self._folder, self.package)
+        view = globals_in(self._layout.folder, self.package)
         if view is not None:
             if declared:
                 raise ConfigurationError(
                     f"{declared[0].file.location(declared[0].node)}: global variables are declared "
-                    f"here and in {self._folder / 'globals.py'}; let one of them do it"
+                    f"here and in {self._layout.folder / 'globals.py'}; let one of them do it"
                 )
             shared = Variables(view, shared.constants)
         give_views(shared.variables, self.declarations.catalogue)
         return shared
 
-    def _load(self, source: str, folder: Path) -> ProgramCode:
-        if not _is_folder(folder):
+    def _load(self, name: str) -> ProgramCode:
+        folder, own, _ = self._layout.programs[name]
+        if not os.path.isdir(folder):  # noqa: PTH112  # no error for what can be no path
             raise ConfigurationError(f"{folder}: no such program folder{self._known()}")
         try:
-            found = [(each, files) for each in self._languages if (files := each.units(folder))]
+            found = [(each, files) for each in self._languages if (files := each.units(own.files))]
             if len(found) > 1:
                 names = " and ".join(language.name for language, _ in found)
                 raise ConfigurationError(
                     f"{folder}: holds units in {names}; a program has one language"
                 )
             if not found:
-                raise self._nothing_in(folder)
+                raise self._nothing_in(folder, own.files)
             language, files = found[0]
-            scope = self.declarations.scope_of(folder)
+            scope = self.declarations.scope_of(name)
             return language.load(
-                ProgramSource(source, folder, files, self.declarations, scope, self.shared)
+                ProgramSource(name, folder, files, self.declarations, scope, self.shared)
             )
         except OSError as err:
             raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
 
     def _known(self) -> str:
-        folders = sorted(f for f in self._folder.glob("*/") if self._is_program(f))
+        folders = sorted(f for f in self._layout.folder.glob("*/") if self._is_program(f))
         return f"; there are {', '.join(f.name for f in folders)}" if folders else ""
 
     def _is_program(self, folder: Path) -> bool:
-        return any(language.units(folder) for language in self._languages)
+        return any(language.units(files_in(folder)) for language in self._languages)
 
-    def _nothing_in(self, folder: Path) -> ConfigurationError:
+    def _nothing_in(self, folder: Path, files: Sequence[Path]) -> ConfigurationError:
+        suffixes = {file.suffix.lower() for file in files}
+        for suffix in sorted(suffixes & NOT_THERE.keys()):
+            return ConfigurationError(
+                f"{folder}: is written in {NOT_THERE[suffix]}, which plcsim does not run"
+            )
         return ConfigurationError(
             f"{folder}: holds no program: neither main.py nor variables.py, no .st file, no .c file"
         )
-
-
-def _is_folder(path: Path) -> bool:
-    return os.path.isdir(path)  # noqa: PTH112  # no error for what can be no path

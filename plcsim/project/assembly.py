@@ -6,6 +6,7 @@ controller of a project gets it here, so that a project is the same thing everyw
 
 from __future__ import annotations
 
+import itertools
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
@@ -13,20 +14,23 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.clock import VirtualClock
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
+from plcsim.core.logbook import Severity
 from plcsim.host.garbage import collect_while_idle
 from plcsim.host.time_limit import time_limit
 from plcsim.network import VirtualNetwork
 from plcsim.program.fault import location_of
-from plcsim.program.loader import ProgramLoader
+from plcsim.program.loader import Loaded, ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from plcsim.project.automation_studio import problems
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageWriter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Controller, Heartbeat
+    from plcsim.library.catalogue import Catalogue
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
     from plcsim.project.plc_toml import Project
@@ -49,6 +53,10 @@ class Application:
         setup: its programs and task classes.
         extensions: settings of the extensions whose table plc.toml has, by table.
         warnings: of its declarations, each with file, line, column and caret.
+        left_out: programs that cannot run, and why, by source.
+        common: what is wrong in what several programs see; with "keep going" only.
+        stubbed: blocks and functions that are looked for and that nothing executes, by library.
+        notes: what is not as on the controller: what is left out, what is idle.
         unload: forgets its modules, so that the next to load it has them afresh.
     """
 
@@ -56,6 +64,10 @@ class Application:
     setup: Setup
     extensions: Mapping[str, Any] = field(default_factory=dict)
     warnings: Sequence[str] = ()
+    left_out: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    common: Sequence[str] = ()
+    stubbed: Mapping[str, Collection[str]] = field(default_factory=dict)
+    notes: Sequence[str] = ()
     unload: Callable[[], None] = _nothing
 
     def in_process(self, ip: str, *, is_test: bool = False) -> Application:
@@ -84,6 +96,8 @@ class Image:
 def load(project: Project, *, watched: bool = False) -> Application:
     """Load the programs of a project.
 
+    Where the project says "keep going", those that can run are loaded.
+
     Args:
         project: as plc.toml has it.
         watched: another process ends this one when it does not return within the project's
@@ -93,14 +107,16 @@ def load(project: Project, *, watched: bool = False) -> Application:
         ConfigurationError: programs are missing, cannot be loaded or do not return, or a library
             cannot be told what plc.toml tells it; all findings are told, with file and line.
     """
-    sources = dict.fromkeys(entry.source for entry in project.programs)
-    loader = ProgramLoader(project.folder, [*sources], project.library_folders)
+    wrong = _wrong_before(project)
+    layout = project.layout
+    usable = {name: place for name, place in layout.programs.items() if name not in wrong}
+    loader = ProgramLoader(replace(layout, programs=usable))
     try:
-        with nullcontext() if watched else time_limit(project.plc.init_timeout_ns):
-            return _load(project, loader)
+        with nullcontext() if watched else time_limit(project.load_timeout_ns):
+            return _load(project, loader, wrong)
     except CycleTimeViolation as error:
         loader.unload()
-        limit = format_duration(project.plc.init_timeout_ns)
+        limit = format_duration(project.load_timeout_ns)
         location = location_of(error) or project.folder
         raise ConfigurationError(
             f"{location}: the programs were not loaded within {limit}"
@@ -110,44 +126,114 @@ def load(project: Project, *, watched: bool = False) -> Application:
         raise
 
 
-def _load(project: Project, loader: ProgramLoader) -> Application:
+def runnable(project: Project) -> Project:
+    """Return the part of a project that can run, for "keep going".
+
+    Raises:
+        ConfigurationError: nothing can.
+    """
+    project = replace(project, keep_going=True)
+    application = load(project)
+    try:
+        left = project.without(application.left_out, _notes(project, application.left_out))
+    finally:
+        application.unload()
+    if not left.classes:
+        raise ConfigurationError(*itertools.chain.from_iterable(application.left_out.values()))
+    return left
+
+
+def _wrong_before(project: Project) -> dict[str, tuple[str, ...]]:
+    """Return what is wrong with programs before any is loaded.
+
+    Raises:
+        ConfigurationError: something is, and the project does not say "keep going".
+    """
+    found = project.automation_studio
+    if found is None:
+        return {}
+    used = {entry.source for entry in project.programs}
+    wrong = problems.broken(found, [task for task in found.tasks if task.source in used])
+    if not project.keep_going:
+        errors = [str(each) for each in problems.of_project(found) if not each.missing]
+        errors += itertools.chain.from_iterable(wrong.values())
+        if errors:
+            raise ConfigurationError(*dict.fromkeys(errors))
+    return wrong
+
+
+def _load(
+    project: Project, loader: ProgramLoader, wrong: Mapping[str, tuple[str, ...]]
+) -> Application:
     findings = Findings()
     settings: list[object] = []
     catalogue = loader.declarations.catalogue
     with findings.gathered():
         settings = catalogue.read_settings(project.libraries)
-    codes: Mapping[str, ProgramCode] = {}
+    loaded = Loaded({}, (), {})
     with findings.gathered():
-        codes = loader.load()
+        loaded = loader.load_each() if project.keep_going else Loaded(loader.load(), (), {})
     findings.check()
+    left_out = {**wrong, **loaded.failures}
+    setup = _setup(project, loaded.codes)
+    return Application(
+        project.name,
+        replace(
+            setup,
+            settings=settings,
+            shared=loader.shared if any(kind.members for kind in loader.shared) else None,
+            catalogue=catalogue,
+        ),
+        project.extensions,
+        tuple(loader.warnings),
+        left_out,
+        loaded.common,
+        catalogue.stubbed,
+        [*project.left_out, *_notes(project, left_out), *_stub_notes(catalogue)],
+        loader.unload,
+    )
+
+
+def _setup(project: Project, codes: Mapping[str, ProgramCode]) -> Setup:
+    """Return the controller that runs programs; classes without any are left out."""
 
     def setup_of(entry: ProgramEntry) -> ProgramSetup:
         return ProgramSetup(entry.name, codes[entry.source])
 
     exception = project.plc.exception_program
-    setup = Setup(
-        classes=[
-            TaskClassSetup(
-                number=c.number,
-                cycle_ns=c.cycle_ns,
-                programs=[setup_of(p) for p in c.programs],
-                tolerance_ns=c.tolerance_ns,
-                first_release_ns=c.first_release_ns,
-                policy=c.policy,
-                host_policy=c.host_policy,
-            )
-            for c in project.classes
-        ],
+    classes = [
+        TaskClassSetup(
+            number=c.number,
+            cycle_ns=c.cycle_ns,
+            programs=[setup_of(p) for p in c.programs if p.source in codes],
+            tolerance_ns=c.tolerance_ns,
+            first_release_ns=c.first_release_ns,
+            policy=c.policy,
+            host_policy=c.host_policy,
+        )
+        for c in project.classes
+    ]
+    return Setup(
+        classes=[each for each in classes if each.programs],
         memory_size=project.plc.memory_size,
-        exception_program=setup_of(exception) if exception else None,
-        settings=settings,
-        shared=loader.shared if any(kind.members for kind in loader.shared) else None,
-        catalogue=catalogue,
+        exception_program=setup_of(exception) if exception and exception.source in codes else None,
         start_date_ns=project.plc.start_date_ns,
     )
-    return Application(
-        project.name, setup, project.extensions, tuple(loader.warnings), loader.unload
-    )
+
+
+def _notes(project: Project, left_out: Mapping[str, Sequence[str]]) -> list[str]:
+    """Say which tasks do not run, and the first reason of each."""
+    tasks = [entry for entry in project.programs if entry.source in left_out]
+    return [
+        f"{entry.name} is left out: {left_out[entry.source][0].splitlines()[0]}" for entry in tasks
+    ]
+
+
+def _stub_notes(catalogue: Catalogue) -> list[str]:
+    return [
+        f"{library}: {', '.join(names)}: nothing executes them here, they do nothing"
+        for library, names in catalogue.stubbed.items()
+    ]
 
 
 def assemble(
@@ -184,6 +270,8 @@ def assemble(
         idle=collect_while_idle,
         system_fd=system_fd,
     )
+    for note in application.notes:
+        controller.log(Severity.WARNING, "system", note)
     attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
     if image is not None:
         writer = ImageWriter(

@@ -1,59 +1,108 @@
-"""A project on disk: plc.toml and a folder for each program.
+"""A project on disk: plc.toml and a folder for each program, or an Automation Studio project.
 
-The keys of plc.toml and their defaults are listed in docs/project.md. Everything wrong is a
-ConfigurationError that names the file and the field.
+The keys of plc.toml and their defaults are listed in docs/project.md, what it may say beside an
+Automation Studio project in docs/automation-studio.md. Everything wrong is a ConfigurationError
+that names the file and the field.
 """
 
 from __future__ import annotations
 
-import itertools
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
+from plcsim.program.layout import folder_layout, outside_libraries, program_places
+from plcsim.project.automation_studio.layout import ALL_VENDORS, layout_of
+from plcsim.project.automation_studio.logical_view import project_file as automation_studio_file
+from plcsim.project.automation_studio.reader import read_automation_studio
+from plcsim.project.automation_studio.task_classes import task_classes, tasks_to_run, tick_ns
 from plcsim.project.extension import extensions
-from plcsim.project.tables import LibrariesTable, PlcSettings, TaskClassTable, task_class_entry
+from plcsim.project.project_file import AUTOMATION_STUDIO, find_project
+from plcsim.project.tables import (
+    AutomationStudioTable,
+    LibrariesTable,
+    PlcSettings,
+    ProjectKey,
+    TaskClassTable,
+    task_class_entry,
+)
 from plcsim.settings import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Iterable, Mapping
     from pathlib import Path
 
+    from plcsim.program.layout import Layout
+    from plcsim.project.automation_studio.reader import AutomationStudioProject
     from plcsim.project.tables import ProgramEntry, TaskClassEntry
 
-FILE_NAME: Final = "plc.toml"
+PROJECT: Final = "project"
+"""Key with the path of an Automation Studio project."""
 
 _NOTHING: Final[Mapping[str, Mapping[str, Any]]] = MappingProxyType({})
-MOST_HINTS: Final = 5
-"""Projects that are named where one was not found."""
 
-_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries")
+COMPILING_NS: Final = 300_000_000_000
+"""Loading an Automation Studio project may take so long at least, on a slow host too."""
+
+_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries", PROJECT, "as")
 
 
 @dataclass(frozen=True)
 class Project:
-    """What plc.toml says; no program is loaded yet.
+    """What plc.toml and the files of Automation Studio say; no program is loaded yet.
 
     Attributes:
-        folder: where plc.toml lies.
-        name: from [plc], or the folder's.
+        folder: where plc.toml lies, or the project file of Automation Studio.
+        name: from [plc], or the folder's, or the project file's.
         plc: table [plc].
-        classes: tables [task_class.N], in order of their numbers.
+        classes: the task classes, in order of their numbers.
+        layout: where its sources lie.
         libraries: tables [library.NAME] by NAME; a library knows what it may be told.
-        library_folders: of libraries outside the project.
         extensions: settings of the extensions whose table is there, by table.
+        automation_studio: the Automation Studio project that this is, None where it is none.
+        keep_going: what cannot run is left out, and the rest runs.
+        left_out: what was left out already, and why.
     """
 
     folder: Path
     name: str
     plc: PlcSettings
     classes: tuple[TaskClassEntry, ...]
+    layout: Layout
     libraries: Mapping[str, Table] = field(default_factory=dict)
-    library_folders: tuple[Path, ...] = ()
     extensions: Mapping[str, Any] = field(default_factory=dict)
+    automation_studio: AutomationStudioProject | None = None
+    keep_going: bool = False
+    left_out: tuple[str, ...] = ()
+
+    def without(self, sources: Collection[str], left_out: Iterable[str]) -> Project:
+        """Return the project without some programs.
+
+        Args:
+            sources: of the programs.
+            left_out: what the run tells about them.
+        """
+        classes = [
+            each._replace(programs=tuple(p for p in each.programs if p.source not in sources))
+            for each in self.classes
+        ]
+        places = self.layout.programs.items()
+        layout = replace(self.layout, programs={n: p for n, p in places if n not in sources})
+        return replace(
+            self,
+            classes=tuple(each for each in classes if each.programs),
+            layout=layout,
+            left_out=(*self.left_out, *left_out),
+        )
+
+    @property
+    def load_timeout_ns(self) -> int:
+        """How long loading may take; what is compiled takes longer than Python, and always ends."""
+        timeout_ns = self.plc.init_timeout_ns
+        return timeout_ns if self.automation_studio is None else max(timeout_ns, COMPILING_NS)
 
     @property
     def programs(self) -> tuple[ProgramEntry, ...]:
@@ -62,75 +111,137 @@ class Project:
         return tuple(p for c in self.classes for p in c.programs) + last
 
 
-def find_project(path: Path) -> Path:
-    """Return the plc.toml of a project that a person named by its folder or by that file.
-
-    Raises:
-        ConfigurationError: there is none; projects nearby are named.
-    """
-    file = path if path.name == FILE_NAME else path / FILE_NAME
-    try:
-        file.stat()
-    except (FileNotFoundError, NotADirectoryError):
-        raise ConfigurationError(f"{file}: there is no such file{_nearby(path)}") from None
-    except (OSError, ValueError) as err:
-        raise ConfigurationError(f"{file}: cannot be read: {err}") from None
-    return file
-
-
-def _nearby(path: Path) -> str:
-    """Return a hint at the project that ``path`` lies in, or at those below it or beside it."""
-    for parent in path.resolve().parents:
-        if (parent / FILE_NAME).is_file():
-            return f"; did you mean {parent}?"
-    folder = path if path.is_dir() else path.parent
-    found = sorted(
-        str(f.parent) for f in itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
-    )
-    return f"; there are projects in {', '.join(found)}" if found else "; a project has one"
-
-
 def read_project(path: Path, given: Mapping[str, Mapping[str, Any]] = _NOTHING) -> Project:
-    """Read plc.toml of a project folder, without loading any program.
+    """Read a project, without loading any program.
 
     Args:
-        path: the folder, or its plc.toml.
-        given: keys by table that count more than those of the file.
+        path: its folder, its plc.toml, or its Automation Studio project file.
+        given: keys by table that count more than those of plc.toml.
 
     Raises:
         ConfigurationError: something is missing or wrong; all of it is told, with file and field.
     """
     file = find_project(path)
-    values = _toml(file)
+    values = {} if file.suffix.lower() == AUTOMATION_STUDIO else _toml(file)
     for name, keys in given.items():
         values[name] = {**values.get(name, {}), **keys}
     top = Table(file, "", values)
     top.check_keys(*_OWN_TABLES, *extensions())
     findings = Findings()
-    plc = PlcSettings()
-    classes: tuple[TaskClassEntry, ...] = ()
-    libraries: Mapping[str, Table] = {}
+    parts = _Parts(file, top)
+    with findings.gathered():
+        parts.read_settings()
+    project = None
+    with findings.gathered():
+        project = parts.project()
     settings = {}
-    with findings.gathered():
-        plc = top.table("plc").read(PlcSettings)
-    with findings.gathered():
-        classes = _task_classes(top.table("task_class"), plc.tick_ns)
-    with findings.gathered():
-        libraries = top.table("library").tables()
-    folders: tuple[Path, ...] = ()
-    with findings.gathered():
-        folders = top.table("libraries").read(LibrariesTable).folders
     for name in extensions():
         if name not in top:
             continue  # an extension that is not used is not imported
         with findings.gathered():
             settings[name] = extensions()[name].read(top.table(name))
-    name = plc.name or file.parent.resolve().name
-    project = Project(file.parent, name, plc, classes, libraries, folders, settings)
-    with findings.gathered():
-        _check_programs(file, project)
+    if project is not None:
+        with findings.gathered():
+            _check_programs(file, project)
     findings.check()
-    return project
+    assert project is not None  # or a finding had said why
+    return replace(project, extensions=settings)
+
+
+class _Parts:
+    """Reads the parts of a project.
+
+    Args:
+        file: plc.toml, or the Automation Studio project file.
+        top: what plc.toml holds.
+    """
+
+    def __init__(self, file: Path, top: Table) -> None:
+        self._file = file
+        self._top = top
+        self._plc = PlcSettings()
+        self._libraries: Mapping[str, Table] = {}
+        self._folders = LibrariesTable()
+
+    def read_settings(self) -> None:
+        findings = Findings()
+        with findings.gathered():
+            self._plc = self._top.table("plc").read(PlcSettings)
+        with findings.gathered():
+            self._libraries = self._top.table("library").tables()
+        with findings.gathered():
+            self._folders = self._top.table("libraries").read(LibrariesTable)
+        findings.check()
+
+    def project(self) -> Project:
+        automation_studio = self._automation_studio_folder()
+        if automation_studio is not None:
+            return self._of_automation_studio(automation_studio)
+        for name in ("as", PROJECT):
+            if name in self._top:
+                raise self._top.error(name, "there is no Automation Studio project here")
+        classes = _task_classes(self._top.table("task_class"), self._plc.tick_ns)
+        entries = [entry for each in classes for entry in each.programs]
+        if self._plc.exception_program is not None:
+            entries.append(self._plc.exception_program)
+        folder = self._file.parent
+        sources = [*dict.fromkeys(entry.source for entry in entries)]
+        layout = folder_layout(folder, sources, self._folders.folders)
+        name = self._plc.name or folder.resolve().name
+        return Project(folder, name, self._plc, classes, layout, self._libraries)
+
+    def _automation_studio_folder(self) -> Path | None:
+        """Return the folder of the Automation Studio project that this is, None for none."""
+        here = self._file.parent
+        named = self._top.only(PROJECT).read(ProjectKey).project
+        if named is not None:
+            return named
+        return here if automation_studio_file(here) is not None else None
+
+    def _of_automation_studio(self, folder: Path) -> Project:
+        findings = Findings()
+        settings, tables = AutomationStudioTable(), {}
+        with findings.gathered():
+            settings = self._top.table("as").read(AutomationStudioTable)
+        with findings.gathered():
+            tables = _class_tables(self._top.table("task_class"))
+        findings.check()
+        found = read_automation_studio(folder, settings.config)
+        tasks = tasks_to_run(found, settings.skip)
+        hardware = found.configuration.hardware
+        classes = task_classes(tasks, hardware, tables)
+        if not classes:
+            others = ", ".join(name for name in found.configurations)
+            raise ConfigurationError(
+                f"{found.configuration.software_file}: no task runs in the configuration "
+                f"{found.configuration.name}; there are {others}"
+            )
+        stubs = self._folders.stub
+        names = frozenset([ALL_VENDORS] if stubs is None else (name.lower() for name in stubs))
+        layout = layout_of(found, self._file.parent, tasks, names)
+        return Project(
+            self._file.parent,
+            self._plc.name or found.name,
+            replace(self._plc, tick_ns=tick_ns(hardware, classes)),
+            classes,
+            self._with_own(layout, tables),
+            self._libraries,
+            automation_studio=found,
+        )
+
+    def _with_own(self, layout: Layout, tables: Mapping[int, TaskClassTable]) -> Layout:
+        """Add programs and libraries that plc.toml names beside an Automation Studio project."""
+        entries = [entry for table in tables.values() for entry in table.programs]
+        if self._plc.exception_program is not None:
+            entries.append(self._plc.exception_program)
+        sources = [*dict.fromkeys(e.source for e in entries if e.source not in layout.programs)]
+        programs = program_places(layout.folder, sources)
+        libraries = outside_libraries(self._folders.folders)
+        return replace(
+            layout,
+            programs={**layout.programs, **programs},
+            libraries=(*libraries, *layout.libraries),
+        )
 
 
 def _toml(file: Path) -> dict[str, Any]:
@@ -144,33 +255,44 @@ def _toml(file: Path) -> dict[str, Any]:
         raise ConfigurationError(f"{file}: brackets are nested too deep") from None
 
 
-def _task_classes(table: Table, tick_ns: int) -> tuple[TaskClassEntry, ...]:
-    tables = table.tables()
-    if not tables:
-        raise table.error("", f"at least one, [task_class.{LOWEST_CLASS}], is needed")
+def _class_tables(table: Table) -> dict[int, TaskClassTable]:
+    """Return tables [task_class.N] by number."""
     numbers = {str(n): n for n in range(LOWEST_CLASS, HIGHEST_CLASS + 1)}
     findings = Findings()
-    entries = []
-    for key, each in tables.items():
+    found = {}
+    for key, each in table.tables().items():
         with findings.gathered():
             if key not in numbers:
                 raise table.error(
                     key,
                     f"task classes are [task_class.{LOWEST_CLASS}] to [task_class.{HIGHEST_CLASS}]",
                 )
-            entries.append(_task_class(each, numbers[key], tick_ns))
+            found[numbers[key]] = each.read(TaskClassTable)
     findings.check()
-    return tuple(sorted(entries))
+    return found
 
 
-def _task_class(table: Table, number: int, tick_ns: int) -> TaskClassEntry:
-    entry = task_class_entry(number, table.read(TaskClassTable))
+def _task_classes(table: Table, tick_ns: int) -> tuple[TaskClassEntry, ...]:
+    tables = _class_tables(table)
+    if not tables:
+        raise table.error("", f"at least one, [task_class.{LOWEST_CLASS}], is needed")
+    findings = Findings()
+    entries = []
+    for number, each in sorted(tables.items()):
+        with findings.gathered():
+            entries.append(_task_class(table, number, each, tick_ns))
+    findings.check()
+    return tuple(entries)
+
+
+def _task_class(table: Table, number: int, each: TaskClassTable, tick_ns: int) -> TaskClassEntry:
+    entry = task_class_entry(number, each)
     if entry.cycle_ns % tick_ns:
         raise table.error(
-            "cycle", f"{entry.cycle_ns} ns is not a multiple of the tick, {tick_ns} ns"
+            f"{number}.cycle", f"{entry.cycle_ns} ns is not a multiple of the tick, {tick_ns} ns"
         )
     if not entry.programs:
-        raise table.error("programs", "at least one program is needed")
+        raise table.error(f"{number}.programs", "at least one program is needed")
     return entry
 
 

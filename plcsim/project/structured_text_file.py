@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.task import HIGHEST_CLASS
-from plcsim.library.library import check_scope, declaration_files, read_declarations
+from plcsim.library.library import check_scope, declarations_of, read_declarations, sources_in
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
-from plcsim.program.structured_text.check.program import declarations_of
+from plcsim.program.structured_text.check.program import declarations_of as declared_in
 from plcsim.program.structured_text.code import compile_program
 from plcsim.program.structured_text.dialect import is_standard
-from plcsim.program.structured_text.language import files_below
+from plcsim.program.structured_text.language import STRUCTURED_TEXT
 from plcsim.program.structured_text.layout import NOTHING
 from plcsim.program.structured_text.sources import check_syntax, read_files
 from plcsim.program.structured_text.syntax.tree import Configuration, ProgramUnit
@@ -71,11 +71,12 @@ def load_file(path: Path, cycle_ns: int | None = None) -> Application:
     (file,) = read_files([path])
     check_syntax([file])
     standard = is_standard(file)
-    files = [file] if standard else read_files(files_below(path.parent))
+    around = sources_in(path.parent)
+    files = [file] if standard else read_files(STRUCTURED_TEXT.units(around))
     check_syntax(files)
     name = path.stem if standard else path.resolve().parent.name
     catalogue = installed_catalogue()
-    declared = [*read_declarations(declaration_files(path.parent)), *map(declarations_of, files)]
+    declared = [*read_declarations(declarations_of(around)), *map(declared_in, files)]
     dialect = IEC if standard else AUTOMATION_STUDIO
     scope = Scope(name, declared, catalogue.scopes, dialect=dialect, strict=True)
     warnings = check_scope(scope)

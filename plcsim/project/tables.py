@@ -142,9 +142,36 @@ class LibrariesTable:
 
     Attributes:
         folders: of libraries outside the project; a relative path begins at the project's folder.
+        stub: libraries in which what has no body is idle; None for all of an Automation Studio
+            project that come without source.
     """
 
     folders: tuple[Annotated[Path, PathTo("folder")], ...] = ()
+    stub: tuple[str, ...] | None = None
+
+
+@settings
+class ProjectKey:
+    """The key ``project`` of plc.toml.
+
+    Attributes:
+        project: folder of an Automation Studio project.
+    """
+
+    project: Annotated[Path, PathTo("folder")] | None = None
+
+
+@settings
+class AutomationStudioTable:
+    """Table [as], beside an Automation Studio project.
+
+    Attributes:
+        config: the configuration that runs, "" for the active one.
+        skip: names of tasks that do not run.
+    """
+
+    config: str = ""
+    skip: tuple[str, ...] = ()
 
 
 class TaskClassEntry(NamedTuple):

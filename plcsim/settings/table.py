@@ -61,6 +61,11 @@ class Table:
         """Return a table inside this one, empty where there is none."""
         return Table(self._file, self._field(key), self._values.pop(key, {}))
 
+    def only(self, *keys: str) -> Table:
+        """Return the part of this table that has these keys."""
+        values = {key: self._values.pop(key) for key in keys if key in self._values}
+        return Table(self._file, self._name, values)
+
     def tables(self) -> dict[str, Table]:
         """Return all that is inside as tables, by key.
 

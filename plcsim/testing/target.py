@@ -9,7 +9,8 @@ from plcsim.core.duration import parse_duration_ns
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.project.assembly import Application, load
-from plcsim.project.plc_toml import FILE_NAME, read_project
+from plcsim.project.plc_toml import read_project
+from plcsim.project.project_file import FILE_NAME, project_file
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
@@ -29,7 +30,7 @@ def find_project(start: Path) -> Path:
         PlcTestError: there is none.
     """
     for folder in (start, *start.parents):
-        if (folder / FILE_NAME).is_file():
+        if project_file(folder) is not None:
             return folder
     raise PlcTestError(
         f"no {FILE_NAME} in {start} or above it; name the project with "

@@ -1,6 +1,6 @@
 """ANSI C and C++ as languages of programs, and of the bodies of libraries.
 
-All C files of a program's folder and of the folders in it are one program. Its units are the
+All C files of a program are one. Its units are the
 functions marked ``_INIT``, ``_CYCLIC`` and ``_EXIT``. Variables that a .var file declares are those
 of the controller; what C defines itself lies in PLC memory as well.
 """
@@ -26,9 +26,9 @@ class C:
 
     name: Final = NAME
 
-    def units(self, folder: Path) -> list[Path]:
-        """Return the C files of a folder: which of them hold units, the compiler finds out."""
-        return c_files(folder)
+    def units(self, files: Sequence[Path]) -> list[Path]:
+        """Return the C files of a program: which of them hold units, the compiler finds out."""
+        return c_files(files)
 
     def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Return nothing: what C declares is its own."""
@@ -48,7 +48,7 @@ class CBodies:
 
     def bodies(self, library: Library) -> dict[str, Executable]:
         """Compile the C files of a library; return the bodies in them."""
-        files = c_files(library.folder)
+        files = c_files(library.files)
         if not files:
             return {}
         from plcsim.program.c.library import bodies_in  # noqa: PLC0415  # as in `load` above

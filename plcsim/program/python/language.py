@@ -73,10 +73,11 @@ class Python:
 
     name: Final = "Python"
 
-    def units(self, folder: Path) -> list[Path]:
+    def units(self, files: Sequence[Path]) -> list[Path]:
         """Return the files with the program's class, or those with a unit each."""
-        files = [folder / f"{name}.py" for name in (*_CLASS_FILES, *_UNIT_FILES.values())]
-        return [file for file in files if file.is_file()]
+        names = [f"{stem}.py" for stem in (*_CLASS_FILES, *_UNIT_FILES.values())]
+        by_name = {file.name: file for file in files}
+        return [by_name[name] for name in names if name in by_name]
 
     def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Return nothing: what a class declares is checked where it is loaded."""

@@ -3,7 +3,13 @@
 import pytest
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.library.library import Library, check_scope, declaration_files, read_declarations
+from plcsim.library.library import (
+    Library,
+    check_scope,
+    declarations_of,
+    files_in,
+    read_declarations,
+)
 from st_types.resolve.scope import Scope
 
 
@@ -28,7 +34,12 @@ def test_its_scope_sees_the_libraries_around_it(library):
 def test_declaration_files_are_found_in_any_case_and_in_order(tmp_path):
     for name in ("b.VAR", "a.typ", "c.Fun", "d.st", "e.txt"):
         (tmp_path / name).write_text("")
-    assert [file.name for file in declaration_files(tmp_path)] == ["a.typ", "b.VAR", "c.Fun"]
+    found = declarations_of(files_in(tmp_path))
+    assert [file.name for file in found] == [
+        "a.typ",
+        "b.VAR",
+        "c.Fun",
+    ]
 
 
 def test_a_file_that_cannot_be_read_is_named(tmp_path):
@@ -38,7 +49,7 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
 
 def test_a_folder_that_cannot_be_read_is_named(tmp_path):
     with pytest.raises(ConfigurationError, match="gone: cannot be read: No such file"):
-        declaration_files(tmp_path / "gone")
+        files_in(tmp_path / "gone")
 
 
 def test_errors_are_told_with_a_caret_and_warnings_are_given_back(tmp_path):

@@ -3,7 +3,8 @@
 import pytest
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.program.declarations import Declarations, library_folders
+from plcsim.program.declarations import Declarations
+from plcsim.program.layout import folder_layout
 from st_types.types.elementary import INT, UINT
 
 BLOCK = "FUNCTION_BLOCK {} VAR_OUTPUT x : {}; END_VAR END_FUNCTION_BLOCK\n"
@@ -15,7 +16,7 @@ def declare(project):
 
     def declare(files, *programs, libraries=()):
         folder = project({"plc.toml": ""} | files)
-        return Declarations(folder, "cell", [folder / name for name in programs], libraries)
+        return Declarations(folder_layout(folder, programs, libraries), "cell")
 
     return declare
 
@@ -34,13 +35,13 @@ def test_a_program_sees_itself_the_folders_around_it_and_libraries(declare):
         "ramps/ramps.typ": "TYPE t : LREAL; END_TYPE",
     }
     found = declare(files, "lines/left", "lines/right")
-    scope = found.scope_of(found.folder / "lines" / "left")
+    scope = found.scope_of("lines/left")
     assert names(scope.chain)[:4] == ["left", "lines", "cell", "ramps"]
     assert "standard" in names(scope.chain)
     sizes = {name: scope.find_type(name).size for name in ("t", "u", "v", "w", "Ramp")}
     assert sizes == {"t": UINT.size, "u": INT.size, "v": 1, "w": INT.size, "Ramp": 8}
     assert scope.find_type("secret") is None
-    assert found.scope_of(found.folder / "lines" / "left") is scope
+    assert found.scope_of("lines/left") is scope
 
 
 def test_libraries_come_from_the_project_then_from_plc_toml_then_installed(declare, tmp_path):
@@ -66,23 +67,6 @@ def test_two_libraries_of_one_name_are_refused(declare, tmp_path):
         declare(files)
 
 
-def test_where_libraries_are_looked_for(project):
-    deep = "a/b/c/d/"
-    files = ["ramps/r.fun", "lib/more/R.FUN", "main/local.fun", "main/inner/i.fun", "tests/t.fun"]
-    files += [".git/g.fun", "_old/o.fun", "ramps/inner/i.fun", f"{deep}d.fun", f"{deep}e/e.fun"]
-    folder = project(dict.fromkeys(files, ""))
-    found = library_folders(folder, [folder / "main"])
-    assert [str(path.relative_to(folder)) for path in found] == ["a/b/c/d", "lib/more", "ramps"]
-
-
-def test_a_folder_that_may_not_be_read_holds_no_library(project, monkeypatch):
-    folder = project({"ramps/r.fun": "", "closed/c.fun": ""})
-    real = __import__("os").access
-    monkeypatch.setattr("os.access", lambda path, mode: "closed" not in path and real(path, mode))
-    assert library_folders(folder) == [folder / "ramps"]
-    assert library_folders(folder / "gone") == []
-
-
 def test_all_errors_are_told_at_once_with_file_line_and_caret(declare):
     files = {
         "Global.var": "VAR\n  a : Nothing;\nEND_VAR\n",
@@ -90,10 +74,12 @@ def test_all_errors_are_told_at_once_with_file_line_and_caret(declare):
         "ramps/ramps.fun": "FUNCTION_BLOCK Ramp VAR x : INT END_VAR\n",
     }
     found = declare(files, "main")
-    found.scope_of(found.folder / "main")
     with pytest.raises(ConfigurationError) as raised:
         found.check()
-    library, shared, local = raised.value.findings
+    library, shared = raised.value.findings
+    with pytest.raises(ConfigurationError) as raised:
+        found.check_program("main")
+    (local,) = raised.value.findings
     assert f"{found.folder}/ramps/ramps.fun:1" in library
     assert shared.splitlines()[0].endswith("Global.var:2:7: error: no type is called Nothing")
     assert local.splitlines()[0].endswith("Variables.var:2:14: error: 'x' is not a value of INT")
@@ -115,18 +101,16 @@ def test_global_variables_are_those_of_the_project_its_folders_and_its_libraries
         "ramps/ramps.var": "VAR c : INT; END_VAR VAR CONSTANT C : INT := 1; END_VAR",
     }
     found = declare(files, "lines/left")
-    left = found.folder / "lines" / "left"
-    found.scope_of(left)
-    assert [v.name for v in found.global_variables([left])] == ["a", "A", "b", "c"]
+    assert [v.name for v in found.global_variables()] == ["a", "A", "b", "c"]
 
 
 def test_a_global_variable_is_declared_once(declare):
     files = {"A.var": "VAR a : INT; END_VAR", "lines/B.var": "\nVAR a : INT; END_VAR"}
     files["lines/left/main.py"] = ""
     found = declare(files, "lines/left")
-    found.scope_of(found.folder / "lines" / "left")
+    assert [v.file.path for v in found.global_variables()] == [f"{found.folder}/A.var"]
     with pytest.raises(ConfigurationError) as raised:
-        found.global_variables()
+        found.check()
     assert str(raised.value) == (
         f"{found.folder}/lines/B.var:2:5: error: the global variable a is declared in "
         f"{found.folder}/A.var:1:5 already"

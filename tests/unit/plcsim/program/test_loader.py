@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.python.language import PYTHON
 
@@ -21,7 +22,7 @@ def load(project):
     """``load(files)``: the class of program ``main``, or of another source."""
 
     def load(files, source="main"):
-        return ProgramLoader(project(files), [source]).load()[source].program
+        return ProgramLoader(folder_layout(project(files), [source])).load()[source].program
 
     return load
 
@@ -46,8 +47,8 @@ class Other:
 
     name = "Other"
 
-    def units(self, folder):
-        return sorted(folder.glob("*.other"))
+    def units(self, files):
+        return [file for file in files if file.suffix == ".other"]
 
     def declarations(self, files):
         return ()
@@ -58,19 +59,19 @@ class Other:
 
 def test_a_program_is_loaded_by_the_language_that_has_units_in_its_folder(project):
     folder = project({"main/b.other": "", "main/a.other": "", "main/notes.txt": ""})
-    loader = ProgramLoader(folder, ["main"], languages=[PYTHON, Other()])
+    loader = ProgramLoader(folder_layout(folder, ["main"]), languages=[PYTHON, Other()])
     source = loader.load()["main"].source
     assert loader.warnings == ["main: a warning"]
     assert (source.name, source.folder) == ("main", folder / "main")
     assert source.declarations is loader.declarations
-    assert source.scope is loader.declarations.scope_of(folder / "main")
+    assert source.scope is loader.declarations.scope_of("main")
     assert [file.name for file in source.files] == ["a.other", "b.other"]
 
 
 def test_a_program_has_one_language(project):
     folder = project({"main/a.other": "", "main/main.py": ""})
     with pytest.raises(ConfigurationError) as raised:
-        ProgramLoader(folder, ["main"], languages=[PYTHON, Other()]).load()
+        ProgramLoader(folder_layout(folder, ["main"]), languages=[PYTHON, Other()]).load()
     assert str(raised.value) == (
         f"{folder / 'main'}: holds units in Python and Other; a program has one language"
     )
@@ -78,7 +79,7 @@ def test_a_program_has_one_language(project):
 
 def test_a_block_without_a_body_is_a_warning(project):
     files = {"main/main.py": CLASS, "ramps/ramps.fun": "FUNCTION_BLOCK Ramp END_FUNCTION_BLOCK"}
-    loader = ProgramLoader(project(files), ["main"])
+    loader = ProgramLoader(folder_layout(project(files), ["main"]))
     loader.load()
     (warning,) = loader.warnings
     assert warning.endswith("ramps/ramps.fun:1:16: warning: Ramp has no body")
@@ -88,7 +89,7 @@ def test_two_projects_do_not_mix(project, tmp_path):
     first = project({"main/main.py": CLASS})
     second = first.rename(tmp_path / "other")
     project({"main/main.py": CLASS.replace("Main", "Other")})
-    loaders = [ProgramLoader(folder, ["main"]) for folder in (second, first)]
+    loaders = [ProgramLoader(folder_layout(folder, ["main"])) for folder in (second, first)]
     programs = [loader.load()["main"].program for loader in loaders]
     assert [program.__name__ for program in programs] == ["Main", "Other"]
 
@@ -110,6 +111,11 @@ def test_a_folder_without_a_program(load):
     assert wrong(load, {"main/notes.txt": ""}) == told
 
 
+def test_a_language_that_is_not_there_is_named(load):
+    told = "main: is written in Ladder Diagram, which plcsim does not run"
+    assert wrong(load, {"main/Main.LD": ""}) == told
+
+
 def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
     def refused(path, **_):
         raise PermissionError(13, "Permission denied", str(path))
@@ -117,5 +123,6 @@ def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
     files = {"main/main.py": ""}
     with monkeypatch.context() as patched:
         load(files | {"other/main.py": CLASS}, "other")
-        patched.setattr(Path, "is_file", refused)
-        assert wrong(load, files) == "main/variables.py: Permission denied"
+        patched.setattr(Path, "iterdir", refused)
+        with pytest.raises(ConfigurationError, match="main: cannot be read: Permission denied"):
+            load(files)

@@ -280,7 +280,7 @@ def test_folders_of_libraries_begin_at_the_project(read):
     (folder / "lib").mkdir()
     (folder.parent / "other").mkdir()
     found = read(MAIN + '[libraries]\nfolders = ["lib", "../other"]')
-    assert [path.resolve().name for path in found.library_folders] == ["lib", "other"]
+    assert [place.folder.name for place in found.layout.libraries] == ["lib", "other"]
     with pytest.raises(ConfigurationError, match=r"libraries\.folders: there is no such folder"):
         read(MAIN + '[libraries]\nfolders = ["nowhere"]')
     with pytest.raises(ConfigurationError, match=r"libraries\.folder: unknown key; did you mean f"):

@@ -7,6 +7,7 @@ from plcsim.core.system import State
 from plcsim.program.c.language import C_LANGUAGE
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
+from plcsim.program.layout import folder_layout
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.program.variables import variables_of
 
@@ -78,9 +79,10 @@ def load(tmp_path):
         for name, text in files.items():
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_text(text)
-        units = C_LANGUAGE.units(folder)
-        declarations = Declarations(tmp_path, "package", [folder])
-        scope, shared = declarations.scope_of(folder), variables_of("globals", ())
+        layout = folder_layout(tmp_path, ["conveyor"])
+        units = C_LANGUAGE.units(layout.programs["conveyor"].own.files)
+        declarations = Declarations(layout, "package")
+        scope, shared = declarations.scope_of("conveyor"), variables_of("globals", ())
         source = ProgramSource("conveyor", folder, units, declarations, scope, shared)
         return C_LANGUAGE.load(source)
 

@@ -3,6 +3,7 @@
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.python.bodies import PythonBodies
 from plcsim.program.site import Site
@@ -15,7 +16,7 @@ def bodies(project, ramp):
     """``bodies(files)``: what executes the library of the project, by name."""
 
     def bodies(files=None):
-        loader = ProgramLoader(project(ramp | (files or {})))
+        loader = ProgramLoader(folder_layout(project(ramp | (files or {}))))
         (library,) = loader.declarations.own_libraries
         return PythonBodies().bodies(library)
 

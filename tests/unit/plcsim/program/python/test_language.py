@@ -8,6 +8,7 @@ from plcsim.core.context import Context
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.memory import PAGE, Memory
 from plcsim.core.task import Unit
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader, installed_catalogue
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
@@ -37,7 +38,7 @@ def load(project):
     """``load(files)``: the class of program ``main``, or of another source."""
 
     def load(files, source="main"):
-        return ProgramLoader(project(files), [source]).load()[source].program
+        return ProgramLoader(folder_layout(project(files), [source])).load()[source].program
 
     return load
 
@@ -185,14 +186,14 @@ def test_a_file_that_is_no_text_is_named(project, data):
     folder = project({"main/main.py": ""})
     (folder / "main" / "main.py").write_bytes(data)
     with pytest.raises(ConfigurationError) as raised:
-        ProgramLoader(folder, ["main"]).load()
+        ProgramLoader(folder_layout(folder, ["main"])).load()
     assert str(folder / "main") in str(raised.value)
 
 
 def test_ctrl_c_while_loading_is_not_taken_for_a_wrong_program(project):
     folder = project({"main/main.py": "raise KeyboardInterrupt\n"})
     with pytest.raises(KeyboardInterrupt):
-        ProgramLoader(folder, ["main"]).load()
+        ProgramLoader(folder_layout(folder, ["main"])).load()
 
 
 def test_a_task_runs_the_units_of_its_program_on_its_own_variables():

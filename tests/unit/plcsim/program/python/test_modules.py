@@ -6,6 +6,7 @@ import textwrap
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.python.modules import load_module
 
@@ -26,7 +27,7 @@ def loaded(project, ramp):
     def loaded(imports, files=None, libraries=()):
         text = MAIN.format(imports=imports)
         folder = project(ramp | {"main/main.py": text} | (files or {}))
-        loader = ProgramLoader(folder, ["main"], libraries)
+        loader = ProgramLoader(folder_layout(folder, ["main"], libraries))
         loaders.append(loader)
         loader.load()
         return sys.modules[f"{loader.package}.main.main"]

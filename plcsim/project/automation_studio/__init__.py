@@ -1,0 +1,1 @@
+"""Automation Studio projects, as they lie on the disk: read, never written."""

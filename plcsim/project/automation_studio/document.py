@@ -1,0 +1,142 @@
+"""XML files of Automation Studio, read into elements that know their lines.
+
+A document type is refused: its entities can make much of little. So is what is too large, or nested
+too deep.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+from xml.parsers import expat
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from pathlib import Path
+
+MAX_BYTES: Final = 32 << 20
+"""Bytes of a file that are read; real ones stay below 4 MiB."""
+
+MAX_DEPTH: Final = 100
+"""Elements one inside the other; real ones stay below 20."""
+
+
+class DocumentError(Exception):
+    """A file cannot be read as XML.
+
+    Attributes:
+        line: where, 0 where it is the whole file.
+    """
+
+    def __init__(self, message: str, line: int = 0) -> None:
+        super().__init__(message)
+        self.line = line
+
+
+@dataclass(slots=True)
+class Element:
+    """An element of a document.
+
+    Attributes:
+        tag: its name without the namespace.
+        attributes: as they are spelled.
+        line: where it begins.
+        text: of the element itself, before its first child.
+        children: the elements in it.
+    """
+
+    tag: str
+    attributes: Mapping[str, str]
+    line: int
+    text: str = ""
+    children: list[Element] = field(default_factory=list)
+
+    def get(self, key: str, default: str = "") -> str:
+        """Return an attribute."""
+        return self.attributes.get(key, default)
+
+    def is_true(self, key: str) -> bool:
+        """Whether an attribute says "true"."""
+        return self.get(key).strip().lower() == "true"
+
+    def all(self, *tags: str) -> Iterator[Element]:
+        """Yield this element and those in it, in order, that have one of ``tags``."""
+        waiting = [self]
+        while waiting:
+            element = waiting.pop()
+            if element.tag in tags:
+                yield element
+            waiting += reversed(element.children)
+
+
+def read_document(file: Path) -> Element:
+    """Return the root element of an XML file.
+
+    Raises:
+        DocumentError: the file cannot be read, or is no such XML.
+    """
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except OSError as err:
+        raise DocumentError(err.strerror or str(err)) from None
+    if len(data) > MAX_BYTES:
+        raise DocumentError(f"it is larger than {MAX_BYTES >> 20} MiB")
+    return parse(data)
+
+
+def parse(data: bytes) -> Element:
+    """Return the root element of an XML text.
+
+    Raises:
+        DocumentError: it is no such XML.
+    """
+    builder = _Builder()
+    try:
+        builder.parser.Parse(data, True)  # noqa: FBT003  # expat takes no names
+    except expat.ExpatError as err:
+        message = expat.ErrorString(err.code)
+        raise DocumentError(f"it is no XML: {message}", err.lineno) from None
+    except (LookupError, ValueError) as err:
+        raise DocumentError(f"it is no XML: {err}", builder.line) from None
+    assert builder.root is not None  # or expat had found no element
+    return builder.root
+
+
+class _Builder:
+    """Makes elements of what the parser finds."""
+
+    def __init__(self) -> None:
+        self.root: Element | None = None
+        self._open: list[Element] = []
+        self.parser = expat.ParserCreate()
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self._text
+        self.parser.StartDoctypeDeclHandler = self._doctype
+
+    @property
+    def line(self) -> int:
+        return self.parser.CurrentLineNumber
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        if len(self._open) >= MAX_DEPTH:
+            raise DocumentError(f"elements are nested deeper than {MAX_DEPTH}", self.line)
+        element = Element(name.rpartition(":")[2], attributes, self.line)
+        if self._open:
+            self._open[-1].children.append(element)
+        else:
+            self.root = element
+        self._open.append(element)
+
+    def _end(self, _name: str) -> None:
+        self._open.pop()
+
+    def _text(self, text: str) -> None:
+        element = self._open[-1]
+        if not element.children:
+            element.text += text
+
+    def _doctype(self, name: str, *_rest: object) -> None:
+        raise DocumentError(f"a document type ({name}) has no place here", self.line)

@@ -1,0 +1,86 @@
+"""``Cpu.sw``: which program runs as which task in which task class."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.project.automation_studio.document import DocumentError, read_document
+from plcsim.project.automation_studio.finding import Finding
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from plcsim.project.automation_studio.document import Element
+
+SUFFIX: Final = ".prg"
+
+_CLASS = re.compile(r"Cyclic#([1-8])", re.IGNORECASE)
+
+
+class TaskLine(NamedTuple):
+    """A task as Cpu.sw has it.
+
+    Attributes:
+        name: of the task.
+        source: names of the packages around the program, and its own.
+        task_class: 1 to 8.
+        line: of Cpu.sw.
+        build_options: for the compiler of C.
+    """
+
+    name: str
+    source: tuple[str, ...]
+    task_class: int
+    line: int
+    build_options: str = ""
+
+
+class Software(NamedTuple):
+    """What Cpu.sw says: the tasks that run, in its order, and the names of the disabled ones."""
+
+    tasks: tuple[TaskLine, ...] = ()
+    disabled: tuple[str, ...] = ()
+
+
+def read_software(file: Path) -> tuple[Software, list[Finding]]:
+    """Read Cpu.sw; tasks of technology packages, which have no source, are left out."""
+    try:
+        root = read_document(file)
+    except DocumentError as err:
+        return Software(), [Finding(file, err.line, str(err))]
+    tasks: list[TaskLine] = []
+    disabled: list[str] = []
+    findings: list[Finding] = []
+    for element in root.all("TaskClass"):
+        number = _CLASS.fullmatch(element.get("Name").strip())
+        for task in element.all("Task"):
+            if not task.get("Source").strip():
+                continue
+            if number is None:
+                message = f"{element.get('Name')!r} is no task class; task {task.get('Name')}"
+                findings.append(Finding(file, element.line, message))
+            elif task.is_true("Disabled"):
+                disabled.append(task.get("Name"))
+            else:
+                tasks.append(_task(task, int(number[1])))
+    return Software(tuple(tasks), tuple(disabled)), findings + _same_names(file, tasks)
+
+
+def _task(element: Element, number: int) -> TaskLine:
+    source = element.get("Source").strip()
+    path = source[: -len(SUFFIX)] if source.lower().endswith(SUFFIX) else source
+    name = element.get("Name").strip() or path.rpartition(".")[2]
+    options = element.get("BuildOptions")
+    return TaskLine(name, tuple(path.split(".")), number, element.line, options)
+
+
+def _same_names(file: Path, tasks: list[TaskLine]) -> list[Finding]:
+    seen: dict[str, TaskLine] = {}
+    findings = []
+    for task in tasks:
+        other = seen.setdefault(task.name.upper(), task)
+        if other is not task:
+            message = f"a task is called {task.name} in line {other.line} already"
+            findings.append(Finding(file, task.line, message))
+    return findings

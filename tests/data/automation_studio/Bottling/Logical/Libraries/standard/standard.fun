@@ -1,0 +1,16 @@
+﻿
+FUNCTION_BLOCK TON
+	VAR_INPUT
+		IN : BOOL;
+		PT : TIME;
+	END_VAR
+	VAR_OUTPUT
+		Q : BOOL;
+		ET : TIME;
+	END_VAR
+	VAR
+		M : BOOL;
+		StartTime : TIME;
+		Restart : UDINT;
+	END_VAR
+END_FUNCTION_BLOCK

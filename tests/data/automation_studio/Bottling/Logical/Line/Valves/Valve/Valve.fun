@@ -1,0 +1,7 @@
+﻿
+FUNCTION Rising : BOOL
+	VAR_INPUT
+		now : BOOL;
+		old : BOOL;
+	END_VAR
+END_FUNCTION

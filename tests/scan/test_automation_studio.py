@@ -1,0 +1,56 @@
+"""A whole Automation Studio project on the virtual clock: everything that its files say."""
+
+from pathlib import Path
+
+import pytest
+
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.core.errors import ConfigurationError
+from plcsim.testing.target import open_plc
+
+BOTTLING = Path(__file__).parents[1] / "data" / "automation_studio" / "Bottling"
+
+
+@pytest.fixture
+def plc():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+    with open_plc(project=BOTTLING) as plc:
+        yield plc
+
+
+def test_task_classes_run_with_the_times_of_the_hardware(plc):
+    plc.run("8s")
+    assert plc["gTicks"] == 10_000
+    assert plc["Clock.seconds"] == 8
+    assert plc["Count.cycles"] == 100
+
+
+def test_actions_libraries_and_globals_of_packages(plc):
+    plc["gStart"] = True
+    plc.run("40ms")
+    assert plc["gLamp"] is True
+    plc.run("8s")
+    assert plc["gLine.bottles"] == plc["gTotal"] > 5
+    assert plc["stationShare"] == pytest.approx(plc["gLine.bottles"] / 10)
+    assert plc["gLine.names[0]"] == "Kölsch"
+
+
+def test_one_source_as_two_tasks_with_variables_of_their_own(plc):
+    for _ in range(3):
+        plc["ValveA.command"] = True
+        plc.run("16ms")
+        plc["ValveA.command"] = False
+        plc.run("16ms")
+    assert (plc["ValveA.opened"], plc["ValveB.opened"]) == (3, 0)
+    assert plc["linePulse.count"] == 3
+
+
+def test_what_nothing_executes_is_idle_and_told(plc):
+    plc.run("100ms")
+    assert plc["FillStatio.alarms.Enable"] is True
+    assert plc["FillStatio.alarm_ready"] is False
+    texts = [entry.text for entry in plc.controller.logbook]
+    assert "MpAlarm: MpAlarmCore: nothing executes them here, they do nothing" in texts

@@ -1,0 +1,49 @@
+import pytest
+
+from plcsim.project.automation_studio import document
+from plcsim.project.automation_studio.document import DocumentError, parse, read_document
+
+TEXT = """\ufeff<?xml version="1.0" encoding="utf-8"?>
+<?AutomationStudio Version=4.1.17.113 SP?>
+<a xmlns="http://br-automation.co.at/AS/Package">
+  <b Name="x" Private="TRUE">one<c/>lost</b>
+  <c><b>two</b></c>
+</a>"""
+
+
+def test_elements_know_their_lines_attributes_and_texts():
+    root = parse(TEXT.encode())
+    assert (root.tag, root.line) == ("a", 3)
+    assert [(each.tag, each.text, each.line) for each in root.all("b")] == [
+        ("b", "one", 4),
+        ("b", "two", 5),
+    ]
+    first = root.children[0]
+    assert (first.get("Name"), first.get("none", "?"), first.is_true("Private")) == ("x", "?", True)
+
+
+@pytest.mark.parametrize(
+    ("data", "message", "line"),
+    [
+        (b"", "it is no XML: no element found", 1),
+        (b"<a>\n<b>\n</a>", "it is no XML: mismatched tag", 3),
+        (b'<?xml version="1.0" encoding="nonsense"?><a/>', "it is no XML: ", 1),
+        (b'\n<!DOCTYPE a [<!ENTITY b "c">]>\n<a>&b;</a>', "a document type (a) has no place", 2),
+        (b"<a>\n" * 200 + b"</a>" * 200, "elements are nested deeper than 100", 101),
+        (b"<a>\xff</a>", "it is no XML: not well-formed", 1),
+    ],
+)
+def test_what_is_no_such_document(data, message, line):
+    with pytest.raises(DocumentError) as raised:
+        parse(data)
+    assert str(raised.value).startswith(message)
+    assert raised.value.line == line
+
+
+def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
+    with pytest.raises(DocumentError, match="No such file"):
+        read_document(tmp_path / "gone.pkg")
+    (tmp_path / "large.pkg").write_text("<a/>" + " " * 100)
+    monkeypatch.setattr(document, "MAX_BYTES", 50)
+    with pytest.raises(DocumentError, match="it is larger than"):
+        read_document(tmp_path / "large.pkg")

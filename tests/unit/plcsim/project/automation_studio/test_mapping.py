@@ -1,0 +1,77 @@
+import pytest
+
+from plcsim.project.automation_studio import mapping
+from plcsim.project.automation_studio.mapping import (
+    Channel,
+    Copy,
+    Pv,
+    read_channels,
+    read_copies,
+    read_permanent,
+)
+
+CHANNELS = """VAR_CONFIG
+  ::gStart AT %IX."X20 DI.9371".DigitalInput01; (* two
+lines; *)
+  ::Valve:io[2].open AT %QX."Out".Digital.Output01 INVERSE; // rest
+  Cyclic#1.gAxis.speed AT %QW."8I64.00x-1".Speed;
+  Cyclic#4.::Task:x AT %ib."In".B;
+END_VAR
+var_config
+  last AT %ID."In".D; END_VAR
+"""
+
+
+def test_channels_with_their_variables_modules_and_lines(write):
+    found, findings = read_channels(write({"IoMap.iom": CHANNELS}) / "IoMap.iom")
+    assert findings == []
+    assert found == [
+        Channel(Pv("", "gStart"), "I", "X", "X20 DI.9371", "DigitalInput01", False, 2),
+        Channel(Pv("Valve", "io[2].open"), "Q", "X", "Out", "Digital.Output01", True, 4),
+        Channel(Pv("", "gAxis.speed", 1), "Q", "W", "8I64.00x-1", "Speed", False, 5),
+        Channel(Pv("Task", "x", 4), "I", "B", "In", "B", False, 6),
+        Channel(Pv("", "last"), "I", "D", "In", "D", False, 9),
+    ]
+    assert found[0].name == '%IX."X20 DI.9371".DigitalInput01'
+    assert [each.pv.tag for each in found[:2]] == ["gStart", "Valve.io[2].open"]
+
+
+def test_copies_and_permanent_variables(write):
+    folder = write(
+        {
+            "PvMap.vvm": "VAR_CONFIG\n::A:x.y AT %Q.::gZ;\nCyclic#1.::B:a AT %Q.Cyclic#1.::C:b;\n",
+            "Cpu.per": "VAR_CONFIG\n gCount AT %MD16200; (* *)\nEND_VAR",
+        }
+    )
+    copies, findings = read_copies(folder / "PvMap.vvm")
+    assert findings == []
+    assert copies == [
+        Copy(Pv("A", "x.y"), Pv("", "gZ"), 2),
+        Copy(Pv("B", "a", 1), Pv("C", "b", 1), 3),
+    ]
+    assert read_permanent(folder / "Cpu.per") == ([Pv("", "gCount")], [])
+
+
+@pytest.mark.parametrize("read", [read_channels, read_copies, read_permanent])
+def test_what_is_no_mapping_is_found_with_its_line(write, read):
+    found, findings = read(write({"x": "VAR_CONFIG\n\n nonsense;\n a AT %ZZ;\n"}) / "x")
+    assert found == []
+    assert [each.line for each in findings] == [3, 4]
+
+
+def test_a_file_in_an_old_code_page_is_read(tmp_path):
+    (tmp_path / "x").write_bytes(b'a AT %IX."M".K\xe4se; (* gr\xf6\xdfe *)')
+    ((channel,), findings) = read_channels(tmp_path / "x")
+    assert (channel.channel, findings) == ("Käse", [])
+
+
+def test_files_that_cannot_be_read(tmp_path, monkeypatch):
+    assert read_channels(tmp_path / "gone")[1][0].message == "No such file or directory"
+    (tmp_path / "large").write_text(" " * 100)
+    monkeypatch.setattr(mapping, "MAX_BYTES", 50)
+    assert "larger than" in read_channels(tmp_path / "large")[1][0].message
+
+
+def test_an_endless_comment_ends_with_the_file(write):
+    found, findings = read_channels(write({"x": 'a AT %IX."M".C; (* b AT %IX."M".D;'}) / "x")
+    assert (len(found), findings) == (1, [])

@@ -1,0 +1,79 @@
+import pytest
+
+from plcsim.core.errors import ConfigurationError
+from plcsim.project.automation_studio.reader import read_automation_studio
+
+
+def test_everything_that_a_project_says(bottling):
+    found = read_automation_studio(bottling)
+    assert (found.name, found.configuration.name) == ("Bottling", "Machine")
+    assert found.configurations == ("Simulation", "Machine")
+    assert [(each.name, each.task_class, each.source) for each in found.tasks] == [
+        ("Clock", 1, "Clock"),
+        ("FillStatio", 2, "line.Filler.Station.FillStation"),
+        ("ValveA", 2, "Line.Valves.Valve"),
+        ("ValveB", 2, "Line.Valves.Valve"),
+        ("Boiler", 2, "Plant.Boiler"),
+        ("Count", 4, "Line.Valves.Count"),
+    ]
+    assert [(each.name, each.data_type) for each in found.mapp_variables] == [
+        ("gAlarmCore", "MpComIdentType")
+    ]
+    assert (len(found.channels), len(found.copies), len(found.permanent)) == (5, 2, 1)
+    assert [each.missing for each in found.findings] == ["Manual.pdf"]
+    station = found.tasks[1].program
+    assert [file.name for file in station.files] == [
+        *("Init.st", "Cyclic.st", "Variables.var", "Fill.st", "Cap.st", "Exit.st")
+    ]
+    libraries = {each.name: each for each in found.view.libraries}
+    assert [name for name, each in libraries.items() if each.is_binary] == [
+        *("standard", "MpBase", "MpAlarm")
+    ]
+    assert libraries["MpAlarm"].dependencies == ("MPBASE",)
+    assert libraries["Sums"].folder.parts[-2:] == ("shared", "Sums")
+
+
+def test_a_configuration_by_name_in_any_case(bottling):
+    found = read_automation_studio(bottling, "simulation")
+    assert found.configuration.name == "Simulation"
+    assert [task.name for task in found.tasks][-1] == "Panel"
+    with pytest.raises(ConfigurationError, match="no configuration Simulaton; did you mean Simu"):
+        read_automation_studio(bottling, "Simulaton")
+
+
+def test_what_is_no_project(write):
+    folder = write({"notes.txt": ""})
+    with pytest.raises(ConfigurationError, match="there is no project file"):
+        read_automation_studio(folder)
+    write({"x.APJ": "<Project/>"})
+    with pytest.raises(ConfigurationError, match="there is no folder Logical"):
+        read_automation_studio(folder)
+    write({"Logical/Package.pkg": "<Package/>"})
+    with pytest.raises(ConfigurationError, match=r"no configuration\n.*no folder Physical"):
+        read_automation_studio(folder)
+
+
+def test_all_that_is_wrong_is_found_in_one_go(write):
+    sw = '<Sw><TaskClass Name="Cyclic#1">\n<Task Name="a" Source="A.prg"/></TaskClass></Sw>'
+    folder = write(
+        {
+            "x.apj": "<Project",
+            "Logical/Package.pkg": "<Package>\n<Objects>",
+            "Physical/Physical.pkg": '<P><Object Type="Configuration">C</Object></P>',
+            "Physical/C/CP/Cpu.sw": sw,
+            "Physical/C/CP/IoMap.iom": "VAR_CONFIG\nnonsense;",
+            "Physical/C/CP/mappView/a.mpx": "<",
+            "Physical/C/Hardware.hw": "<Hardware/>",
+        }
+    )
+    found = read_automation_studio(folder)
+    places = [str(each.location).replace(f"{folder}/", "") for each in found.findings]
+    assert places == [
+        "x.apj:1",
+        "Logical/Package.pkg:2",
+        "Physical/C/Hardware.hw:1",
+        "Physical/C/CP/Cpu.sw:2",
+        "Physical/C/CP/mappView/a.mpx:1",
+        "Physical/C/CP/IoMap.iom:2",
+    ]
+    assert found.tasks[0].program is None

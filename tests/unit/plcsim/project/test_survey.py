@@ -1,0 +1,96 @@
+from pathlib import Path
+
+import pytest
+
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.core.errors import ConfigurationError
+from plcsim.project.plc_toml import read_project
+from plcsim.project.survey import survey
+
+BOTTLING = Path(__file__).parents[3] / "data" / "automation_studio" / "Bottling"
+
+
+@pytest.fixture
+def _a_compiler():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+
+
+@pytest.fixture
+def surveyed():
+    """``surveyed(folder, configuration)``: the survey of a project."""
+
+    def surveyed(folder=BOTTLING, configuration=""):
+        project = read_project(folder, {"as": {"config": configuration}})
+        return survey(project, project.automation_studio)
+
+    return surveyed
+
+
+@pytest.mark.usefixtures("_a_compiler")
+def test_tasks_that_run_and_what_is_idle_in_them(surveyed):
+    found = surveyed()
+    rows = {row.entry.name: row for row in found.rows}
+    assert [name for name, row in rows.items() if row.reasons] == []
+    assert (rows["ValveA"].languages, rows["ValveA"].bytes) == (("ST",), 6)
+    (call,) = rows["FillStatio"].stubs
+    assert (call.library, call.name, call.times) == ("MpAlarm", "MpAlarmCore", 1)
+    assert call.location.endswith("FillStation/Variables.var:6")
+    assert found.skipped == ("Panel",)
+    assert found.is_right
+
+
+def test_a_task_that_cannot_run_and_why(surveyed):
+    found = surveyed(configuration="Simulation")
+    panel = found.rows[-1]
+    (reason,) = panel.reasons
+    assert reason.endswith("Logical/Panel: is written in Ladder Diagram, which plcsim does not run")
+    assert panel.languages == ("Ladder",)
+    assert not found.is_right
+
+
+def test_everything_that_is_wrong_is_told_by_task(surveyed, write_project):
+    folder = write_project(
+        {
+            "Logical/Package.pkg": [
+                "Program:Good",
+                "Program:Bad",
+                "Program:Half",
+                "File:Global.var",
+            ],
+            "Logical/Global.var": "VAR g : Nothing; END_VAR",
+            "Logical/Good/IEC.prg": ["File:Main.st"],
+            "Logical/Good/Main.st": "PROGRAM _CYCLIC\nEND_PROGRAM",
+            "Logical/Bad/IEC.prg": ["File:Main.st"],
+            "Logical/Bad/Main.st": "PROGRAM _CYCLIC\nx := 1;\ny := 2;\nEND_PROGRAM",
+            "Logical/Half/IEC.prg": ["File:Main.st", "File:Gone.st", "File:Notes.pdf"],
+            "Logical/Half/Main.st": "PROGRAM _CYCLIC\nEND_PROGRAM",
+        },
+        ["Good", "Bad", "Half", "Nowhere"],
+    )
+    found = surveyed(folder)
+    reasons = {row.entry.name: [r.splitlines()[0] for r in row.reasons] for row in found.rows}
+    texts = {
+        name: [reason.replace(f"{folder}/", "") for reason in each]
+        for name, each in reasons.items()
+    }
+    assert texts == {
+        "Good": [],
+        "Bad": [
+            "Logical/Bad/Main.st:2:1: error ST2001: no variable is called x",
+            "Logical/Bad/Main.st:3:1: error ST2001: no variable is called y",
+        ],
+        "Half": ["Logical/Half/IEC.prg:3: error: File Gone.st is listed and not there"],
+        "Nowhere": [
+            "Physical/C/CP/Cpu.sw:4: error: the logical view has no program Nowhere",
+        ],
+    }
+    (common,) = found.common
+    assert "Global.var:1:9: error: no type is called Nothing" in common
+
+
+def test_nothing_that_can_run(surveyed, write_project):
+    found = surveyed(write_project({"Logical/Package.pkg": []}, ["Nowhere"]))
+    assert (found.controller, found.is_right) == (None, False)
