@@ -12,27 +12,30 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from crosnode.errors import CrosnodeError, MessageValueError
 from crosnode.node import StatusKind
-from crosnode.node.period import Period
 from crosnode.node.publisher import printable
-from crosnode.plc.conversion import tag_conversion
+from crosnode.plc.bridge_services import FollowedParameter, TagService
+from crosnode.plc.bridge_topics import BridgeStatus, Incoming, Outgoing
 from crosnode.plc.project import make_node, surroundings
 from crosnode.transport.budget import StepBudget
 from crosnode.transport.link import QUIET_TURNS
 from plcsim.core.errors import ConfigurationError, Findings, TagError
 from plcsim.core.logbook import Severity
-from st_types.errors import ValueRangeError
-from st_types.types.values import decode, encode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from crosnode.messages import Message
-    from crosnode.node import CrosNode, Publisher, Status, Subscriber
-    from crosnode.plc.settings import Publication, Subscription
+    from crosnode.node import CrosNode, Status
+    from crosnode.plc.bridge_topics import Change
+    from crosnode.plc.settings import (
+        ParameterEntry,
+        Publication,
+        ServiceEntry,
+        Subscription,
+    )
     from plcsim.core.controller import Controller
 
 T = TypeVar("T")
-E = TypeVar("E", "Publication", "Subscription")
+E = TypeVar("E", "Publication", "Subscription", "ParameterEntry", "ServiceEntry")
 
 NEWS: Final = {
     StatusKind.MASTER_FOUND: Severity.INFORMATION,
@@ -69,11 +72,18 @@ class Bridge:
         self.node: CrosNode = make_node(controller.context, settings.table.node)
         self.refused = 0
         self._repeated: Counter[StatusKind] = Counter()
+        self._changes: Counter[tuple[str, BridgeStatus]] = Counter()
         self._controller = controller
         findings = Findings()
         self._out = self._made(findings, Outgoing, "publish", settings.table.publish)
         self._in = self._made(findings, Incoming, "subscribe", settings.table.subscribe)
+        self._params = self._made(
+            findings, FollowedParameter, "parameters", settings.table.parameters
+        )
+        self._services = self._made(findings, TagService, "services", settings.table.services)
         findings.check()
+        self._takers: list[Incoming | FollowedParameter | TagService]
+        self._takers = [*self._in, *self._params, *self._services]
 
     def _made(
         self,
@@ -96,11 +106,16 @@ class Bridge:
         self.node.do_events_loop()
         if (status := self.node.pop_status()) is not None:
             self._log_news(status)
+        for taker in self._takers:
+            self._checked(taker.name, taker.take)
         for incoming in self._in:
-            self._checked(incoming.name, incoming.take)
+            if change := incoming.look():
+                self._log_change(change)
 
     def publish(self, release_ns: int) -> None:
-        """Send the tags that are due."""
+        """Send the tags that are due, and answer the calls that are done."""
+        for service in self._services:
+            self._checked(service.name, service.answer)
         for outgoing in self._out:
             self._checked(outgoing.name, lambda each=outgoing: each.send(release_ns))
 
@@ -122,6 +137,15 @@ class Bridge:
                 line += f" ({self._repeated[kind]} so far)"
                 self._controller.log(Severity.WARNING, "ros", line)
 
+    def _log_change(self, change: Change) -> None:
+        """Tell of values that have become old or good again, or that were cut."""
+        self._changes[change.name, change.status] += 1
+        count = self._changes[change.name, change.status]
+        if is_power_of_two(count):
+            is_good = change.status is BridgeStatus.GOOD
+            severity = Severity.INFORMATION if is_good else Severity.WARNING
+            self._controller.log(severity, "ros", f"{change.name}: {change.text} (x{count})")
+
     def _checked(self, name: str, act: Any) -> None:
         """Count and log what does not fit; the scan goes on."""
         try:
@@ -136,81 +160,3 @@ class Bridge:
 def is_power_of_two(number: int) -> bool:
     """Return whether a count above 0 is the first, second, fourth, eighth..."""
     return number & (number - 1) == 0
-
-
-class Outgoing:
-    """A tag that is published.
-
-    Args:
-        controller: whose tag it is.
-        node: publishes it.
-        topic: name, resolved by the node.
-        entry: of [ros.publish].
-    """
-
-    def __init__(
-        self, controller: Controller, node: CrosNode, topic: str, entry: Publication
-    ) -> None:
-        self.name = topic
-        self._tags = controller.tags
-        self._tag = controller.tags.find(entry.tag)
-        self._publisher: Publisher = node.register_publisher(
-            topic, entry.type_name, latching=entry.on_change
-        )
-        found = self._publisher.message_type
-        data_type = self._tag.data_type
-        self._conversion = tag_conversion(node.types, found, data_type, self._tag.path)
-        self._period = Period(entry.every_ns) if entry.every_ns else None
-        self._on_change = entry.on_change
-        self._last: object = None
-        self._body = b""
-        try:  # nothing at all fits where 0 does not
-            found.encode(self._conversion.to_field(decode(data_type, bytes(data_type.size))))
-        except MessageValueError as error:
-            raise ConfigurationError(f"tag {self._tag.path}: {error}") from None
-
-    def send(self, release_ns: int) -> None:
-        """Send the tag where it is time, and where it changed if that is asked for."""
-        if self._period and not self._period.is_due(release_ns):
-            return
-        value = self._tags.read(self._tag)
-        if self._on_change and value == self._last:
-            return
-        self._last = value
-        message = self._conversion.to_field(value)
-        if not self._on_change:
-            self._publisher.send(message)
-            return
-        body = bytes(self._publisher.message_type.encode(message))
-        if body != self._body:  # NaN is another value than itself, and yet no change
-            self._body = body
-            self._publisher.send(message)
-
-
-class Incoming:
-    """A tag that takes the newest message of a topic; arguments as for ``Outgoing``."""
-
-    def __init__(
-        self, controller: Controller, node: CrosNode, topic: str, entry: Subscription
-    ) -> None:
-        self.name = topic
-        self._tags = controller.tags
-        self._tag = controller.tags.find(entry.tag)
-        self._subscriber: Subscriber = node.register_subscriber(
-            topic, entry.type_name, queue_size=1
-        )
-        found = self._subscriber.message_type
-        self._conversion = tag_conversion(node.types, found, self._tag.data_type, self._tag.path)
-        try:
-            encode(self._tag.data_type, self._value_of(found.new()))
-        except ValueRangeError as error:
-            raise ConfigurationError(f"tag {self._tag.path}: {found.name}: {error}") from None
-
-    def take(self) -> None:
-        """Write the newest message into the tag."""
-        message = self._subscriber.pop()
-        if message is not None:
-            self._tags.write(self._tag, self._value_of(message))
-
-    def _value_of(self, message: Message) -> object:
-        return self._conversion.to_tag(message, self._tags.read(self._tag))

@@ -13,6 +13,7 @@ to the encoder of its target.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from crosnode.messages import Duration, Time
@@ -23,11 +24,14 @@ from st_types.types.derived import ArrayType, StringType, StructType, WStringTyp
 from st_types.types.elementary import DATE, DATE_AND_TIME, TIME, TIME_OF_DAY, ElementaryType
 
 if TYPE_CHECKING:
+    from collections import Counter
     from collections.abc import Callable
 
     from crosnode.messages import MessageType, MessageTypes
     from crosnode.messages.definition import Definition, Field
     from st_types.types.elementary import DataType
+
+Cut: TypeAlias = "Callable[[], None]"
 
 Plain: TypeAlias = Any
 """The plain value of a tag (`st_types.types.values.decode`)."""
@@ -57,13 +61,25 @@ class Conversion(NamedTuple):
     to_tag: Callable[[Any, Plain], Plain]
 
 
+class Surroundings(NamedTuple):
+    """What conversions need beside the two types.
+
+    Attributes:
+        types: knows the types of the fields.
+        cuts: counts lists and texts that were longer than what took them.
+    """
+
+    types: MessageTypes
+    cuts: Counter[str]
+
+
 def tag_conversion(
-    types: MessageTypes, message_type: MessageType, data_type: DataType[Any], path: str
+    types: Surroundings, message_type: MessageType, data_type: DataType[Any], path: str
 ) -> Conversion:
     """Return the conversion between a tag and messages.
 
     Args:
-        types: knows the types of the fields.
+        types: knows the types of the fields, and counts what is cut.
         message_type: of the messages.
         data_type: of the tag.
         path: of the tag, for errors.
@@ -82,7 +98,7 @@ def tag_conversion(
         )
     (field,) = fields
     inner = _field(types, field, data_type, path)
-    attribute, new = attribute_name(field.name), types.message_class(message_type.name)
+    attribute, new = attribute_name(field.name), types.types.message_class(message_type.name)
     return Conversion(
         lambda value: new(**{attribute: inner.to_field(value)}),
         lambda message, before: inner.to_tag(getattr(message, attribute), before),
@@ -95,7 +111,7 @@ def _is_one_value(struct: StructType[Any], fields: tuple[Field, ...]) -> bool:
 
 
 def _structure(
-    types: MessageTypes, definition: Definition, struct: StructType[Any], path: str
+    types: Surroundings, definition: Definition, struct: StructType[Any], path: str
 ) -> Conversion:
     fields = {field.name: field for field in definition.fields}
     parts = {
@@ -107,7 +123,7 @@ def _structure(
         raise ConfigurationError(
             f"no member of {path} is a field of {definition.name}: {', '.join(fields)}"
         )
-    new = types.message_class(definition.name)
+    new = types.types.message_class(definition.name)
     return Conversion(
         lambda values: new(
             **{attribute_name(name): part.to_field(values) for name, part in parts.items()}
@@ -124,7 +140,7 @@ def _merged(message: Any, before: Plain, parts: dict[str, Conversion]) -> Plain:
 
 
 def _member(
-    types: MessageTypes, field: Field, struct: StructType[Any], data_type: DataType[Any], path: str
+    types: Surroundings, field: Field, struct: StructType[Any], data_type: DataType[Any], path: str
 ) -> Conversion:
     """Return the conversion of one member, from and to the dict of all."""
     name, length = field.name, f"{field.name}_length"
@@ -144,7 +160,7 @@ def _member(
     )
 
 
-def _field(types: MessageTypes, field: Field, data_type: DataType[Any], path: str) -> Conversion:
+def _field(types: Surroundings, field: Field, data_type: DataType[Any], path: str) -> Conversion:
     if field.is_array != isinstance(data_type, ArrayType):
         raise _misfit(path, data_type, field.declared)
     if not isinstance(data_type, ArrayType):
@@ -152,27 +168,31 @@ def _field(types: MessageTypes, field: Field, data_type: DataType[Any], path: st
     if field.length not in (None, data_type.count):
         raise _misfit(path, data_type, field.declared)
     inner = _element(types, field, resolve_alias(data_type.element), f"{path}[]")
+    cut = partial(_count, types.cuts, path)
     return Conversion(
         lambda values: [inner.to_field(value) for value in values],
-        lambda found, before: _filled_up(found, before, inner),
+        lambda found, before: _filled_up(found, before, inner, cut),
     )
 
 
-def _filled_up(found: Any, before: Plain, inner: Conversion) -> Plain:
+def _filled_up(found: Any, before: Plain, inner: Conversion, cut: Cut) -> Plain:
     """Return the elements as an ARRAY takes them: a long list is cut, a short one filled up."""
+    if len(found) > len(before):
+        cut()
     plain = [inner.to_tag(each, old) for each, old in zip(found, before, strict=False)]
     return [*plain, *before[len(plain) :]]
 
 
-def _element(types: MessageTypes, field: Field, data_type: DataType[Any], path: str) -> Conversion:
+def _element(types: Surroundings, field: Field, data_type: DataType[Any], path: str) -> Conversion:
     if field.base in _TIMES:
         return _time(field, data_type, path)
     if not field.is_builtin:
         if isinstance(data_type, StructType):
-            return _structure(types, types.definition(field.base), data_type, path)
+            return _structure(types, types.types.definition(field.base), data_type, path)
     elif field.base == "string":
         if isinstance(data_type, (StringType, WStringType)):
-            return Conversion(_as_it_is, lambda value, _: _text(value))
+            cut = partial(_count, types.cuts, path)
+            return Conversion(_as_it_is, lambda value, _: _text(value, data_type.length, cut))
     elif not isinstance(data_type, (StringType, WStringType, StructType, ArrayType)):
         return Conversion(_as_it_is, lambda value, _: _number(value))
     raise _misfit(path, data_type, field.declared)
@@ -182,8 +202,15 @@ def _as_it_is(value: Plain) -> Plain:
     return value
 
 
-def _text(value: str) -> str:
+def _text(value: str, length: int, cut: Cut) -> str:
+    """Return a text as a STRING or WSTRING takes it; what does not fit is cut by the tag."""
+    if len(value) > length:
+        cut()
     return value if is_utf8(value) else to_latin1(value)
+
+
+def _count(cuts: Counter[str], path: str) -> None:
+    cuts[path] += 1
 
 
 def _number(value: Any) -> Plain:

@@ -50,6 +50,11 @@ class RosExtension(Extension):
             for topic, entry in topics.items():
                 if misfit := _misfit(types, entry.type_name):
                     findings.add(table.error(f"{key}.{topic}.type", misfit))
+        for name, service in keys.services.items():
+            try:
+                types.service(service.type_name)
+            except CrosnodeError as error:
+                findings.add(table.error(f"services.{name}.type", str(error)))
         findings.check()
         return settings
 
@@ -87,7 +92,7 @@ class RosExtension(Extension):
         if settings.is_embedded and settings.is_in_process:
             found = found._replace(master=_master_in_scan(controller, first))
         controller.context.give_settings(found)
-        if settings.table.publish or settings.table.subscribe:
+        if settings.table.has_bridge:
             step = _BridgeStep(controller, first, settings.file)
             step.bridge()  # its types are compiled before the first cycle
             controller.image.inputs.append(step.latch)

@@ -69,20 +69,61 @@ class Publication:
         type_name: ``pkg/Name``.
         every_ns: nanoseconds between two messages, 0 for one in each cycle.
         on_change: only when the tag has another value than in the last message.
+        status: path of a tag that is told whether anybody listens (`BridgeStatus`).
     """
 
     tag: str
     type_name: Annotated[str, Key("type")]
     every_ns: Annotated[int, Duration()] = 0
     on_change: bool = False
+    status: str | None = None
 
 
 @settings
 class Subscription:
-    """An entry of [ros.subscribe]: a tag that takes the newest message; attributes as above."""
+    """An entry of [ros.subscribe]: a tag that takes the newest message.
+
+    Attributes:
+        tag: path of the tag.
+        type_name: ``pkg/Name``.
+        timeout_ns: nanoseconds after which the last message is old; 0 leaves it good as long as a
+            publisher is connected.
+        status: path of a tag that is told how good the value is (`BridgeStatus`).
+        age: path of a TIME tag that is told how old the value is.
+    """
 
     tag: str
     type_name: Annotated[str, Key("type")]
+    timeout_ns: Annotated[int, Duration()] = 0
+    status: str | None = None
+    age: str | None = None
+
+
+@settings
+class ParameterEntry:
+    """An entry of [ros.parameters]: a tag that follows a parameter."""
+
+    tag: str
+
+
+@settings
+class ServiceEntry:
+    """An entry of [ros.services]: a service that a program answers by tags.
+
+    Attributes:
+        type_name: ``pkg/Name``.
+        call: path of a BOOL tag that is set for a request; the program resets it when it has one
+            answer.
+        request: path of the tag that takes the request, None where nobody wants it.
+        response: path of the tag that is the response, None for one of defaults.
+        timeout_ns: nanoseconds that the program has for an answer.
+    """
+
+    type_name: Annotated[str, Key("type")]
+    call: str
+    request: str | None = None
+    response: str | None = None
+    timeout_ns: Annotated[int, Duration(minimum_ns=1)] = 5_000_000_000
 
 
 @settings
@@ -121,6 +162,8 @@ class RosTable:
         node: base name of the bridge's node.
         publish: tags to topics, by topic.
         subscribe: topics to tags, by topic.
+        parameters: parameters to tags, by name.
+        services: services by tags, by name.
     """
 
     master: Annotated[str | None, Converted(_master)] = None
@@ -136,6 +179,13 @@ class RosTable:
     node: Annotated[str, Converted(check_base_name)] = "plc_bridge"
     publish: Mapping[str, Publication] = field(default_factory=dict)
     subscribe: Mapping[str, Subscription] = field(default_factory=dict)
+    parameters: Mapping[str, ParameterEntry] = field(default_factory=dict)
+    services: Mapping[str, ServiceEntry] = field(default_factory=dict)
+
+    @property
+    def has_bridge(self) -> bool:
+        """Whether anything goes between tags and ROS without code."""
+        return bool(self.publish or self.subscribe or self.parameters or self.services)
 
 
 @dataclass(frozen=True)
@@ -207,10 +257,10 @@ def _check(table: Table, keys: RosTable) -> None:
     findings = Findings()
     if fault := _arguments_fault(keys.arguments):
         findings.add(table.error("arguments", fault))
-    for key, topics in (("publish", keys.publish), ("subscribe", keys.subscribe)):
-        for topic in topics:
+    for key in ("publish", "subscribe", "parameters", "services"):
+        for name in getattr(keys, key):
             try:
-                check_name(topic)
+                check_name(name)
             except CrosnodeError as error:
-                findings.add(table.error(f"{key}.{topic}", str(error)))
+                findings.add(table.error(f"{key}.{name}", str(error)))
     findings.check()

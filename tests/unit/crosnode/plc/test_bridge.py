@@ -11,6 +11,7 @@ from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, StatusKind
 from crosnode.plc.bridge import is_power_of_two
+from crosnode.plc.bridge_topics import BridgeStatus
 from crosnode.plc.extension import EXTENSION
 from plcsim.core.clock import VirtualClock
 from plcsim.core.context import Context
@@ -21,7 +22,7 @@ from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.settings.table import Table
-from st_types import ARRAY, BOOL, INT, LREAL, REAL, STRING, Struct, var
+from st_types import ARRAY, BOOL, INT, LREAL, REAL, STRING, TIME, UDINT, Struct, var
 
 MS = 1_000_000
 
@@ -37,7 +38,37 @@ class Speeds(Struct):
     note = var(INT, 7)
 
 
+class Stamp(Struct):
+    sec = var(UDINT)
+    nsec = var(UDINT)
+
+
+class Head(Struct):
+    stamp = var(Stamp)
+
+
+class Place(Struct):
+    point = var(Vector)
+
+
+class StampedPlace(Struct):
+    header = var(Head)
+    point = var(Vector)
+
+
+class Reply(Struct):
+    success = var(BOOL)
+    message = var(STRING(20))
+
+
 class Plant(Program):
+    quality = var(INT)
+    age = var(TIME)
+    point = var(Place)
+    stamped = var(StampedPlace)
+    asked = var(BOOL)
+    ignored = var(BOOL)
+    reply = var(Reply)
     count = var(INT)
     level = var(LREAL)
     text = var(STRING(5))
@@ -47,6 +78,9 @@ class Plant(Program):
 
     def cyclic(self) -> None:
         self.count += 1
+        if self.asked:
+            self.reply.success, self.reply.message = self.on, "done"
+            self.asked = False
 
 
 class Rig:
@@ -247,3 +281,139 @@ def test_at_the_end_the_bridge_takes_its_registrations_back() -> None:
     bridge.node.options = bridge.node.options._replace(beside=rig._step)
     rig.plc.shutdown()
     assert "/plc_bridge" not in str(rig.master.master.get_system_state("/x"))
+
+
+def told(rig: Rig) -> list[str]:
+    return [entry.text for entry in rig.plc.logbook if entry.source == "ros"]
+
+
+def test_a_value_has_a_status_and_an_age() -> None:
+    rig = Rig(subscribe={"/in": entry("plant.level", "std_msgs/Float64", timeout="100ms",
+                                      status="plant.quality", age="plant.age")})  # fmt: skip
+    publisher = rig.peer.register_publisher("/in", "std_msgs/Float64")
+    rig.run(200)
+    assert rig.tag("plant.quality") == BridgeStatus.NONE
+    publisher.send(publisher.new(data=1.5))
+    rig.run(20)
+    assert (rig.tag("plant.level"), rig.tag("plant.quality")) == (1.5, BridgeStatus.GOOD)
+    assert rig.tag("plant.age") in range(17, 21)
+    rig.run(100)
+    assert (rig.tag("plant.level"), rig.tag("plant.quality")) == (1.5, BridgeStatus.STALE)
+    publisher.send(publisher.new(data=2.5))
+    rig.run(20)
+    assert rig.tag("plant.quality") == BridgeStatus.GOOD
+    assert [line for line in told(rig) if line.startswith("/in")] == [
+        "/in: no message for 101 ms (x1)", "/in: messages come again (x1)"
+    ]  # fmt: skip
+
+
+def test_without_a_timeout_a_value_is_good_while_its_publisher_is_there() -> None:
+    rig = Rig(subscribe={"/in": entry("plant.level", "std_msgs/Float64", status="plant.quality")})
+    publisher = rig.peer.register_publisher("/in", "std_msgs/Float64")
+    rig.run(200)
+    publisher.send(publisher.new(data=1.5))
+    rig.run(5_000)
+    assert rig.tag("plant.quality") == BridgeStatus.GOOD
+    rig.peer.unregister(publisher)
+    rig.run(100)
+    assert rig.tag("plant.quality") == BridgeStatus.STALE
+    assert any(line.startswith("/in: no publisher, the last message is") for line in told(rig))
+
+
+def test_what_is_cut_is_told_beside_the_value() -> None:
+    rig = Rig(subscribe={"/in": entry("plant.text", "std_msgs/String", status="plant.quality")})
+    publisher = rig.peer.register_publisher("/in", "std_msgs/String")
+    rig.run(200)
+    publisher.send(publisher.new(data="too long"))
+    rig.run(20)
+    assert (rig.tag("plant.text"), rig.tag("plant.quality")) == ("too l", BridgeStatus.CUT)
+    assert "/in: longer than what takes it: plant.text 1 times (x1)" in told(rig)
+
+
+def test_who_publishes_knows_whether_anybody_listens() -> None:
+    rig = Rig(publish={"/out": entry("plant.level", "std_msgs/Float64", status="plant.quality")})
+    rig.run(100)
+    assert rig.tag("plant.quality") == BridgeStatus.NONE
+    rig.peer.register_subscriber("/out", "std_msgs/Float64")
+    rig.run(100)
+    assert rig.tag("plant.quality") == BridgeStatus.GOOD
+
+
+def test_a_header_has_the_time_of_the_cycle_and_a_number() -> None:
+    rig = Rig(publish={"/out": entry("plant.point", "geometry_msgs/PointStamped", every="10ms")})
+    subscriber = rig.peer.register_subscriber("/out", "geometry_msgs/PointStamped")
+    rig.run(300)
+    found = []
+    while (message := subscriber.pop()) is not None:
+        found.append((message.header.stamp.to_ns(), message.header.seq))
+    assert len(found) == 10
+    assert {b[0] - a[0] for a, b in pairwise(found)} == {10 * MS}
+    assert {b[1] - a[1] for a, b in pairwise(found)} == {1}
+
+
+def test_a_stamp_of_the_tag_is_kept() -> None:
+    rig = Rig(publish={"/out": entry("plant.stamped", "geometry_msgs/PointStamped")})
+    subscriber = rig.peer.register_subscriber("/out", "geometry_msgs/PointStamped")
+    rig.run(200)
+    message = subscriber.pop()
+    assert message is not None
+    assert message.header.stamp.to_ns() == 0
+
+
+def test_a_tag_follows_a_parameter() -> None:
+    rig = Rig(parameters={"/limit": {"tag": "plant.level"}, "/word": {"tag": "plant.text"}})
+    rig.peer.set_param("/limit", 2.5)
+    rig.run(200)
+    assert rig.tag("plant.level") == 2.5
+    rig.peer.set_param("/limit", "much")
+    rig.peer.set_param("/word", "hi")
+    rig.run(200)
+    assert (rig.tag("plant.level"), rig.tag("plant.text")) == (2.5, "hi")
+    assert any("/limit" in line and "refused so far" in line for line in told(rig))
+
+
+def test_a_program_answers_a_service_by_tags() -> None:
+    service = {"type": "std_srvs/SetBool", "call": "plant.asked", "request": "plant.on",
+               "response": "plant.reply"}  # fmt: skip
+    rig = Rig(services={"/start": service})
+    rig.run(200)
+    caller = rig.peer.register_service_caller("/start", "std_srvs/SetBool")
+    caller.call(caller.new(data=True))
+    rig.run(100)
+    (reply,) = iter(caller.pop, None)
+    assert rig.tag("plant.on") is True
+    assert reply.response is not None
+    assert (reply.response.success, reply.response.message) == (True, "done")
+
+
+def test_a_program_that_does_not_answer_in_time_is_told_of_to_the_caller() -> None:
+    service = {"type": "std_srvs/Trigger", "call": "plant.ignored", "timeout": "300ms"}
+    rig = Rig(services={"/start": service})
+    rig.run(200)
+    caller = rig.peer.register_service_caller("/start", "std_srvs/Trigger")
+    caller.call(caller.new())
+    rig.run(100)
+    assert rig.tag("plant.ignored") is True
+    rig.run(400)
+    (reply,) = iter(caller.pop, None)
+    assert reply.error == "the program did not answer in time"
+    assert rig.tag("plant.ignored") is False
+
+
+@pytest.mark.parametrize(
+    ("tables", "reason"),
+    [
+        ({"subscribe": {"/in": entry("plant.level", "std_msgs/Float64", status="plant.on")}},
+         "status: tag plant.on is BOOL, which holds no 0..3"),
+        ({"subscribe": {"/in": entry("plant.level", "std_msgs/Float64", age="plant.count")}},
+         "age: tag plant.count is INT, not TIME"),
+        ({"services": {"/s": {"type": "std_srvs/Trigger", "call": "plant.count"}}},
+         "call: tag plant.count is INT, not BOOL"),
+        ({"services": {"/s": {"type": "std_srvs/Nothing", "call": "plant.on"}}},
+         "std_srvs/Nothing"),
+        ({"parameters": {"/p": {"tag": "plant.nothing"}}}, "plant.nothing"),
+    ],
+)  # fmt: skip
+def test_what_cannot_work_is_said_before_the_first_cycle(tables: Any, reason: str) -> None:
+    with pytest.raises(ConfigurationError, match=reason):
+        Rig(**tables)

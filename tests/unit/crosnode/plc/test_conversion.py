@@ -1,6 +1,7 @@
 """Plain values of tags to messages and back."""
 
 import math
+from collections import Counter
 from typing import Any
 
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from crosnode.errors import MessageValueError
 from crosnode.messages import MessageTypes, Time
-from crosnode.plc.conversion import tag_conversion
+from crosnode.plc.conversion import Surroundings, tag_conversion
 from plcsim.core.errors import ConfigurationError
 from st_types import (
     ARRAY,
@@ -31,6 +32,7 @@ from st_types.types.values import decode, encode
 from st_types.types.views import type_of
 
 TYPES = MessageTypes()
+CUTS: Counter[str] = Counter()
 DEFINED = 0
 
 
@@ -73,7 +75,7 @@ def defined(text: str) -> Any:
 
 def pair(data_type: Any, message_type: Any) -> Any:
     data_type = type_of(data_type) if isinstance(data_type, type) else data_type
-    return tag_conversion(TYPES, message_type, data_type, "p.tag")
+    return tag_conversion(Surroundings(TYPES, CUTS), message_type, data_type, "p.tag")
 
 
 def through(data_type: Any, text: str, value: Any) -> Any:
@@ -195,3 +197,17 @@ def test_a_value_that_does_not_fit_is_left_to_the_encoder() -> None:
 def test_what_can_never_fit(data_type: Any, text: str, fault: str) -> None:
     with pytest.raises(ConfigurationError, match=fault):
         pair(data_type, defined(text))
+
+
+def test_what_is_longer_than_what_takes_it_is_counted() -> None:
+    CUTS.clear()
+    names = TYPES.message("sensor_msgs/JointState")
+
+    class Two(Struct):
+        name = var(ARRAY(STRING(3), (0, 1)))
+        position = var(ARRAY(LREAL, (0, 1)))
+
+    both = pair(Two, names)
+    before = decode(type_of(Two), bytes(type_of(Two).size))
+    both.to_tag(names.new(name=["abcd", "b", "c"], position=[1.0, 2.0]), before)
+    assert CUTS == {"p.tag.name": 1, "p.tag.name[]": 1}
