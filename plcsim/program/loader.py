@@ -11,6 +11,7 @@ from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import files_in
+from plcsim.program.c.exports import ExportedBodies
 from plcsim.program.c.language import C_LANGUAGE, CBodies
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
@@ -36,7 +37,12 @@ if TYPE_CHECKING:
 LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, STRUCTURED_TEXT, C_LANGUAGE)
 """A program is written in one of them."""
 
-BODIES: Final[tuple[BodyLanguage, ...]] = (PythonBodies(), StructuredTextBodies(), CBodies())
+BODIES: Final[tuple[BodyLanguage, ...]] = (
+    PythonBodies(),
+    StructuredTextBodies(),
+    CBodies(),
+    ExportedBodies(),
+)
 """Bodies of libraries are written in one of them."""
 
 NOT_THERE: Final = {

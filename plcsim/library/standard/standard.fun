@@ -141,3 +141,70 @@ FUNCTION_BLOCK RS (*bistable, reset has priority*)
 		Q1 : BOOL; (*state*)
 	END_VAR
 END_FUNCTION_BLOCK
+
+FUNCTION LEN : INT (*characters of a string*)
+	VAR_INPUT
+		IN : STRING[32767];
+	END_VAR
+END_FUNCTION
+
+FUNCTION LEFT : STRING[255] (*the first L characters*)
+	VAR_INPUT
+		IN : STRING[32767];
+		L : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION RIGHT : STRING[255] (*the last L characters*)
+	VAR_INPUT
+		IN : STRING[32767];
+		L : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION MID : STRING[255] (*L characters from position P, which counts from 1*)
+	VAR_INPUT
+		IN : STRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION CONCAT : STRING[255] (*two strings, one behind the other*)
+	VAR_INPUT
+		IN1 : STRING[32767];
+		IN2 : STRING[32767];
+	END_VAR
+END_FUNCTION
+
+FUNCTION INSERT : STRING[255] (*IN2 put into IN1 behind character P*)
+	VAR_INPUT
+		IN1 : STRING[32767];
+		IN2 : STRING[32767];
+		P : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION DELETE : STRING[255] (*a string without the L characters from position P*)
+	VAR_INPUT
+		IN : STRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION REPLACE : STRING[255] (*IN1 with IN2 in place of the L characters from position P*)
+	VAR_INPUT
+		IN1 : STRING[32767];
+		IN2 : STRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION FIND : INT (*position of the first IN2 in IN1, 0 for none*)
+	VAR_INPUT
+		IN1 : STRING[32767];
+		IN2 : STRING[32767];
+	END_VAR
+END_FUNCTION

@@ -7,7 +7,7 @@ STRUCT or an ARRAY writes it to an address that the caller hands over as the fir
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from plcsim.program.structured_text.check.kinds import plain
 from plcsim.program.structured_text.lower.memory import is_scalar, width_of
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from plcsim.core.memory import Memory
-    from plcsim.machine import Extern, Instance, Machine
+    from plcsim.machine import Extern, Machine
     from plcsim.program.structured_text.ir import Width
     from st_types.resolve.declared import Function
     from st_types.types.elementary import DataType
@@ -36,6 +36,13 @@ _CODES: Final[dict[Width, str]] = {
     "f64": "d",
 }
 _SIGNED: Final = {"I": "i", "Q": "q"}
+
+
+class Functions(Protocol):
+    """A module whose functions Python may call."""
+
+    def function(self, name: str, params: str | None = None, results: str | None = None) -> Any:
+        """Return a function as a Python callable."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +123,7 @@ def _with_flags(call: Callable[..., Any], flags: tuple[int, ...]) -> Callable[..
 
 
 def callable_of(
-    memory: Memory, instance: Instance, name: str, interface: Interface
+    memory: Memory, instance: Functions, name: str, interface: Interface
 ) -> Callable[..., Any]:
     """Return a compiled function for Python to call with plain values."""
     large = interface.large

@@ -1,0 +1,1 @@
+"""Library AsBrStr: memory and strings by their addresses."""

@@ -1,0 +1,1 @@
+"""Library asstring: memory and strings by their addresses, as C has them."""

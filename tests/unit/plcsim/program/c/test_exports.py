@@ -1,0 +1,34 @@
+"""Every function that a library names as its body is in the C library, with its signature."""
+
+import pytest
+
+from plcsim.library.installed import installed
+from plcsim.program.c.exports import Export
+from plcsim.program.loader import installed_catalogue
+from plcsim.program.python.language import PythonCode
+from plcsim.program.python.program import Program
+from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+
+LIBRARIES = [each for each in installed().values() if (each.folder / "exports.py").is_file()]
+
+
+class Idle(Program):
+    def cyclic(self):
+        pass
+
+
+@pytest.fixture(scope="module")
+def context():
+    tasks = TaskClassSetup(1, 10_000_000, [ProgramSetup("idle", PythonCode(Idle))])
+    return make_controller(Setup([tasks])).context
+
+
+@pytest.mark.parametrize("library", LIBRARIES, ids=str)
+def test_exports_are_there(library, context):
+    bodies = installed_catalogue().bodies(library)
+    found = {name: body for name, body in bodies.items() if isinstance(body, Export)}
+    assert set(found) == {function.name for function in library.scope.functions}
+    for body in found.values():
+        assert callable(body.bind(context))
+        assert body.extern(context) is not None
+        assert body.language == "ANSI C"
