@@ -16,7 +16,7 @@ from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.lower.memory import Area
+from plcsim.program.structured_text.lower.memory import Spot
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.resolve.scope import Scope
@@ -103,7 +103,8 @@ def compile_text(text: Text, semantics: Semantics, options: CodegenOptions) -> C
     variables = _variables(scope)
     segment = ir.Segment("program", variables.size, variables.alignment)
     names = [member.name for member in variables.members]
-    area = Area(segment, dict(zip(names, variables.offsets, strict=True)))
+    offsets = dict(zip(names, variables.offsets, strict=True))
+    area = {name: Spot(segment, offset) for name, offset in offsets.items()}
     module = lower(program, dict.fromkeys(program.scopes, area), semantics)
     stamps.append(process_time())
     code = generate(module, options)
