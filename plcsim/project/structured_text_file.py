@@ -14,7 +14,6 @@ from plcsim.core.task import HIGHEST_CLASS
 from plcsim.library.library import check_scope, declarations_of, read_declarations, sources_in
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
-from plcsim.program.structured_text.check.program import declarations_of as declared_in
 from plcsim.program.structured_text.code import compile_program
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.language import STRUCTURED_TEXT
@@ -70,20 +69,22 @@ def load_file(path: Path, cycle_ns: int | None = None) -> Application:
     """
     (file,) = read_files([path])
     check_syntax([file])
-    standard = is_standard(file)
+    standard = is_standard(file.parsed)
     around = sources_in(path.parent)
     files = [file] if standard else read_files(STRUCTURED_TEXT.units(around))
-    check_syntax(files)
     name = path.stem if standard else path.resolve().parent.name
     catalogue = installed_catalogue()
-    declared = [*read_declarations(declarations_of(around)), *map(declared_in, files)]
+    declared = [
+        *read_declarations(declarations_of(around)),
+        *(each.declarations() for each in files),
+    ]
     dialect = IEC if standard else AUTOMATION_STUDIO
     scope = Scope(name, declared, catalogue.scopes, dialect=dialect, strict=True)
     warnings = check_scope(scope)
     shared = variables_of("globals", scope.variables) if standard else NOTHING
     codes: dict[str, StructuredTextCode] = {}
     findings = Findings()
-    for program in _programs(files) if standard else [""]:
+    for program in _programs(file.parsed) if standard else [""]:
         with findings.gathered():
             code = compile_program(name, files, scope, shared, catalogue, only=program)
             codes[program.upper()] = code
@@ -91,7 +92,7 @@ def load_file(path: Path, cycle_ns: int | None = None) -> Application:
     findings.check()
     default_ns = cycle_ns or DEFAULT_CYCLE_NS
     if standard:
-        classes = _classes(file, codes, scope, default_ns)
+        classes = _classes(file.parsed, codes, scope, default_ns)
     else:
         classes = [_class_of(1, default_ns, [ProgramSetup(name, codes[""])])]
     has_shared = any(kind.members for kind in shared)
@@ -99,17 +100,15 @@ def load_file(path: Path, cycle_ns: int | None = None) -> Application:
     return Application(name, setup, warnings=warnings)
 
 
-def _programs(files: Sequence[StructuredTextFile]) -> list[str]:
+def _programs(file: StructuredTextFile) -> list[str]:
     """Return the names of all PROGRAMs.
 
     Raises:
         ConfigurationError: there is none.
     """
-    found = [unit.name for file in files for unit in file.units if isinstance(unit, ProgramUnit)]
+    found = [unit.name for unit in file.units if isinstance(unit, ProgramUnit)]
     if not found:
-        raise ConfigurationError(
-            f"{files[0].path}: no PROGRAM is in it, so there is nothing to run"
-        )
+        raise ConfigurationError(f"{file.path}: no PROGRAM is in it, so there is nothing to run")
     return found
 
 
@@ -155,7 +154,7 @@ def _configurations(file: StructuredTextFile) -> Iterator[Configuration]:
 
 
 def _declared_name(file: StructuredTextFile, key: str) -> str:
-    return next(name for name in _programs([file]) if name.upper() == key)
+    return next(name for name in _programs(file) if name.upper() == key)
 
 
 def _task(file: StructuredTextFile, task: TaskConfiguration, scope: Scope) -> _Task:

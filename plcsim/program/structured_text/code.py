@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.task import Task, Unit
-from plcsim.program.structured_text.check.program import UnitDeclarations, check_program
+from plcsim.program.structured_text.check.program import check_program, is_meant, unit_scope
+from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.layout import OWN, Layout, addresses
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
+from plcsim.program.structured_text.sources import UnitDeclarations, check_syntax
+from plcsim.program.structured_text.syntax.tree import ProgramUnit
 from st_types.errors import Severity
 from st_types.resolve import dialect as dialects
 
@@ -25,6 +28,7 @@ if TYPE_CHECKING:
     from plcsim.program.site import Site
     from plcsim.program.structured_text.check.typed import Program, Storage
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
+    from plcsim.program.structured_text.sources import UnitFile
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
     from plcsim.program.variables import Variables
     from st_types.resolve.scope import Scope
@@ -36,14 +40,14 @@ def load(source: ProgramSource) -> StructuredTextCode:
     Raises:
         ConfigurationError: there are errors in it; all are told, with file, line and column.
     """
-    files = [each.file for each in source.scope.files if isinstance(each, UnitDeclarations)]
+    files = [each.unit_file for each in source.scope.files if isinstance(each, UnitDeclarations)]
     catalogue = source.declarations.catalogue
     return compile_program(source.name, files, source.scope, source.shared, catalogue)
 
 
 def compile_program(
     name: str,
-    files: Sequence[StructuredTextFile],
+    files: Sequence[UnitFile],
     scope: Scope,
     shared: Variables,
     catalogue: Catalogue,
@@ -53,7 +57,7 @@ def compile_program(
 
     Args:
         name: of the program.
-        files: parsed without errors.
+        files: with its units.
         scope: what it declares and sees.
         shared: the global variables of the project.
         catalogue: libraries of the project.
@@ -63,6 +67,35 @@ def compile_program(
     Raises:
         ConfigurationError: there are errors; all are told, with file, line and column.
     """
+    cache, key = code_cache(), key_of((name, only, scope.dialect.name), files, scope, shared)
+    stored = find(cache, key)
+    if stored is None:
+        check_syntax(files)
+        stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, only)
+        keep(cache, key, stored)
+    else:
+        layout = Layout(name, _own_scopes(files, scope, only), scope.chain, shared)
+    absent = missing(catalogue, scope, stored.code.imports)
+    if absent:
+        raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
+    return StructuredTextCode(stored.code, scope, layout.variables, stored.warnings)
+
+
+def _own_scopes(files: Sequence[UnitFile], scope: Scope, only: str) -> list[Scope]:
+    """Return the scopes whose variables are those of a program, as checking it does."""
+    parsed = [file.parsed for file in files if file.may_declare]
+    units = [(unit, file) for file in parsed for unit in file.units]
+    found = [
+        unit_scope(unit, file, scope)
+        for unit, file in units
+        if isinstance(unit, ProgramUnit) and is_meant(unit, only)
+    ]
+    return [*([] if only else [scope]), *(each for each in found if each is not None)]
+
+
+def _compiled(
+    name: str, files: Sequence[StructuredTextFile], scope: Scope, shared: Variables, only: str
+) -> tuple[Stored, Layout]:
     program, warnings = checked(name, files, scope, "global" if only else "program", only)
     if not any(body.kind == "unit" for body in program.bodies):
         raise ConfigurationError(
@@ -73,11 +106,7 @@ def compile_program(
     semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
     module = lower(program, layout.areas, semantics)
     module.name = f"{name}.{only}" if only else name
-    code = generate(module)
-    absent = missing(catalogue, scope, code.imports)
-    if absent:
-        raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
-    return StructuredTextCode(code, scope, layout.variables, warnings)
+    return Stored(generate(module), warnings), layout
 
 
 def checked(

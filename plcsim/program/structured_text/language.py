@@ -36,10 +36,9 @@ class StructuredText:
 
     def declarations(self, files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Parse the files; return what they declare in VAR and TYPE blocks of their own."""
-        from plcsim.program.structured_text.check.program import declarations_of  # noqa: PLC0415  # as in `load`
-        from plcsim.program.structured_text.sources import read_files  # noqa: PLC0415  # likewise
+        from plcsim.program.structured_text.sources import read_files  # noqa: PLC0415  # as in `load`
 
-        return [declarations_of(file) for file in read_files(files)]
+        return [file.declarations() for file in read_files(files)]
 
     def load(self, source: ProgramSource) -> ProgramCode:
         """Check and compile the files of a program."""

@@ -35,9 +35,9 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     Raises:
         ConfigurationError: there are errors in them; all are told, with file, line and column.
     """
-    parsed = read_files(files)
-    check_syntax(parsed)
-    program, _ = checked(library.name, parsed, library.scope, "global")
+    read = read_files(files)
+    check_syntax(read)
+    program, _ = checked(library.name, [file.parsed for file in read], library.scope, "global")
     whole = CompiledLibrary(program, library.scope)
     found: dict[str, Executable] = {}
     for body in program.bodies:

@@ -1,13 +1,24 @@
-"""The files of a program or a library in Structured Text, read and parsed."""
+"""The files of a program or a library in Structured Text, read, and parsed where it is needed."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import hashlib
+import re
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.structured_text.check.program import declarations_of
+from plcsim.program.structured_text.code_cache import code_cache
+from plcsim.program.structured_text.codegen.storage import compiler
+from plcsim.program.structured_text.codes import Code
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.errors import Severity, SourceError
+from st_types.syntax.diagnostics import DiagnosticLog
+from st_types.syntax.lexer import Tokens
 from st_types.syntax.source import Source
+from st_types.syntax.tree import DeclarationFile
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,22 +26,88 @@ if TYPE_CHECKING:
 
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
 
+_NO_CODE: Final = re.compile(
+    r"""\(\*.*?\*\) | /\*.*?\*/ | //[^\n]* | '(?:[^'$\n]|\$.)*' | "(?:[^"$\n]|\$.)*" """,
+    re.VERBOSE | re.DOTALL,
+)
+_DECLARING: Final = re.compile(
+    r"\b(?:VAR(?:_\w+)?|TYPE|FUNCTION(?:_BLOCK)?|CONFIGURATION)\b", re.IGNORECASE
+)
 
-def read_files(files: Iterable[Path]) -> list[StructuredTextFile]:
-    """Parse files; what is wrong in their text is in their ``diagnostics``.
+
+class UnitFile:
+    """A file with units.
+
+    Args:
+        source: its text.
+    """
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+
+    @property
+    def path(self) -> str:
+        """The file, as the user named it."""
+        return self.source.path
+
+    @cached_property
+    def parsed(self) -> StructuredTextFile:
+        """The parsed file; what is wrong in its text is in its ``diagnostics``."""
+        return parse_structured_text(self.source)
+
+    @cached_property
+    def may_declare(self) -> bool:
+        """False where no word in the text could begin a declaration."""
+        return _DECLARING.search(_NO_CODE.sub(" ", self.source.text)) is not None
+
+    def declarations(self) -> UnitDeclarations:
+        """Return what the file declares for all of its program.
+
+        A file that declares nothing, and whose text was parsed without errors before, is not parsed
+        for that.
+        """
+        if self.may_declare or not self._is_sound():
+            made = declarations_of(self.parsed)
+            return UnitDeclarations(made.items, "", made.tokens, made.diagnostics, self)
+        nothing = Source(self.path, "")
+        log = DiagnosticLog(nothing, Code.SYNTAX)
+        return UnitDeclarations([], "", Tokens(nothing), log, self)
+
+    def _is_sound(self) -> bool:
+        """Return whether the text has no errors in its syntax; that is kept on disk."""
+        text = self.source.text.encode("utf-8", "surrogatepass")
+        key = f"syntax-{hashlib.blake2b(compiler() + text, digest_size=20).hexdigest()}"
+        cache = code_cache()
+        if cache.load(key) is not None:
+            return True
+        is_sound = not self.parsed.diagnostics.records
+        if is_sound:
+            cache.store(key, b"")
+        return is_sound
+
+
+@dataclass(slots=True, repr=False)
+class UnitDeclarations(DeclarationFile):
+    """What a file with units declares."""
+
+    unit_file: UnitFile = field(compare=False)
+
+
+def read_files(files: Iterable[Path]) -> list[UnitFile]:
+    """Read files.
 
     Raises:
         ConfigurationError: a file cannot be read.
     """
     try:
-        return [parse_structured_text(Source.read(file)) for file in files]
+        return [UnitFile(Source.read(file)) for file in files]
     except (OSError, SourceError) as err:
         raise ConfigurationError(str(err)) from None
 
 
-def check_syntax(files: Iterable[StructuredTextFile]) -> None:
-    """Raise a ConfigurationError with all errors that parsing has found."""
-    records = [record for file in files for record in file.diagnostics.records]
+def check_syntax(files: Iterable[UnitFile]) -> None:
+    """Raise a ConfigurationError with all errors that parsing finds."""
+    records = [record for file in files for record in file.parsed.diagnostics.records]
     errors = [record.render() for record in records if record.severity is Severity.ERROR]
     if errors:
         raise ConfigurationError(*errors)

@@ -51,14 +51,7 @@ UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
 """Units of a task by the names of Automation Studio; any other PROGRAM is the cyclic one."""
 
 
-@dataclass(slots=True, repr=False)
-class UnitDeclarations(DeclarationFile):
-    """What a file of Structured Text declares; ``file`` is that file."""
-
-    file: StructuredTextFile = field(compare=False)
-
-
-def declarations_of(file: StructuredTextFile) -> UnitDeclarations:
+def declarations_of(file: StructuredTextFile) -> DeclarationFile:
     """Return what a file of Structured Text declares, for a `Scope`.
 
     Functions and function blocks without VAR blocks of their own are declared in a .fun file.
@@ -72,7 +65,20 @@ def declarations_of(file: StructuredTextFile) -> UnitDeclarations:
         elif isinstance(unit, Configuration):
             items += unit.blocks
             items += [block for resource in unit.resources for block in resource.blocks]
-    return UnitDeclarations(items, "", file.tokens, file.diagnostics, file)
+    return DeclarationFile(items, "", file.tokens, file.diagnostics)
+
+
+def unit_scope(unit: ProgramUnit, file: StructuredTextFile, outer: Scope) -> Scope | None:
+    """Return the scope of a PROGRAM with VAR blocks of its own, None for one without."""
+    if not unit.blocks:
+        return None
+    declared = DeclarationFile(unit.blocks, "", file.tokens, file.diagnostics)
+    return Scope(unit.name, [declared], (outer,), dialect=outer.dialect)
+
+
+def is_meant(unit: ProgramUnit, only: str) -> bool:
+    """Return whether a PROGRAM is the one called ``only``, or one of all where that is ""."""
+    return only.upper() in ("", unit.name.upper())
 
 
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
@@ -140,7 +146,7 @@ class _Job:
 
 class _ProgramChecker:
     def __init__(self, scope: Scope, hidden: Collection[Code], storage: Storage, only: str) -> None:
-        self._only = only.upper()
+        self._only = only
         self.symbols = Symbols({scope: storage})
         self._scope = scope
         self._hidden = hidden
@@ -168,13 +174,12 @@ class _ProgramChecker:
     # Units
 
     def _program_unit(self, unit: ProgramUnit) -> None:
-        if self._only not in ("", unit.name.upper()):
+        if not is_meant(unit, self._only):
             return
         name = UNITS.get(unit.name.upper(), "cyclic")
         self._owner = owner = self._program
-        if unit.blocks:
-            file = DeclarationFile(unit.blocks, "", self._file.tokens, self._file.diagnostics)
-            scope = Scope(unit.name, [file], (self._scope,), dialect=self._scope.dialect)
+        scope = unit_scope(unit, self._file, self._scope)
+        if scope is not None:
             self.symbols.storages[scope] = "program"
             self._owner = owner = _Owner(scope, actions=owner.actions)
         self._parts(unit.parts, owner)

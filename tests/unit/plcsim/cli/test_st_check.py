@@ -16,7 +16,7 @@ def check(project):
 
     def check(files):
         folder = project(files)
-        parsed = read_files(sorted(folder.rglob("*.st")))
+        parsed = [file.parsed for file in read_files(sorted(folder.rglob("*.st")))]
         told = check_files(parsed)
         found = [line.replace(f"{folder}/", "") for line in told]
         for file in parsed:
