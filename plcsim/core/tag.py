@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 GLOBAL: Final = "::"
 """Before the name of a global variable, where that is to be said."""
 
+CHANNELS: Final = "IoMap"
+"""Path of the tag of all I/O channels: ``IoMap.X20DI9371.DigitalInput01``."""
+
+_CHANNEL: Final = re.compile(r'%[IQ][XBWDO]?\."([^"]+)"\.(.+)', re.IGNORECASE)
+
 _HEAD: Final = re.compile(r"\w*")
 
 
@@ -69,6 +74,8 @@ def locate(path: str, areas: Sequence[Tag]) -> Tag:
     Raises:
         KeyError: there is no such tag; the argument says what is wrong.
     """
+    if path.startswith("%"):
+        path = _channel_path(path)
     bare = path.removeprefix(GLOBAL)
     head = _HEAD.match(bare)
     name = head[0] if head else ""
@@ -80,6 +87,15 @@ def locate(path: str, areas: Sequence[Tag]) -> Tag:
         return _inside(path, bare, shared)
     what = "no program" if not shared else "no program and no global variable"
     raise KeyError(f"{what} {name!r} for tag {path!r}")
+
+
+def _channel_path(path: str) -> str:
+    """Return the path of an I/O channel that is spelled as in the map of channels."""
+    found = _CHANNEL.fullmatch(path)
+    if found is None:
+        raise KeyError(f'{path} is no channel such as %IX."X20DI9371".DigitalInput01')
+    module, channel = (re.sub(r"\W", "_", part) for part in found.groups())
+    return f"{CHANNELS}.{module}.{channel}"
 
 
 def _has(area: Tag, name: str) -> bool:

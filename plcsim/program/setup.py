@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from plcsim.core.context import Context
 from plcsim.core.controller import Controller
 from plcsim.core.memory import DEFAULT_SIZE, Memory
+from plcsim.core.tag import CHANNELS, Tag
 from plcsim.core.task import Policy, TaskClass
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.site import Site
@@ -18,12 +19,12 @@ if TYPE_CHECKING:
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Heartbeat
-    from plcsim.core.tag import Tag
     from plcsim.core.task import Task
     from plcsim.library.catalogue import Catalogue
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
     from plcsim.program.variables import Variables
+    from st_types.types.derived import StructType
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,7 @@ class Setup:
         settings: what libraries find by `Context.settings`.
         shared: the global variables, None where there are none.
         catalogue: the libraries that programs see; by default those that are installed.
+        channels: those of its simulated I/O modules (`plcsim.core.io_image`), None for none.
         start_date_ns: date of the controller at its start, nanoseconds since 1970; None for that of
             its clock.
     """
@@ -68,6 +70,7 @@ class Setup:
     settings: Sequence[object] = ()
     shared: Variables | None = None
     catalogue: Catalogue | None = None
+    channels: StructType[Any] | None = None
     start_date_ns: int | None = None
 
 
@@ -106,7 +109,7 @@ def make_controller(
     return Controller(
         classes,
         context,
-        shared=shared,
+        shared=[*shared, *_channels(setup, context)],
         exception_task=_task(exception, site) if exception else None,
         clock=clock,
         start_date_ns=setup.start_date_ns,
@@ -123,6 +126,14 @@ def _shared(setup: Setup, context: Context) -> list[Tag]:
     view = view_class(setup.shared.variables)
     context.globals = context.memory.access(view, areas[0].address, context)
     return areas
+
+
+def _channels(setup: Setup, context: Context) -> list[Tag]:
+    """Reserve the channels of I/O modules."""
+    kind = setup.channels
+    if kind is None:
+        return []
+    return [Tag(CHANNELS, kind, context.memory.allocate(kind.size, kind.alignment))]
 
 
 def _task_class(setup: TaskClassSetup, site: Site) -> TaskClass:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.clock import VirtualClock
@@ -22,6 +23,13 @@ from plcsim.program.fault import location_of
 from plcsim.program.loader import Loaded, ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.automation_studio import problems
+from plcsim.project.automation_studio.io_channels import (
+    NO_MAPS,
+    Maps,
+    channels_type,
+    connect,
+    variable_type,
+)
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageWriter
 
@@ -57,6 +65,7 @@ class Application:
         common: what is wrong in what several programs see; with "keep going" only.
         stubbed: blocks and functions that are looked for and that nothing executes, by library.
         notes: what is not as on the controller: what is left out, what is idle.
+        maps: of I/O channels and of variables.
         unload: forgets its modules, so that the next to load it has them afresh.
     """
 
@@ -68,6 +77,7 @@ class Application:
     common: Sequence[str] = ()
     stubbed: Mapping[str, Collection[str]] = field(default_factory=dict)
     notes: Sequence[str] = ()
+    maps: Maps = NO_MAPS
     unload: Callable[[], None] = _nothing
 
     def in_process(self, ip: str, *, is_test: bool = False) -> Application:
@@ -175,6 +185,9 @@ def _load(
         loaded = loader.load_each() if project.keep_going else Loaded(loader.load(), (), {})
     findings.check()
     left_out = {**wrong, **loaded.failures}
+    found = project.automation_studio
+    maps = NO_MAPS if found is None else Maps(found.channels, found.copies)
+    sources = {entry.name.upper(): entry.source for entry in project.programs}
     setup = _setup(project, loaded.codes)
     return Application(
         project.name,
@@ -183,6 +196,9 @@ def _load(
             settings=settings,
             shared=loader.shared if any(kind.members for kind in loader.shared) else None,
             catalogue=catalogue,
+            channels=channels_type(
+                maps.channels, partial(variable_type, loader.declarations, sources)
+            ),
         ),
         project.extensions,
         tuple(loader.warnings),
@@ -190,6 +206,7 @@ def _load(
         loaded.common,
         catalogue.stubbed,
         [*project.left_out, *_notes(project, left_out), *_stub_notes(catalogue)],
+        maps,
         loader.unload,
     )
 
@@ -270,7 +287,7 @@ def assemble(
         idle=collect_while_idle,
         system_fd=system_fd,
     )
-    for note in application.notes:
+    for note in (*application.notes, *connect(controller, application.maps)):
         controller.log(Severity.WARNING, "system", note)
     attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
     if image is not None:

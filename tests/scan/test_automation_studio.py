@@ -54,3 +54,22 @@ def test_what_nothing_executes_is_idle_and_told(plc):
     assert plc["FillStatio.alarm_ready"] is False
     texts = [entry.text for entry in plc.controller.logbook]
     assert "MpAlarm: MpAlarmCore: nothing executes them here, they do nothing" in texts
+
+
+def test_io_channels_are_latched_and_published(plc):
+    plc['%IX."X20DI9371".DigitalInput01'] = True
+    plc["IoMap.X20DI9371.DigitalInput03"] = True
+    plc.run("100ms")
+    assert plc["gStart"] is True
+    assert plc["ValveB.opened"] == 1
+    assert plc["IoMap.X20DO9322.DigitalOutput01"] is True
+    assert plc["IoMap.X20AO4622.AnalogOutput01"] == plc["gSpeed"] > 0
+
+
+def test_variables_go_to_variables_with_the_cycles(plc):
+    plc["gStart"] = True
+    plc.run("1s")
+    plc["gStart"] = False
+    plc.run("1s")
+    assert plc["gSpeed"] == plc["Boiler.speed"] == 0
+    assert plc["gPressure"] == plc["Boiler.outputs.pressure"] == 1000

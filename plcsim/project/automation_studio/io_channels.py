@@ -1,0 +1,184 @@
+"""The I/O image of an Automation Studio project: its channels as tags, its maps as lines.
+
+A channel has the width of the letter in the map, and the type of its variable where that has this
+width. What is mapped to no variable that is there is told, and is a channel all the same.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.core.io_image import Copy, IoImage, Line
+from plcsim.core.tag import CHANNELS
+from st_types.types.derived import Member, StructType, resolve_alias
+from st_types.types.elementary import BOOL, UDINT, UINT, ULINT, USINT, ElementaryType
+from st_types.types.paths import find
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from plcsim.core.controller import Controller
+    from plcsim.core.tag import Tag
+    from plcsim.program.declarations import Declarations
+    from plcsim.project.automation_studio.mapping import Channel, Pv
+    from plcsim.project.automation_studio.mapping import Copy as MappedCopy
+    from st_types.types.elementary import DataType
+
+_WIDTHS: Final[Mapping[str, ElementaryType[bool] | ElementaryType[int]]] = {
+    "X": BOOL,
+    "B": USINT,
+    "W": UINT,
+    "D": UDINT,
+    "O": ULINT,
+}
+
+_NAME = re.compile(r"\w+")
+_NO_NAME = re.compile(r"\W")
+
+
+class Maps(NamedTuple):
+    """What IoMap.iom and PvMap.vvm of a configuration say.
+
+    Attributes:
+        channels: of I/O modules.
+        copies: of variables to variables.
+    """
+
+    channels: Sequence[Channel] = ()
+    copies: Sequence[MappedCopy] = ()
+
+
+NO_MAPS: Final = Maps()
+
+
+def names_of(channel: Channel) -> tuple[str, str]:
+    """Return the names of module and channel as members of a tag."""
+    return _NO_NAME.sub("_", channel.module), _NO_NAME.sub("_", channel.channel)
+
+
+def channels_type(
+    channels: Sequence[Channel], type_of: Callable[[Pv], DataType[object] | None]
+) -> StructType[object] | None:
+    """Return the type of all channels, a STRUCT for each module; None where there are none.
+
+    Args:
+        channels: as the map has them; one that stands on several lines is one.
+        type_of: returns the type of a variable, None where there is none.
+    """
+    modules: dict[str, dict[str, Member]] = {}
+    for channel in sorted(channels, key=lambda channel: channel.direction):  # inputs side by side
+        module, name = names_of(channel)
+        members = modules.setdefault(module, {})
+        if name not in members:
+            members[name] = Member(name, _type(channel, type_of(channel.pv)))
+    if not modules:
+        return None
+    inside = [
+        Member(name, StructType(name, [*members.values()])) for name, members in modules.items()
+    ]
+    return StructType(CHANNELS, inside)
+
+
+def _type(channel: Channel, data_type: DataType[object] | None) -> DataType[object]:
+    default = _WIDTHS[channel.width]
+    found = None if data_type is None else resolve_alias(data_type)
+    if isinstance(found, ElementaryType) and found.size == default.size:
+        return found
+    return default
+
+
+def variable_type(
+    declarations: Declarations, sources: Mapping[str, str], pv: Pv
+) -> DataType[object] | None:
+    """Return the type of a variable that a map names, None where there is none.
+
+    Args:
+        declarations: of the project.
+        sources: programs by the names of their tasks, in capitals.
+        pv: the variable.
+    """
+    source = sources.get(pv.task.upper())
+    known = source is not None and source in declarations.layout.programs
+    scope = declarations.scope_of(source) if source and known else declarations.scope
+    name = _NAME.match(pv.path)
+    variable = scope.find_variable(name[0]) if name else None
+    if name is None or variable is None or variable.data_type is None:
+        return None
+    try:
+        return find(variable.data_type, pv.path[name.end() :].removeprefix("."))[0]
+    except KeyError:
+        return None
+
+
+class _Ends(NamedTuple):
+    """The ends of the lines of a map, found on a controller, and what is not there."""
+
+    inputs: dict[int, list[Line]]
+    outputs: dict[int, list[Line]]
+    copies: list[Copy]
+    notes: list[str]
+
+
+def connect(controller: Controller, maps: Maps) -> list[str]:
+    """Let a controller latch and publish the channels of its maps.
+
+    Args:
+        controller: with the tag `plcsim.core.tag.CHANNELS`, not booted yet.
+        maps: of its configuration.
+
+    Returns:
+        what is mapped and not there, a line for each.
+    """
+    ends = _Ends({}, {}, [], [])
+    classes = _Classes(controller)
+    for channel in maps.channels:
+        _add_channel(controller, classes, channel, ends)
+    for copy in maps.copies:
+        _add_copy(controller, classes, copy, ends)
+    if ends.inputs or ends.outputs or ends.copies:
+        IoImage(controller, ends.inputs, ends.outputs, ends.copies)
+    return ends.notes
+
+
+def _add_channel(controller: Controller, classes: _Classes, channel: Channel, ends: _Ends) -> None:
+    variable = controller.tags.get(channel.pv.tag)
+    place = controller.tags.get(".".join((CHANNELS, *names_of(channel))))
+    if variable is None or place is None:
+        ends.notes.append(f"{channel.name}: there is no variable {channel.pv.tag}")
+        return
+    size = min(variable.data_type.size, place.data_type.size)
+    line = Line(place.address, variable.address, size, channel.is_inverse and size == 1)
+    lines = ends.inputs if channel.direction == "I" else ends.outputs
+    lines.setdefault(classes.of(channel.pv, variable), []).append(line)
+
+
+def _add_copy(controller: Controller, classes: _Classes, copy: MappedCopy, ends: _Ends) -> None:
+    source = controller.tags.get(copy.source.tag)
+    target = controller.tags.get(copy.target.tag)
+    if source is None or target is None:
+        missing = copy.source if source is None else copy.target
+        ends.notes.append(f"PvMap: there is no variable {missing.tag}")
+        return
+    if source.data_type.size != target.data_type.size:
+        text = f"{copy.source.tag} and {copy.target.tag} differ in size"
+        ends.notes.append(f"PvMap: {text}, nothing is copied")
+        return
+    from_class, to_class = classes.of(copy.source, source), classes.of(copy.target, target)
+    size = source.data_type.size
+    ends.copies.append(Copy(source.address, target.address, size, from_class, to_class))
+
+
+class _Classes:
+    """Which task class latches or publishes a variable."""
+
+    def __init__(self, controller: Controller) -> None:
+        self._tasks = {t.name.upper(): c.number for c in controller.classes for t in c.tasks}
+        self._numbers = [each.number for each in controller.classes]
+
+    def of(self, pv: Pv, tag: Tag) -> int:
+        """Return the class that the map names, else that of the task, else the fastest."""
+        if pv.task_class in self._numbers:
+            return pv.task_class or 0
+        task = tag.path.partition(".")[0].upper()
+        return self._tasks.get(task, self._numbers[0])
