@@ -14,17 +14,21 @@ campaign = Campaign(
         "switch": Choice("works", "stuck"),
         "noise_mm": Uniform(0, 500),
     },
-    sampling=Sobol(512),
-    require=[Always("no water is spilled", lambda plc: 10.0 - plc["plant.level"])],
+    sampling=Sobol(256),
+    require=[
+        Always(
+            "no water is spilled", lambda plc: -plc["plant.spilled"] or 10.0 - plc["plant.level"]
+        )
+    ],
     measure=[Maximum("plant.level"), TimeUntil("control.alarm_high")],
 )
 
 
 @campaign.scenario
 def fill(plc: Plc, values: dict[str, Scalar]) -> dict[str, Scalar]:
-    """Fill the tank for a minute; the sensor is noisy, the overflow switch may be stuck."""
+    """Fill the tank for twenty seconds; the sensor is noisy, the overflow switch may be stuck."""
     if values["switch"] == "stuck":
         plc.faults.stuck("overflow_switch", value=False)
     plc.faults.noise("level_raw", float(values["noise_mm"]) * 2.7648)
-    plc.run("60s")
+    plc.run("20s")
     return {"spilled_m3": plc["plant.spilled"]}
