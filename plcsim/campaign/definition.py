@@ -83,7 +83,7 @@ class Campaign:
     def perform(self, plc: Plc, values: dict[str, Scalar]) -> Mapping[str, Scalar]:
         """Do one run on a controller that has booted; return what the scenario measured."""
         if self._scenario is None:
-            plc.run(self.duration_ns)
+            plc.advance(self.duration_ns)
             return {}
         return self._scenario(plc, values) or {}
 

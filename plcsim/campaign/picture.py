@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from plcsim.campaign.result import Outcome
 
@@ -23,6 +24,10 @@ MOST_AXES: Final = 5
 """Variables in a picture; those come first whose values tell failures best from the others."""
 
 _COLOURS = {True: "#2a78b5", False: "#d1495b"}
+_LEGEND = [
+    Line2D([], [], linestyle="", marker=".", color=_COLOURS[True], label="passed"),
+    Line2D([], [], linestyle="", marker="x", color=_COLOURS[False], label="failed"),
+]
 _PER_AXIS_INCHES = 2.6
 
 
@@ -44,6 +49,7 @@ def draw(results: Sequence[Result], file: Path, title: str) -> None:
         _pair(figure.subplots(), results, (names[0], names[1]), passed, labels=(True, True))
     else:
         _matrix(figure, results, names, passed)
+    figure.legend(handles=_LEGEND, loc="upper right")
     figure.savefig(file, dpi=110)
 
 
@@ -70,14 +76,9 @@ def _pair(
     for ok, marker in ((True, "."), (False, "x")):
         chosen = passed == ok
         if chosen.any():
-            label = "passed" if ok else "failed"
-            panel.scatter(
-                across[chosen], up[chosen], marker=marker, c=_COLOURS[ok], s=18, label=label
-            )
+            panel.scatter(across[chosen], up[chosen], marker=marker, c=_COLOURS[ok], s=18)
     _ticks(panel.xaxis, results, names[0], labelled=labels[0])
     _ticks(panel.yaxis, results, names[1], labelled=labels[1])
-    if all(labels):
-        panel.figure.legend(loc="outside upper right")
 
 
 def _strip(panel: Any, results: Sequence[Result], name: str, passed: Any) -> None:

@@ -48,7 +48,8 @@ class Session:
         self.file = file
         self.campaign = load_campaign(file)
         project = read_project(project_of(self.campaign, file))
-        self.content = pack(file, [project.folder, *project.library_folders])
+        libraries = [place.folder for place in project.layout.libraries]
+        self.content = pack(file, [project.folder, project.layout.folder, *libraries])
         self.planned = self._plan()
         check(self.campaign, file, self.planned[0] if self.planned else self._middle())
 

@@ -13,7 +13,7 @@ import pytest
 for package in ("distributed", "matplotlib", "pyarrow", "scipy"):
     pytest.importorskip(package, reason="the extra campaign is not installed")
 
-from pyarrow import parquet
+from pyarrow import parquet  # noqa: E402  # where it is installed
 
 PROGRAM = """
     import os
@@ -37,7 +37,9 @@ CAMPAIGN = """
     from plcsim.campaign import *
 
     campaign = Campaign(
-        variables={"ramp.step": Uniform(0, 10), "ramp.trouble": Choice(*TROUBLE), "pause": Choice(PAUSE)},
+        variables={
+            "ramp.step": Uniform(0, 10), "ramp.trouble": Choice(*TROUBLE), "pause": Choice(PAUSE)
+        },
         sampling=Random(RUNS),
         require=[Always("stays below 500", lambda plc: 500 - plc["ramp.value"])],
         measure=[Final("ramp.value")],

@@ -8,8 +8,8 @@ import pytest
 for package in ("scipy", "pyarrow"):
     pytest.importorskip(package, reason="the extra campaign is not installed")
 
-from plcsim.campaign.session import Session
-from plcsim.core.errors import PlcError
+from plcsim.campaign.session import Session  # noqa: E402  # where it is installed
+from plcsim.core.errors import PlcError  # noqa: E402  # likewise
 
 Write = Callable[[str], Path]
 
