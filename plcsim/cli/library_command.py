@@ -1,13 +1,13 @@
-"""``plcsim types library``: writes what Python sees of libraries."""
+"""``plcsim types library``: writes what Python sees of libraries, projects and programs."""
 
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.library.face import INTERFACE
-from plcsim.library.face_writer import interface_source
+from plcsim.library.face_writer import Package, interface_source
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library, check_scope, declarations_of, files_in
 from plcsim.program.declarations import Declarations
@@ -19,9 +19,17 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from plcsim.library.face_writer import Declared
+
+STUB: Final = "__init__.pyi"
+"""Tells editors and type checkers what a folder is as a package; Python does not read it."""
+
 
 def library(options: argparse.Namespace) -> int:
-    """Write ``interface.py`` into the folders of libraries, or say which are not fresh."""
+    """Write ``interface.py`` into the folders of libraries, or say which are not fresh.
+
+    Into the folders of a project and its programs goes a stub with what they declare.
+    """
     stale = [file for folder in options.paths if (file := _written(folder, options.check))]
     for file in stale:
         sys.stderr.write(f"{file}: is not fresh\n")
@@ -29,10 +37,10 @@ def library(options: argparse.Namespace) -> int:
 
 
 def _written(folder: Path, only_checked: bool) -> Path | None:  # of the command
-    found, others = _library_in(folder)
+    found, others = _declared_in(folder)
     check_scope(found.scope)
     text = interface_source(found, others)
-    file = folder / f"{INTERFACE}.py"
+    file = folder / (f"{INTERFACE}.py" if isinstance(found, Library) else STUB)
     if file.is_file() and file.read_text("utf-8") == text:
         return None
     if only_checked:
@@ -45,22 +53,39 @@ def _written(folder: Path, only_checked: bool) -> Path | None:  # of the command
     return None
 
 
-def _library_in(folder: Path) -> tuple[Library, Sequence[Library]]:
-    """Return the library in a folder, and those of its project."""
+def _declared_in(folder: Path) -> tuple[Declared, Sequence[Declared]]:
+    """Return what is declared in a folder, and what it sees beside installed libraries."""
     if not declarations_of(files_in(folder)):
         raise ConfigurationError(f"{folder}: no .typ, .var or .fun file was found")
     here = folder.resolve()
-    own: Sequence[Library] = [each for each in installed().values() if each.folder == here]
-    if not own:
-        own = _of_project(here)
-    found = next((each for each in own if each.folder == here), None)
-    return found or Library(here, here.name, Scopes([*installed().values()])), own
+    own = next((each for each in installed().values() if each.folder == here), None)
+    if own is not None:
+        return own, [own]
+    declarations = _project_around(here)
+    if declarations is None:
+        return Library(here, here.name, Scopes([*installed().values()])), ()
+    libraries = declarations.own_libraries
+    packages = _packages(declarations, here)
+    faces: dict[Path, Declared] = {each.folder: each for each in libraries} | packages
+    found = faces.get(here) or Library(here, here.name, declarations.catalogue.scopes)
+    return found, [*libraries, *packages.values()]
 
 
-def _of_project(folder: Path) -> Sequence[Library]:
-    """Return the libraries of the project that a folder lies in."""
-    for parent in folder.parents:
+def _project_around(folder: Path) -> Declarations | None:
+    """Return the declarations of the project that a folder lies in."""
+    for parent in (folder, *folder.parents):
         if project_file(parent) is not None:
-            layout = read_project(parent).layout
-            return Declarations(layout, "project").own_libraries
-    return ()
+            return Declarations(read_project(parent).layout, parent.name)
+    return None
+
+
+def _packages(declarations: Declarations, folder: Path) -> dict[Path, Package]:
+    """Return what a project declares, and what the program in a folder does, by folder."""
+    top = declarations.folder
+    found = {top: Package(top.name, declarations.package, declarations.scope)}
+    for source, place in declarations.layout.programs.items():
+        if place.folder == folder != top:
+            inner = folder.relative_to(top).parts
+            package = ".".join((declarations.package, *inner))
+            found[folder] = Package(folder.name, package, declarations.scope_of(source))
+    return found

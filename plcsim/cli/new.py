@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import plcsim
 from plcsim.cli.exit_codes import epilog
-from plcsim.cli.new_files import GITIGNORE, PYTEST_INI, commented
+from plcsim.cli.new_files import GITIGNORE, MYPY_INI, PYTEST_INI, commented
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.project_file import FILE_NAME
 
@@ -71,6 +71,8 @@ def _make_its_own(target: Path, example: str) -> None:
     settings.write_text(commented(settings.read_text("utf-8"), target.name), "utf-8")
     (target / ".gitignore").write_text(GITIGNORE, "utf-8")
     (target / "pytest.ini").write_text(PYTEST_INI, "utf-8")
+    if target.name.isidentifier():
+        (target / "mypy.ini").write_text(MYPY_INI.format(name=target.name), "utf-8")
     tests = target / "tests" / f"test_{example}.py"
     if tests.exists():
         tests.rename(tests.with_name(f"test_{target.name.replace('-', '_').lower()}.py"))

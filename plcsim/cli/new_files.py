@@ -1,4 +1,4 @@
-"""What `plcsim new` adds to a copy of an example: all keys as comments, .gitignore, pytest.ini."""
+"""What `plcsim new` adds to a copy of an example: all keys as comments, settings of tools."""
 
 from __future__ import annotations
 
@@ -40,6 +40,13 @@ PYTEST_INI = """\
 [pytest]
 # Test files of several projects may have the same name.
 addopts = --import-mode=importlib
+"""
+
+MYPY_INI = """\
+[mypy]
+# The project's folder is a package, {name}: from ..shared import X
+mypy_path = $MYPY_CONFIG_FILE_DIR/..
+packages = {name}
 """
 
 _CLASS = re.compile(r'\[task_class\.\d\]\n(?:.+\n)*?cycle = "(?P<cycle>[^"]+)".*\n(?:.+\n)*')

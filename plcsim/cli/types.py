@@ -19,7 +19,10 @@ EXAMPLES = {
     "layout": (("plcsim types layout Motor_typ my_plc", "offsets of its members, in bytes"),),
     "header": (("plcsim types header -o include my_plc", ""),),
     "python": (("plcsim types python -o my_plc_types my_plc", ""),),
-    "library": (("plcsim types library my_lib", "its interface.py, for editors and mypy"),),
+    "library": (
+        ("plcsim types library my_lib", "its interface.py, for editors and mypy"),
+        ("plcsim types library my_plc", "__init__.pyi: types and constants of the project"),
+    ),
     "print": (("plcsim types print --write Types.typ", ""),),
 }
 
@@ -54,7 +57,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     printed.add_argument(
         "-w", "--write", action="store_true", help="into the files themselves, encoded as they are"
     )
-    library = _add(commands, "library", "write interface.py, what Python sees of a library")
+    library = _add(
+        commands, "library", "write what Python sees of a library, a project or a program"
+    )
     library.add_argument(
         "--check", action="store_true", help="write nothing; a file that is not fresh is an error"
     )

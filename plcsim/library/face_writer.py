@@ -1,14 +1,15 @@
 """Writes ``interface.py`` of a library: its face for editors and type checkers.
 
 What the file says of members is said for them alone: at run time the members come from the
-declarations. A test shows that the files of this package are fresh.
+declarations. A test shows that the files of this package are fresh. What a project or a program
+declares has the same face, as the stub of a package: ``__init__.pyi``.
 """
 
 from __future__ import annotations
 
 import keyword
 import re
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from plcsim.library.installed import installed
 from st_types.syntax.trivia import comments_behind
@@ -26,13 +27,37 @@ from st_types.types.elementary import ElementaryType, Kind
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-    from plcsim.library.library import Library
+    from st_types.resolve.scope import Scope
     from st_types.types.elementary import DataType
 
 _BUILTINS: Final = frozenset(["bool", "int", "float", "str"])
 LONGEST_LINE: Final = 100
 
 _FACE: Final = "plcsim.library.face"
+
+
+class Declared(Protocol):
+    """Declarations and the package that Python finds them in: a library, a project, a program."""
+
+    @property
+    def name(self) -> str:
+        """Of the library, or of the folder."""
+
+    @property
+    def package(self) -> str:
+        """What Python imports them from."""
+
+    @property
+    def scope(self) -> Scope:
+        """What is declared."""
+
+
+class Package(NamedTuple):
+    """The package of a project or a program; see `Declared`."""
+
+    name: str
+    package: str
+    scope: Scope
 
 
 class _Line(NamedTuple):
@@ -43,12 +68,12 @@ class _Line(NamedTuple):
     comment: str
 
 
-def interface_source(library: Library, others: Iterable[Library] = ()) -> str:
-    """Return the text of a library's ``interface.py``.
+def interface_source(library: Declared, others: Iterable[Declared] = ()) -> str:
+    """Return the text of a library's ``interface.py``, or of the stub of another package.
 
     Args:
         library: whose face it is.
-        others: that it sees, beside those that are installed.
+        others: that it sees, beside the libraries that are installed.
     """
     return _Writer(library, others).text()
 
@@ -56,7 +81,7 @@ def interface_source(library: Library, others: Iterable[Library] = ()) -> str:
 class _Writer:
     """Writes the classes and remembers what they import."""
 
-    def __init__(self, library: Library, others: Iterable[Library]) -> None:
+    def __init__(self, library: Declared, others: Iterable[Declared]) -> None:
         self._library = library
         self._others = [*others, *installed().values()]
         self._scope = library.scope
@@ -70,7 +95,7 @@ class _Writer:
         public = sorted(self._public, key=_export_order)
         body += "".join(self._blocks())
         head = (
-            f'"""Library {self._library.name} as Python sees it.\n\n'
+            f'"""{_kind_of(self._library)} {self._library.name} as Python sees it.\n\n'
             "Written from its declarations by ``plcsim types library``; not to be edited.\n"
             '"""\n\nfrom __future__ import annotations\n'
         )
@@ -175,6 +200,10 @@ class _Writer:
                 self._for_types.add((_module(library.package, self._library.package), name))
                 return name
         return "int"
+
+
+def _kind_of(declared: Declared) -> str:
+    return "What is declared in" if isinstance(declared, Package) else "Library"
 
 
 def _imports(names: Iterable[tuple[str, str]]) -> Iterator[tuple[str, bool]]:

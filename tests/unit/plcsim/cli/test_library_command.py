@@ -61,3 +61,26 @@ def test_a_folder_that_cannot_be_written_is_named(tmp_path, capsys):
     (tmp_path / "interface.py").mkdir()
     assert main(["types", "library", str(tmp_path)]) == 1
     assert "interface.py: cannot be written: Is a directory" in capsys.readouterr().err
+
+
+def test_a_project_and_its_programs_have_stubs(folder, capsys):
+    (folder / "Global.typ").write_text("TYPE Mode : (OFF, ON); END_TYPE\n")
+    (folder / "Global.var").write_text("VAR CONSTANT MOST : UINT := 5; END_VAR\n")
+    program = folder / "main"
+    program.mkdir()
+    (program / "Types.typ").write_text(
+        "TYPE Axis : STRUCT mode : Mode; ramp : Ramp; t : TON; END_STRUCT; END_TYPE\n"
+    )
+    assert main(["types", "library", str(folder), str(program)]) == 0
+    stubs = [folder / "__init__.pyi", program / "__init__.pyi"]
+    assert capsys.readouterr().out.split() == [str(stub) for stub in stubs]
+    assert "class Mode(IntEnum):" in stubs[0].read_text()
+    assert "MOST: Final = 5" in stubs[0].read_text()
+    text = stubs[1].read_text()
+    assert "class Axis(Struct):" in text
+    assert "from .. import Mode\n" in text
+    assert "from ..lib.ramps import Ramp\n" in text
+    assert "from plcsim.library.standard import TON\n" in text
+    assert "    mode: Mode\n" in text
+    assert main(["types", "library", "--check", str(folder), str(program)]) == 0
+    assert not (program / "interface.py").exists()

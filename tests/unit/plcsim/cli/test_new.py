@@ -72,6 +72,28 @@ def test_a_new_project_is_a_repository_of_its_own(empty_folder):
     assert '# name = "My-plc"' in (empty_folder / "My-plc" / "plc.toml").read_text()
 
 
+def test_mypy_takes_the_folder_for_a_package(empty_folder):
+    main(["new", "first"])
+    main(["new", "My-plc"])
+    assert not (empty_folder / "My-plc" / "mypy.ini").exists()
+    (empty_folder / "first" / "shared.py").write_text("STEP = 'x'\n")
+    program = empty_folder / "first" / "blinky" / "main.py"
+    program.write_text(
+        "from plcsim import Program\nfrom st_types import UINT, var\n\n"
+        "from ..shared import STEP\n\n\nclass Blinky(Program):\n    n = var(UINT)\n\n"
+        "    def cyclic(self) -> None:\n        self.n = STEP\n"
+    )
+    command = [sys.executable, "-c", "import sys, mypy.api\nprint(mypy.api.run([])[0])"]
+    done = subprocess.run(
+        command, cwd=empty_folder / "first", capture_output=True, text=True, check=False
+    )
+    assert (
+        'blinky/main.py:11: error: Incompatible types in assignment (expression has type "str"'
+        in (done.stdout)
+    )
+    assert "Found 1 error" in done.stdout
+
+
 def test_what_to_try_can_be_typed_as_it_is(empty_folder, capsys, monkeypatch):
     (empty_folder / "mein plc").mkdir()
     monkeypatch.setattr("plcsim.cli.new.find_spec", lambda _: None)
