@@ -66,7 +66,8 @@ def _declared_in(folder: Path) -> tuple[Declared, Sequence[Declared]]:
         return Library(here, here.name, Scopes([*installed().values()])), ()
     libraries = declarations.own_libraries
     packages = _packages(declarations, here)
-    faces: dict[Path, Declared] = {each.folder: each for each in libraries} | packages
+    faces: dict[Path, Declared] = {each.folder: each for each in libraries}
+    faces.update(packages)
     found = faces.get(here) or Library(here, here.name, declarations.catalogue.scopes)
     return found, [*libraries, *packages.values()]
 

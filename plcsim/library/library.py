@@ -44,6 +44,8 @@ class Library:
         name: of the library; by default that of its .fun file where it has one only, else that of
             its folder.
         files: that belong to it; by default those in its folder.
+        strict: a type that nobody declares is an error; otherwise what has one is left out, for
+            libraries whose own libraries are not there.
 
     Attributes:
         name: as above.
@@ -63,8 +65,10 @@ class Library:
         *,
         name: str = "",
         files: Sequence[Path] | None = None,
+        strict: bool = False,
     ) -> None:
         self.folder = folder
+        self._strict = strict
         self.package = package
         self.files = tuple(sources_in(folder) if files is None else files)
         self._outer = outer
@@ -81,7 +85,8 @@ class Library:
         Raises:
             ConfigurationError: a file cannot be read.
         """
-        return Scope(self.name, read_declarations(declarations_of(self.files)), self._outer)
+        files = read_declarations(declarations_of(self.files))
+        return Scope(self.name, files, self._outer, strict=self._strict)
 
     @property
     def module(self) -> ModuleType:

@@ -173,7 +173,8 @@ class Declarations:
 
 def _library(place: LibraryPlace, package: str, around: Scopes) -> Library:
     name = f"{package}.{place.package}"
-    return Library(place.folder, name, around, name=place.name, files=place.files)
+    strict = not place.is_vendor
+    return Library(place.folder, name, around, name=place.name, files=place.files, strict=strict)
 
 
 def _check_unique(variables: Sequence[Variable]) -> None:

@@ -86,6 +86,19 @@ def test_all_errors_are_told_at_once_with_file_line_and_caret(declare):
     assert local.splitlines()[2].endswith("^")
 
 
+def test_a_type_that_nobody_declares_is_told_in_libraries_too(declare, tmp_path):
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (outside / "outside.fun").write_text(BLOCK.format("Far", "Nope"))
+    found = declare({"ramps/ramps.fun": BLOCK.format("Ramp", "Nope")}, libraries=[outside])
+    with pytest.raises(ConfigurationError) as raised:
+        found.check()
+    assert [text.splitlines()[0].partition(": ")[2] for text in raised.value.findings] == [
+        "error: no type is called Nope",
+        "error: no type is called Nope",
+    ]
+
+
 def test_warnings_do_not_stop_anything(declare):
     found = declare({"Global.typ": "TYPE Axis : INT; other : axis; END_TYPE"})
     (warning,) = found.check()
