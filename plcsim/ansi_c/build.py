@@ -29,6 +29,8 @@ _OPTIONS = (
     *("-c", "-fPIC", "-fvisibility=default", "-O2", "-gdwarf-4"),
     # what programs for the controller take for granted of its compiler
     *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
+    # or a malloc that nobody uses is left out and cannot fail
+    *("-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-realloc", "-fno-builtin-free"),
     *("-fno-math-errno", "-ffp-contract=off", "-fgnuc-version=11.3.0"),
     # long double is double: the one of 128 bits that WebAssembly has would be computed in software
     *("-Xclang", "-mlong-double-64"),

@@ -1,4 +1,4 @@
-"""Bistables of IEC 61131-3: SR, RS."""
+"""Bistables of IEC 61131-3: SR, RS, SEMA."""
 
 from __future__ import annotations
 
@@ -19,3 +19,18 @@ class RS(interface.RS):
     def execute(self) -> None:
         """Set, reset or keep Q1."""
         self.Q1 = not self.RESET1 and (self.SET or self.Q1)
+
+
+class SEMA(interface.SEMA):
+    """A semaphore: whoever finds BUSY FALSE after CLAIM has it until RELEASE.
+
+    Inputs: CLAIM, RELEASE. Output: BUSY, TRUE where it was claimed before this call.
+    """
+
+    def execute(self) -> None:
+        """Claim or release."""
+        self.BUSY = self.X
+        if self.CLAIM:
+            self.X = True
+        elif self.RELEASE:
+            self.BUSY = self.X = False

@@ -1,4 +1,4 @@
-"""Edge detection of IEC 61131-3: R_TRIG, F_TRIG.
+"""Edge detection of IEC 61131-3: R_TRIG, F_TRIG; and RF_TRIG for both.
 
 M holds CLK of the last call and is FALSE before the first one. So R_TRIG fires in its first call
 where CLK is TRUE, as the standard notes, and F_TRIG never does. There the text of the standard
@@ -28,4 +28,13 @@ class F_TRIG(interface.F_TRIG):  # noqa: N801  # the IEC name
     def execute(self) -> None:
         """Compare CLK with the last call."""
         self.Q = self.M and not self.CLK
+        self.M = self.CLK
+
+
+class RF_TRIG(interface.RF_TRIG):  # noqa: N801  # the controller's name
+    """Q is TRUE in the call in which CLK has changed. Input: CLK. Output: Q."""
+
+    def execute(self) -> None:
+        """Compare CLK with the last call."""
+        self.Q = self.CLK is not self.M
         self.M = self.CLK

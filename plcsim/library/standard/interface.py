@@ -233,3 +233,105 @@ class RS(FunctionBlock):
 
     Q1: bool
     """State."""
+
+
+class TON_10ms(FunctionBlock):
+    """On-delay timer in ticks of 10 ms."""
+
+    _plc_type = _DECLARED["TON_10ms"]
+
+    IN: bool
+    """Starts the timer with its rising edge."""
+
+    PT: int
+    """Ticks."""
+
+    Q: bool
+    """TRUE once IN has been TRUE for PT."""
+
+    ET: int
+    """Ticks since then, up to PT."""
+
+    StartTime: int
+    """1 + tick of the start."""
+
+    M: bool
+    """IN at the last call."""
+
+
+class TOF_10ms(FunctionBlock):
+    """Off-delay timer in ticks of 10 ms."""
+
+    _plc_type = _DECLARED["TOF_10ms"]
+
+    IN: bool
+    """Starts the timer with its falling edge."""
+
+    PT: int
+    """Ticks."""
+
+    Q: bool
+    """TRUE while IN is, and for PT after it."""
+
+    ET: int
+    """Ticks since then, up to PT."""
+
+    M: bool
+    """IN at the last call."""
+
+    StartTime: int
+    """1 + tick of the start."""
+
+
+class TP_10ms(FunctionBlock):
+    """Pulse timer in ticks of 10 ms."""
+
+    _plc_type = _DECLARED["TP_10ms"]
+
+    IN: bool
+    """Starts the pulse with its rising edge."""
+
+    PT: int
+    """Ticks."""
+
+    Q: bool
+    """The pulse."""
+
+    ET: int
+    """Ticks since then, up to PT."""
+
+    StartTime: int
+    """1 + tick of the start."""
+
+
+class RF_TRIG(FunctionBlock):
+    """Both edges."""
+
+    _plc_type = _DECLARED["RF_TRIG"]
+
+    CLK: bool
+    """Signal."""
+
+    Q: bool
+    """TRUE in the call that sees CLK change."""
+
+    M: bool
+    """CLK at the last call."""
+
+
+class SEMA(FunctionBlock):
+    """Semaphore."""
+
+    _plc_type = _DECLARED["SEMA"]
+
+    CLAIM: bool
+    """Claims it."""
+
+    RELEASE: bool
+    """Gives it back."""
+
+    BUSY: bool
+    """It was claimed before."""
+
+    X: bool
+    """It is claimed."""

@@ -142,6 +142,75 @@ FUNCTION_BLOCK RS (*bistable, reset has priority*)
 	END_VAR
 END_FUNCTION_BLOCK
 
+FUNCTION_BLOCK TON_10ms (*on-delay timer in ticks of 10 ms*)
+	VAR_INPUT
+		IN : BOOL; (*starts the timer with its rising edge*)
+		PT : UDINT; (*ticks*)
+	END_VAR
+	VAR_OUTPUT
+		Q : BOOL; (*TRUE once IN has been TRUE for PT*)
+		ET : UDINT; (*ticks since then, up to PT*)
+	END_VAR
+	VAR
+		StartTime : UDINT; (*1 + tick of the start*)
+		M : BOOL; (*IN at the last call*)
+	END_VAR
+END_FUNCTION_BLOCK
+
+FUNCTION_BLOCK TOF_10ms (*off-delay timer in ticks of 10 ms*)
+	VAR_INPUT
+		IN : BOOL; (*starts the timer with its falling edge*)
+		PT : UDINT; (*ticks*)
+	END_VAR
+	VAR_OUTPUT
+		Q : BOOL; (*TRUE while IN is, and for PT after it*)
+		ET : UDINT; (*ticks since then, up to PT*)
+	END_VAR
+	VAR
+		M : BOOL; (*IN at the last call*)
+		StartTime : UDINT; (*1 + tick of the start*)
+	END_VAR
+END_FUNCTION_BLOCK
+
+FUNCTION_BLOCK TP_10ms (*pulse timer in ticks of 10 ms*)
+	VAR_INPUT
+		IN : BOOL; (*starts the pulse with its rising edge*)
+		PT : UDINT; (*ticks*)
+	END_VAR
+	VAR_OUTPUT
+		Q : BOOL; (*the pulse*)
+		ET : UDINT; (*ticks since then, up to PT*)
+	END_VAR
+	VAR
+		StartTime : UDINT; (*1 + tick of the start*)
+	END_VAR
+END_FUNCTION_BLOCK
+
+FUNCTION_BLOCK RF_TRIG (*both edges*)
+	VAR_INPUT
+		CLK : BOOL; (*signal*)
+	END_VAR
+	VAR_OUTPUT
+		Q : BOOL; (*TRUE in the call that sees CLK change*)
+	END_VAR
+	VAR
+		M : BOOL; (*CLK at the last call*)
+	END_VAR
+END_FUNCTION_BLOCK
+
+FUNCTION_BLOCK SEMA (*semaphore*)
+	VAR_INPUT
+		CLAIM : BOOL; (*claims it*)
+		RELEASE : BOOL; (*gives it back*)
+	END_VAR
+	VAR_OUTPUT
+		BUSY : BOOL; (*it was claimed before*)
+	END_VAR
+	VAR
+		X : BOOL; (*it is claimed*)
+	END_VAR
+END_FUNCTION_BLOCK
+
 FUNCTION LEN : INT (*characters of a string*)
 	VAR_INPUT
 		IN : STRING[32767];

@@ -1,4 +1,4 @@
-"""Timers of IEC 61131-3: TON, TOF, TP.
+"""Timers of IEC 61131-3: TON, TOF, TP; and TON_10ms, TOF_10ms, TP_10ms, which count ticks of 10 ms.
 
 What the standard leaves to the implementation, for all three alike:
 
@@ -16,10 +16,46 @@ from plcsim.core.function_block import FunctionBlock
 from plcsim.library.standard import interface
 
 NS_PER_MS = 1_000_000
+NS_PER_TICK = 10_000_000
+
+TICK_COUNTS = 1 << 32
+"""Ticks are counted in a UDINT."""
 
 
 class Timer(FunctionBlock):
-    """What the timers share: the release they started at.
+    """What all timers share.
+
+    How a timer knows when it started is left to `MillisecondTimer` and `TickTimer`.
+    """
+
+    __slots__ = ()
+
+    IN: bool
+    PT: int
+    Q: bool
+    ET: int
+    M: bool
+
+    def start(self) -> None:
+        """Start at the release of the running task class."""
+        raise NotImplementedError
+
+    def clear(self) -> None:
+        """Forget the start."""
+        raise NotImplementedError
+
+    @property
+    def started(self) -> bool:
+        """True from `start` to `clear`."""
+        raise NotImplementedError
+
+    def elapsed(self) -> int:
+        """Return the time since the start, within 0..PT; 0 for a PT below 0."""
+        raise NotImplementedError
+
+
+class MillisecondTimer(Timer):
+    """A timer in milliseconds.
 
     The controller's data block has two 32-bit internals for it, StartTime and Restart, side by
     side. Together they hold one 64-bit count of nanoseconds, low word first: 1 + the release of the
@@ -29,15 +65,14 @@ class Timer(FunctionBlock):
 
     __slots__ = ()
 
-    PT: int
     StartTime: int
     Restart: int
 
-    def _start(self) -> None:
+    def start(self) -> None:
         """Start at the release of the running task class."""
         self._set_start(1 + self.context.release_ns)
 
-    def _clear(self) -> None:
+    def clear(self) -> None:
         """Forget the start."""
         self._set_start(0)
 
@@ -46,22 +81,50 @@ class Timer(FunctionBlock):
         self.Restart = start >> 32
 
     @property
-    def _started(self) -> bool:
-        """True from `_start` to `_clear`."""
+    def started(self) -> bool:
+        """True from `start` to `clear`."""
         return bool(self.StartTime or self.Restart)
 
-    def _elapsed(self) -> int:
-        """Return the milliseconds since the start, within 0..PT; 0 for a PT below 0."""
+    def elapsed(self) -> int:
+        """Return the milliseconds since the start."""
         start = self.Restart << 32 | self.StartTime & 0xFFFF_FFFF
         elapsed = (1 + self.context.release_ns - start) // NS_PER_MS
         return max(0, min(elapsed, self.PT))
 
 
-class TON(interface.TON, Timer):
-    """On-delay timer: Q follows a rising edge of IN after PT, a falling edge at once.
+class TickTimer(Timer):
+    """A timer in ticks of 10 ms: StartTime is 1 + the tick of the start, 0 where there was none."""
 
-    Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is FALSE).
-    """
+    __slots__ = ()
+
+    StartTime: int
+
+    def start(self) -> None:
+        """Start at the release of the running task class."""
+        self.StartTime = 1 + self._tick % (TICK_COUNTS - 1)
+
+    def clear(self) -> None:
+        """Forget the start."""
+        self.StartTime = 0
+
+    @property
+    def started(self) -> bool:
+        """True from `start` to `clear`."""
+        return bool(self.StartTime)
+
+    def elapsed(self) -> int:
+        """Return the ticks since the start."""
+        return min((1 + self._tick - self.StartTime) % (TICK_COUNTS - 1), self.PT)
+
+    @property
+    def _tick(self) -> int:
+        return self.context.release_ns // NS_PER_TICK
+
+
+class OnDelay(Timer):
+    """What TON and TON_10ms do."""
+
+    __slots__ = ()
 
     def execute(self) -> None:
         """Run the timer for one call."""
@@ -71,17 +134,27 @@ class TON(interface.TON, Timer):
             return
         if not self.M:
             self.M = True
-            self._start()
+            self.start()
         if not self.Q:
-            self.ET = self._elapsed()
+            self.ET = self.elapsed()
             self.Q = self.ET >= self.PT
 
 
-class TOF(interface.TOF, Timer):
-    """Off-delay timer: Q follows a falling edge of IN after PT, a rising edge at once.
+class TON(interface.TON, OnDelay, MillisecondTimer):
+    """On-delay timer: Q follows a rising edge of IN after PT, a falling edge at once.
 
-    Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is TRUE or never was).
+    Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is FALSE).
     """
+
+
+class TON_10ms(interface.TON_10ms, OnDelay, TickTimer):  # noqa: N801  # the controller's name
+    """The same in ticks of 10 ms: PT and ET are UDINTs."""
+
+
+class OffDelay(Timer):
+    """What TOF and TOF_10ms do."""
+
+    __slots__ = ()
 
     def execute(self) -> None:
         """Run the timer for one call."""
@@ -91,27 +164,48 @@ class TOF(interface.TOF, Timer):
             return
         if self.M:
             self.M = False
-            self._start()
+            self.start()
         if self.Q:
-            self.ET = self._elapsed()
+            self.ET = self.elapsed()
             self.Q = self.ET < self.PT
 
 
-class TP(interface.TP, Timer):
+class TOF(interface.TOF, OffDelay, MillisecondTimer):
+    """Off-delay timer: Q follows a falling edge of IN after PT, a rising edge at once.
+
+    Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms; 0 while IN is TRUE or never was).
+    """
+
+
+class TOF_10ms(interface.TOF_10ms, OffDelay, TickTimer):  # noqa: N801  # the controller's name
+    """The same in ticks of 10 ms: PT and ET are UDINTs."""
+
+
+class Pulse(Timer):
+    """What TP and TP_10ms do."""
+
+    __slots__ = ()
+
+    def execute(self) -> None:
+        """Run the timer for one call."""
+        if self.IN and not self.started:
+            self.start()
+            self.Q = True
+        if self.Q:
+            self.ET = self.elapsed()
+            self.Q = self.ET < self.PT
+        if not (self.Q or self.IN):
+            self.clear()
+            self.ET = 0
+
+
+class TP(interface.TP, Pulse, MillisecondTimer):
     """Pulse timer: a rising edge of IN makes Q TRUE for PT; IN has no effect during the pulse.
 
     After the pulse ET stays at PT while IN is TRUE; IN must be FALSE in one call before the next
     pulse can start. Inputs: IN, PT (TIME, ms). Outputs: Q, ET (TIME, ms).
     """
 
-    def execute(self) -> None:
-        """Run the timer for one call."""
-        if self.IN and not self._started:
-            self._start()
-            self.Q = True
-        if self.Q:
-            self.ET = self._elapsed()
-            self.Q = self.ET < self.PT
-        if not (self.Q or self.IN):
-            self._clear()
-            self.ET = 0
+
+class TP_10ms(interface.TP_10ms, Pulse, TickTimer):  # noqa: N801  # the controller's name
+    """The same in ticks of 10 ms: PT and ET are UDINTs."""

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.library.standard import RS, SR
+from plcsim.library.standard import RS, SEMA, SR
 
 from .diagrams import new_block, play, tidy
 
@@ -13,6 +13,14 @@ DIAGRAMS = {
         SET1   _#___##_
         RESET  ___#_##_
         Q1     _##__###
+        """,
+    ),
+    "SEMA: claimed, claimed again, given back": (
+        SEMA,
+        """
+        CLAIM   _##__#_#_
+        RELEASE ____#_##_
+        BUSY    __##____#
         """,
     ),
     "RS: reset has priority": (

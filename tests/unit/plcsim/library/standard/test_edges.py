@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.library.standard import F_TRIG, R_TRIG
+from plcsim.library.standard import F_TRIG, R_TRIG, RF_TRIG
 
 from .diagrams import new_block, play, tidy
 
@@ -11,6 +11,8 @@ DIAGRAMS = {
     "R_TRIG fires in a first cycle with CLK TRUE": (R_TRIG, "CLK ###_#\nQ   #___#"),
     "F_TRIG": (F_TRIG, "CLK _##_#__\nQ   ___#_#_"),
     "F_TRIG does not fire in a first cycle with CLK FALSE": (F_TRIG, "CLK ___#_\nQ   ____#"),
+    "RF_TRIG": (RF_TRIG, "CLK _##_#__\nQ   _#_###_"),
+    "RF_TRIG fires in a first cycle with CLK TRUE": (RF_TRIG, "CLK ##\nQ   #_"),
     "F_TRIG with CLK TRUE from the first cycle": (F_TRIG, "CLK ##_#_\nQ   __#_#"),
 }
 

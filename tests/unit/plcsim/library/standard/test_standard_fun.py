@@ -8,6 +8,7 @@ from st_types.types.views import type_of
 
 # Of the struct that Automation Studio generates: analog inputs, outputs, internals, then BOOL.
 TIMER = {"PT": 0, "ET": 4, "StartTime": 8, "Restart": 12, "IN": 16, "Q": 17}
+TICKS = {"PT": 0, "ET": 4, "StartTime": 8, "IN": 12, "Q": 13}
 LAYOUT = {
     "TON": (20, TIMER | {"M": 18}),
     "TOF": (20, TIMER | {"M": 18}),
@@ -23,6 +24,11 @@ LAYOUT = {
     "F_TRIG": (3, {"CLK": 0, "Q": 1, "M": 2}),
     "SR": (3, {"SET1": 0, "RESET": 1, "Q1": 2}),
     "RS": (3, {"SET": 0, "RESET1": 1, "Q1": 2}),
+    "TON_10ms": (16, TICKS | {"M": 14}),
+    "TOF_10ms": (16, TICKS | {"M": 14}),
+    "TP_10ms": (16, TICKS),
+    "RF_TRIG": (3, {"CLK": 0, "Q": 1, "M": 2}),
+    "SEMA": (4, {"CLAIM": 0, "RELEASE": 1, "BUSY": 2, "X": 3}),
 }
 
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from plcsim.library.standard import TOF, TON, TP
+from plcsim.library.standard import TOF, TON, TP, TOF_10ms, TON_10ms, TP_10ms
 from st_types import TIME
 
 from .diagrams import new_block, play, tidy
@@ -373,3 +373,32 @@ def test_block_agrees_with_the_model_in_every_cycle(block_class, model, samples)
         block.context.release_ns = release_ns
         block(IN=level, PT=preset)
         assert outputs(block) == model(samples[: index + 1]), index
+
+
+TICK = 10 * MS
+
+
+@pytest.mark.parametrize(("ticks", "millis"), [(TON_10ms, TON), (TOF_10ms, TOF), (TP_10ms, TP)])
+@given(
+    pt=st.integers(0, 5),
+    levels=st.lists(st.booleans(), max_size=40),
+    start=st.integers(0, 2**33),
+)
+def test_timers_in_ticks_do_what_those_in_milliseconds_do(ticks, millis, pt, levels, start):
+    coarse, fine = new_block(ticks, start * TICK), new_block(millis, start * MS)
+    for level in levels:
+        coarse(IN=level, PT=pt)
+        fine(IN=level, PT=pt)
+        assert outputs(coarse) == outputs(fine)
+        coarse.context.release_ns += TICK
+        fine.context.release_ns += MS
+
+
+def test_a_tick_is_10_ms():
+    block = new_block(TON_10ms)
+    found = []
+    for _ in range(8):
+        block(IN=True, PT=3)
+        found.append((block.ET, block.Q))
+        block.context.release_ns += 5 * MS
+    assert found == [(0, 0), (0, 0), (1, 0), (1, 0), (2, 0), (2, 0), (3, 1), (3, 1)]

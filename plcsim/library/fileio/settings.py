@@ -1,0 +1,23 @@
+"""Table [library.FileIO] of plc.toml: the devices, and where each lies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping  # read at run time
+from dataclasses import field
+from pathlib import Path  # likewise
+from typing import Annotated
+
+from plcsim.settings import PathTo, settings
+
+
+@settings
+class FileIoSettings:
+    """Settings of the library.
+
+    Attributes:
+        devices: folders by the names of devices, or of what ``/DEVICE=`` of DevLink names, such as
+            ``"F:"``; a relative path begins at the project's folder. Nothing outside of these
+            folders is ever read or written.
+    """
+
+    devices: Mapping[str, Annotated[Path, PathTo("folder")]] = field(default_factory=dict)
