@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from contextlib import contextmanager
 from dataclasses import replace
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from plcsim.campaign.cluster import Cluster
@@ -68,11 +69,14 @@ def show(options: argparse.Namespace) -> int:
 def repeat(options: argparse.Namespace) -> int:
     """Do one run again in this process, and tell what happened."""
     check_output("--csv", options.csv)
+    check_output("--bag", options.bag)
+    if options.bag is not None and find_spec("rosbags") is None:
+        raise CampaignError("--bag: needs rosbags: pip install 'plcsim[record]'")
     if options.csv is not None and not options.record:
         raise CampaignError("--csv: name with --record TAG what it is to hold")
     campaign = load_campaign(options.file)
     order = order_of(options, campaign, _folder(options))
-    single = SingleRun(campaign, order, options.record)
+    single = SingleRun(campaign, order, options.record, options.bag)
     started = time.perf_counter()
     result = replace(single.perform(options.file), host_s=time.perf_counter() - started)
     print_result(CommandConsole(), result)

@@ -74,6 +74,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     repeat.add_argument(
         "--record", action="append", default=[], metavar="TAG", help="a tag for the table of cycles"
     )
+    repeat.add_argument(
+        "--bag", type=Path, metavar="FILE", help="record the run, for `plcsim replay` and `bag`"
+    )
     repeat.add_argument("--csv", type=Path, metavar="FILE", help="write what was recorded")
 
 

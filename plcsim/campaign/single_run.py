@@ -12,6 +12,7 @@ from plcsim.campaign.measures import scalar
 from plcsim.campaign.result import Outcome, Result, shortened
 from plcsim.core.errors import PlcError
 from plcsim.program.fault import describe, location_of
+from plcsim.recorder.testing.recorder import Recorder
 from plcsim.testing import Plc
 from plcsim.testing.errors import ExpectationFailed
 from plcsim.testing.target import find_project, project_target
@@ -71,13 +72,20 @@ class SingleRun:
         campaign: what is to be done.
         order: with which values.
         record: tags to record.
+        bag: file that the whole run is recorded into; needs the extra ``record``.
 
     Attributes:
         trace: what was recorded.
     """
 
-    def __init__(self, campaign: Campaign, order: Order, record: Sequence[str] = ()) -> None:
-        self._campaign, self._order, self._record = campaign, order, record
+    def __init__(
+        self,
+        campaign: Campaign,
+        order: Order,
+        record: Sequence[str] = (),
+        bag: Path | None = None,
+    ) -> None:
+        self._campaign, self._order, self._record, self._bag = campaign, order, record, bag
         self._watched: list[Observation] = []
         self._meters: dict[str, Meter] = {}
         self._measured: dict[str, Scalar | None] = {}
@@ -101,6 +109,7 @@ class SingleRun:
         return self._result(Outcome.PASSED)
 
     def _run(self, plc: Plc) -> None:
+        recorder = None if self._bag is None else Recorder(plc, self._bag.parent)
         try:
             plc.boot()
             self._campaign.check_names(plc, self._order.values)
@@ -113,6 +122,8 @@ class SingleRun:
             self._judge(plc)
         finally:
             self._measured |= {name: meter.value() for name, meter in self._meters.items()}
+            if recorder is not None and self._bag is not None:
+                recorder.save(self._bag.name)
             plc.close()
 
     def _watch(self, plc: Plc) -> None:

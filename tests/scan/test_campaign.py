@@ -96,6 +96,9 @@ def test_a_campaign_from_first_to_last(folder: Path) -> None:
     assert again.returncode == 1
     assert f"failed: {first['message']}" in again.stdout
     assert "plcsim campaign repeat ramps.py --set ramp.step=" in done.stdout
+    pytest.importorskip("rosbags", reason="the extra record is not installed")
+    plcsim(folder, "repeat", "ramps.py", str(first["number"]), "--bag", "failure.bag")
+    assert (folder / "failure.bag").read_bytes().startswith(b"#ROSBAG")
     assert "30 runs are done already" in plcsim(folder, "ramps.py").stdout
     shown = plcsim(folder, "show", "ramps.py")
     assert (shown.returncode, "smaller" in shown.stderr) == (1, False)

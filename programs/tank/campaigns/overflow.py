@@ -29,6 +29,7 @@ def fill(plc: Plc, values: dict[str, Scalar]) -> dict[str, Scalar]:
     """Fill the tank for twenty seconds; the sensor is noisy, the overflow switch may be stuck."""
     if values["switch"] == "stuck":
         plc.faults.stuck("overflow_switch", value=False)
-    plc.faults.noise("level_raw", float(values["noise_mm"]) * 2.7648)
+    if values["noise_mm"]:
+        plc.faults.noise("level_raw", float(values["noise_mm"]) * 2.7648)
     plc.run("20s")
     return {"spilled_m3": plc["plant.spilled"]}
