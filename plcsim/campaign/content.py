@@ -23,7 +23,10 @@ LEFT_OUT: Final = frozenset({"__pycache__", "node_modules", "Temp", "Binaries"})
 """Folders that no run reads: caches, and what Automation Studio builds."""
 
 RESULTS_SUFFIX: Final = ".results"
-"""Folders of results end so; they do not travel."""
+"""Folders of results end so."""
+
+OUTPUT_SUFFIXES: Final = (RESULTS_SUFFIX, ".pyc", ".bag", ".mcap", ".png", ".html")
+"""What runs write and no run reads: it does not travel, and changes no campaign."""
 
 MOST_BYTES: Final = 256 << 20
 """Of all files together; who has more has named the wrong folder."""
@@ -89,4 +92,4 @@ def _files(folder: Path) -> Iterator[Path]:
 
 
 def _is_left_out(name: str) -> bool:
-    return name.startswith(".") or name in LEFT_OUT or name.endswith((RESULTS_SUFFIX, ".pyc"))
+    return name.startswith(".") or name in LEFT_OUT or name.endswith(OUTPUT_SUFFIXES)
