@@ -1,8 +1,9 @@
 (* The node for Structured Text and C: the functions of the thesis (section 1.3), with handles where C
    has pointers. A node, a publisher, a message, a field is a UDINT that only the node understands; 0
-   is none. A handle of a message is good until it is sent, answered or released; all others until
-   their node ends. Nothing here waits: what takes time is a function block with a status, or is asked
-   for again in the next cycle.
+   is none. A handle of a message is good until it is sent, answered or released, that of a received
+   one until the next is asked for; those of its fields as long; all others until their node ends.
+   Nothing here waits: what takes time is a function block with a status, or is asked for again in the
+   next cycle.
 
    A status is 0, ERR_FUB_BUSY while it goes on, or one of crosERR_... *)
 
@@ -137,12 +138,11 @@ FUNCTION cRosServiceFail : UINT (*answers a request with an error*)
 	END_VAR
 END_FUNCTION
 
-FUNCTION cRosMsgError : UINT (*0 where a reply is a response, else the error that came in its place*)
+FUNCTION cRosMsgError : UINT (*0 where a reply is a response; crosERR_REFUSED where an error came in its place*)
 	VAR_INPUT
 		msg : UDINT; (*the reply*)
-	END_VAR
-	VAR_IN_OUT
-		reason : STRING[CROS_TEXT_LENGTH];
+		pReason : UDINT; (*address of the STRING that takes the error, 0 for none*)
+		sizeReason : UDINT; (*its bytes*)
 	END_VAR
 END_FUNCTION
 
@@ -224,13 +224,12 @@ FUNCTION cRosMessageGetFieldReal : LREAL (*any number*)
 	END_VAR
 END_FUNCTION
 
-FUNCTION cRosMessageGetFieldString : UINT (*a text, cut to the length of value*)
+FUNCTION cRosMessageGetFieldString : UINT (*a text, cut to the STRING that takes it*)
 	VAR_INPUT
 		field : UDINT;
 		index : UDINT;
-	END_VAR
-	VAR_IN_OUT
-		value : STRING[CROS_TEXT_LENGTH];
+		pValue : UDINT; (*address of the STRING*)
+		sizeValue : UDINT; (*its bytes*)
 	END_VAR
 END_FUNCTION
 
@@ -272,12 +271,11 @@ FUNCTION cRosParamReal : LREAL
 	END_VAR
 END_FUNCTION
 
-FUNCTION cRosParamString : UINT
+FUNCTION cRosParamString : UINT (*a text, cut to the STRING that takes it*)
 	VAR_INPUT
 		param : UDINT;
-	END_VAR
-	VAR_IN_OUT
-		value : STRING[CROS_TEXT_LENGTH];
+		pValue : UDINT; (*address of the STRING*)
+		sizeValue : UDINT; (*its bytes*)
 	END_VAR
 END_FUNCTION
 
@@ -298,8 +296,9 @@ END_FUNCTION
 		status : UINT; (*0, ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE or crosERR_...*)
 	END_VAR
 	VAR
-		i_state : UINT;
-		i_call : UDINT;
+		i_state : UINT; (*0 idle, 1 busy*)
+		i_result : UINT; (*last status*)
+		i_call : UDINT; (*the call to the master that is under way*)
 	END_VAR
 END_FUNCTION_BLOCK
 
@@ -314,7 +313,8 @@ END_FUNCTION_BLOCK
 		value : STRING[CROS_TEXT_LENGTH]; (*as JSON*)
 	END_VAR
 	VAR
-		i_state : UINT;
-		i_call : UDINT;
+		i_state : UINT; (*0 idle, 1 busy*)
+		i_result : UINT; (*last status*)
+		i_call : UDINT; (*the call to the master that is under way*)
 	END_VAR
 END_FUNCTION_BLOCK

@@ -32,6 +32,7 @@ class ServiceRequest:
     Attributes:
         request: the message.
         caller: name of the calling node.
+        is_open: whether an answer still goes to it.
     """
 
     def __init__(self, request: Message, caller: str, owner: CallerLink) -> None:
@@ -39,6 +40,16 @@ class ServiceRequest:
         self.caller = caller
         self._owner = owner
         self._is_open = True
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it was not answered and its caller is still there."""
+        return self._is_open and self._owner.connection.state is ConnectionState.REPLY
+
+    @property
+    def response_type(self) -> MessageType:
+        """Type of its response."""
+        return self._owner.response_type
 
     def respond(self, **values: object) -> None:
         """Answer with a response of ``values``, defaults elsewhere.

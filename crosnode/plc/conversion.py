@@ -4,8 +4,9 @@ A STRUCT goes with a message member by field, by name and at every level; fields
 have their defaults, members without a field keep their values. What ``plcsim types from-ros`` makes
 of a message fits it: ``x_length`` beside an ARRAY ``x`` says how many elements are valid, and a
 STRUCT of ``sec`` and ``nsec`` is a time. TIME goes with duration, DATE_AND_TIME with time, and an
-integer with either as nanoseconds. A STRING is Latin-1 and a ROS string UTF-8; each is converted to
-the other, and a ROS string that is not UTF-8 is put into a STRING byte for byte.
+integer with either as nanoseconds. A STRING is Latin-1 and a ROS string UTF-8; each is converted
+to the other, characters that Latin-1 has not to ``?``, and a ROS string that is not UTF-8 is put
+into a STRING byte for byte.
 
 What can never fit is a ConfigurationError before the first cycle; a value that does not fit is left
 to the encoder of its target.
@@ -192,7 +193,9 @@ def _element(types: Surroundings, field: Field, data_type: DataType[Any], path: 
     elif field.base == "string":
         if isinstance(data_type, (StringType, WStringType)):
             cut = partial(_count, types.cuts, path)
-            return Conversion(_as_it_is, lambda value, _: _text(value, data_type.length, cut))
+            is_wide = isinstance(data_type, WStringType)
+            text = partial(_wide_text if is_wide else _text, data_type.length, cut)
+            return Conversion(_as_it_is, lambda value, _: text(value))
     elif not isinstance(data_type, (StringType, WStringType, StructType, ArrayType)):
         return Conversion(_as_it_is, lambda value, _: _number(value))
     raise _misfit(path, data_type, field.declared)
@@ -202,11 +205,23 @@ def _as_it_is(value: Plain) -> Plain:
     return value
 
 
-def _text(value: str, length: int, cut: Cut) -> str:
-    """Return a text as a STRING or WSTRING takes it; what does not fit is cut by the tag."""
-    if len(value) > length:
+def _text(length: int, cut: Cut, value: str) -> str:
+    """Return a text as a STRING takes it; the tag cuts what is longer.
+
+    Characters that Latin-1 has not become ``?``, which counts as cut.
+    """
+    text = to_latin1(value)
+    if len(text) > length or (text != value and is_utf8(value)):
         cut()
-    return value if is_utf8(value) else to_latin1(value)
+    return text
+
+
+def _wide_text(length: int, cut: Cut, value: str) -> str:
+    """Return a text as a WSTRING takes it; the tag cuts what is longer."""
+    text = value if is_utf8(value) else to_latin1(value)
+    if len(text) > length:
+        cut()
+    return text
 
 
 def _count(cuts: Counter[str], path: str) -> None:

@@ -131,3 +131,25 @@ def test_a_port_in_use_leaves_the_rest_of_the_controller_running(
     finally:
         second.process.kill()
         second.process.communicate()
+
+
+def test_the_server_in_structured_text_answers_a_real_client(tmp_path: Path) -> None:
+    folder = tmp_path / "tcp_server_st"
+    shutil.copytree(PROGRAMS / "tcp_server_st", folder)
+    port, file = free_port(), folder / "thesis_server" / "Variables.var"
+    file.write_text(file.read_text().replace("22011", str(port)))
+    command = [sys.executable, "-m", "plcsim.cli.main", "run", str(folder)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + TIMEOUT_S
+        while True:
+            try:
+                client = socket.create_connection(("127.0.0.1", port), TIMEOUT_S)
+                break
+            except ConnectionRefusedError:
+                assert process.poll() is None
+                assert time.monotonic() < deadline
+        with client:
+            client.sendall(b"hello")
+            assert b"".join(iter(lambda: client.recv(1000), b"")) == b"hello" + bytes(95)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(TIMEOUT_S) == 0

@@ -2,18 +2,22 @@
 
 from pathlib import Path
 
+import pytest
+
 from .rig import Ros
 
 
-def test_our_talker_and_a_roscpp_listener(ros: Ros, roscpp: Path) -> None:
-    talker = ros.program("talker")
+@pytest.mark.parametrize("program", ["talker", "talker_st"])
+def test_our_talker_and_a_roscpp_listener(ros: Ros, roscpp: Path, program: str) -> None:
+    talker = ros.program(program)
     listener = ros.start([str(roscpp / "listener")])
     ros.until(lambda: listener.text.count("I heard: [Hello world!!!]") >= 3, 25)
     assert talker.is_running
 
 
-def test_a_roscpp_talker_and_our_listener(ros: Ros, roscpp: Path) -> None:
-    ros.program("listener")
+@pytest.mark.parametrize("program", ["listener", "listener_st"])
+def test_a_roscpp_talker_and_our_listener(ros: Ros, roscpp: Path, program: str) -> None:
+    ros.program(program)
     ros.start([str(roscpp / "talker")])
     said = ros.tool("rostopic", "echo", "-n", "20", "/rosout/msg", seconds=20)
     assert said.count("I heard: [roscpp ") >= 10

@@ -9,7 +9,7 @@ from plcsim.library.face_writer import interface_source
 from plcsim.library.installed import installed
 from st_types.types.views import type_of
 
-OWN = [each for each in installed().values() if each.package.startswith("plcsim.")]
+OWN = [each for each in installed().values() if each.package.startswith(("plcsim.", "crosnode."))]
 
 
 @pytest.mark.parametrize("library", OWN, ids=str)

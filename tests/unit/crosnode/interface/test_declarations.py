@@ -18,7 +18,7 @@ from st_types.writers.c_header import Header, c_header
 from st_types.writers.c_types import c_type_block
 from st_types.writers.python_source import Module, python_source
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 FILES = sorted(
     p for p in (ROOT / "crosnode" / "interface").iterdir() if p.suffix in (".typ", ".var", ".fun")
 )
