@@ -18,13 +18,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     """Add the command and its sub-commands."""
     parser = subparsers.add_parser(
         "st",
-        help="check and run programs in Structured Text",
+        help="check, run and format programs in Structured Text",
         description="Work with Structured Text: programs of B&R projects and standard files.",
         epilog=EPILOG,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_check(commands)
     _add_run(commands)
+    _add_format(commands)
 
 
 def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -95,6 +96,36 @@ def _add_run(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     )
     parser.add_argument("file", type=Path, metavar="FILE", help="an .st file")
     parser.set_defaults(func=_run, act="run")
+
+
+def _add_format(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "format",
+        help="indent files and put blanks in order",
+        description="Indent files by their blocks and put one blank where readers expect one. "
+        "Tokens, comments and line breaks stay as they are; a file with errors in its syntax or "
+        "with lines of the preprocessor is left alone.",
+        examples=(
+            ("plcsim st format my_plc", "all .st files of a folder"),
+            ("plcsim st format --check my_plc", "change nothing; exit 1 where something would be"),
+        ),
+        epilog=epilog(DONE="", FAILED="errors were found, or --check would change a file"),
+    )
+    parser.add_argument("--check", action="store_true", help="change nothing, name the files")
+    parser.add_argument(
+        "--indent",
+        type=_count,
+        metavar="N",
+        help="blanks of a step; a tab by default",
+    )
+    parser.add_argument(
+        "paths",
+        nargs="+",
+        type=Path,
+        metavar="PATH",
+        help="file, or folder with all .st files below it",
+    )
+    parser.set_defaults(func=_run, act="format")
 
 
 def _count(text: str) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.cli.declaration_files import find_files, shown_progress
 from plcsim.cli.st_check import check_files
+from plcsim.cli.st_format import format_files
 from plcsim.cli.st_run import run
 from plcsim.core.errors import PlcError
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
@@ -108,5 +109,9 @@ def _report(file: StructuredTextFile, counts: Counter[str]) -> None:
     counts["warning"] += log.warning_count
 
 
-COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {"check": check, "run": run}
+COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "check": check,
+    "format": format_files,
+    "run": run,
+}
 """What each command runs; the results are exit codes."""
