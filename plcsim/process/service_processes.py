@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.core.backoff import Backoff
 from plcsim.process.service_main import ServiceOrder
-from plcsim.project.extension import services_of
+from plcsim.project.extension import extensions, services_of
 from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.guest import tidy
 from plcsim.shared_image.layout import HEADER_SIZE, make_file
@@ -34,17 +34,20 @@ LONGEST_PAUSE_NS = 10_000_000_000
 TIDY_NS = 1_000_000_000
 """Between two looks at what guests that have died have left."""
 
-STOP_S = 2.0
-"""A service has this long to end by itself."""
-
 
 class _Service:
     """One service process and when to start it again."""
 
     def __init__(
-        self, module: str, order: ServiceOrder, page: StatusPage, output: ChildOutput
+        self,
+        module: str,
+        order: ServiceOrder,
+        page: StatusPage,
+        output: ChildOutput,
+        stopping_s: float,
     ) -> None:
         self.order = order
+        self._stopping_s = stopping_s
         self._module = module
         self._page = page
         self._output = output
@@ -100,7 +103,7 @@ class _Service:
             return
         self._process.terminate()
         try:
-            self._process.wait(STOP_S)
+            self._process.wait(self._stopping_s)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
@@ -135,6 +138,7 @@ class ServiceProcesses:
                 ServiceOrder(name, number, os.getpid(), self.image_fd, page.fd, wake_fd, quiet),
                 page,
                 output.child(),
+                extensions()[name].stopping_s(settings[name]),
             )
             for number, ((name, module), wake_fd) in enumerate(
                 zip(modules.items(), self.wake_fds, strict=True)

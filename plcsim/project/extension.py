@@ -81,6 +81,10 @@ class Extension(Protocol):
         """
         return ""
 
+    def stopping_s(self, settings: Any) -> float:
+        """Return how many seconds the service may take to end when it is asked to."""
+        return 2.0
+
     def endpoint(self, settings: Any) -> str:
         """Return where others reach the service, as people write it; "" where nobody does."""
         return ""

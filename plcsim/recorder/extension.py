@@ -54,6 +54,10 @@ class RecordExtension(Extension):
         in_scan = settings.is_in_process or settings.is_off
         return "" if in_scan else "plcsim.recorder.service.process"
 
+    def stopping_s(self, settings: RecordProject) -> float:
+        """Return the time to write what is still in the image, and the index."""
+        return 60.0
+
     def endpoint(self, settings: RecordProject) -> str:
         """Return the file."""
         return settings.settings.file

@@ -8,6 +8,7 @@ ROS 1 bag readable.
 from __future__ import annotations
 
 import shutil
+import struct
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from plcsim.recorder.bag.types import (
@@ -32,6 +33,11 @@ SUFFIXES: Final = (".bag", ".mcap", ".db3")
 _MAGIC_SIZE: Final = 13
 _HEADER_SIZE: Final = 4096
 """Bytes that header and padding of the first record have in a bag of ROS 1 (rosbag's bag.cpp)."""
+
+_MESSAGE: Final = struct.Struct("<II4sI5sII5sIII")
+_FIELDS: Final = (38, 4, b"op=\x02", 9, b"conn=")
+_TIME: Final = (13, b"time=")
+"""A message's record: header with op, conn and time, then the length of its data (rosbag 2.0)."""
 
 
 class Bag(Protocol):
@@ -140,9 +146,17 @@ class Ros1Bag:
 
     def write(self, connection: Any, time_ns: int, data: bytes) -> None:
         """See `Bag`."""
-        chunks = len(self._writer.chunks)
-        self._writer.write(connection, time_ns, data)
-        if len(self._writer.chunks) > chunks:
+        # as Writer.write does, in a third of its time: its headers are made field by field
+        chunk = self._writer.chunks[-1]
+        out = chunk.data
+        chunk.connections[connection.id].append((time_ns, out.tell()))
+        chunk.start = min(chunk.start, time_ns)
+        chunk.end = max(chunk.end, time_ns)
+        seconds, nanoseconds = divmod(time_ns, 1_000_000_000)
+        out.write(_MESSAGE.pack(*_FIELDS, connection.id, *_TIME, seconds, nanoseconds, len(data)))
+        out.write(data)
+        if out.tell() > self._writer.chunk_threshold:
+            self._writer.write_chunk(chunk)
             self._shrink()
 
     def _shrink(self) -> None:

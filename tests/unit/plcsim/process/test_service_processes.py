@@ -10,8 +10,13 @@ import pytest
 from plcsim.process import service_processes as module
 from plcsim.process.output import Output
 from plcsim.process.service_processes import ServiceProcesses
+from plcsim.project.extension import Extension
 from plcsim.shared_image.layout import HEADER_SIZE
 from plcsim.shared_image.status_page import ServiceState, StatusPage
+
+
+class Web(Extension):
+    """The extension of the table [web]."""
 
 
 @pytest.fixture
@@ -20,6 +25,7 @@ def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Servi
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setattr(module, "MAIN", "main_for_tests")
     monkeypatch.setattr(module, "services_of", lambda settings: settings)
+    monkeypatch.setattr(module, "extensions", lambda: {"web": Web()})
     page = StatusPage()
     output = Output()
     made = ServiceProcesses({"web": "service_for_tests"}, page, output)

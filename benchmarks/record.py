@@ -1,0 +1,202 @@
+"""What recording costs the scan, and how quick a replay is.
+
+    python benchmarks/record.py [--seconds 10] [--rounds 3] [--long 0] [--json FILE]
+
+(a) A project with 50 tags that change in every cycle and 10 topics that are published in every
+cycle, at 1 ms on the real clock, with and without a recorder beside it; the rounds begin with
+another one each time. Of each run: CPU time of the scan in a cycle, grid points missed, records
+lost. The cost is the difference within a round; the median of the rounds is told. (b) With
+``--long SECONDS`` one run of 10,000 messages a second: memory of both processes at the start, half
+way and at the end. (c) A run of 10 topics of 100 messages a second on the virtual clock, recorded
+and repeated: how many times as fast as real time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+TAGS = 50
+TOPICS = 10
+
+PROGRAM = f'''"""Fifty tags that change, ten of them published."""
+
+import json
+import time
+
+from plcsim import Program
+from st_types import ARRAY, LREAL, UDINT, var
+
+
+class Busy(Program):
+    __slots__ = ("begun",)
+    count = var(UDINT)
+    values = var(ARRAY(LREAL, (0, {TAGS - 2})))
+    out = var(ARRAY(LREAL, (0, {TOPICS - 1})))
+
+    def init(self):
+        self.begun = 0
+
+    def cyclic(self):
+        if self.count == 1000:
+            self.begun = time.thread_time_ns()
+        self.count += 1
+        now = float(self.count)
+        self.values = [now + n for n in range({TAGS - 1})]
+        self.out = [now + n for n in range({TOPICS})]
+
+    def exit(self):
+        used = time.thread_time_ns() - self.begun
+        print(json.dumps({{"cpu_us": used / 1000 / (self.count - 1000)}}))
+'''
+
+
+def make(folder: Path, cycle: str) -> None:
+    """Write the project."""
+    (folder / "busy").mkdir(parents=True)
+    (folder / "busy" / "main.py").write_text(PROGRAM)
+    published = "\n".join(
+        f'"/busy/out_{n}" = {{ tag = "busy.out[{n}]", type = "std_msgs/Float64", '
+        f'every = "{cycle}" }}'
+        for n in range(TOPICS)
+    )
+    (folder / "plc.toml").write_text(
+        f'[task_class.1]\ncycle = "{cycle}"\ntolerance = "100ms"\nprograms = ["busy"]\n'
+        f'on_violation = "log"\n[record]\ntags = ["busy"]\n'
+        f'[ros]\nmaster = "embedded"\nmaster_port = 11499\n[ros.publish]\n{published}\n'
+    )
+
+
+def plcsim(*words: object) -> list[str]:
+    return [sys.executable, "-m", "plcsim", *map(str, words)]
+
+
+def run(folder: Path, seconds: float, bag: Path | None) -> dict[str, Any]:
+    """Run the project; return its figures."""
+    plain = folder.parent / "plain"
+    if not plain.exists():
+        make(plain, "1ms")
+        toml = plain / "plc.toml"
+        toml.write_text(toml.read_text().replace('[record]\ntags = ["busy"]\n', ""))
+    report = folder.parent / "report.json"
+    words = ["run", folder if bag else plain, "--for", f"{seconds}s", "--quiet", "--report", report]
+    if bag is not None:
+        words += ["--record", bag]
+    done = subprocess.run(plcsim(*words), stdout=subprocess.PIPE, text=True, check=True)
+    (task_class,) = json.loads(report.read_text())["task_classes"]
+    figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    figures["missed"] = task_class["missed_grid_points"]
+    figures["lost"] = 0
+    if bag is not None:
+        told = subprocess.run(
+            plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True
+        )
+        found = re.search(r"steps, (\S+) lost", told.stdout)
+        figures["lost"] = 0 if found and found[1] == "none" else int(found[1] if found else -1)
+        figures["bytes"] = bag.stat().st_size
+        bag.unlink()
+    return figures
+
+
+def costs(folder: Path, seconds: float, rounds: int) -> dict[str, Any]:
+    """Return the figures of (a)."""
+    runs: dict[str, list[dict[str, Any]]] = {"without": [], "with": []}
+    for number in range(rounds):
+        order = ("without", "with") if number % 2 == 0 else ("with", "without")
+        for name in order:
+            bag = folder.parent / "run.bag" if name == "with" else None
+            runs[name].append(run(folder, seconds, bag))
+    pairs = zip(runs["without"], runs["with"], strict=True)
+    cost_us = statistics.median(w["cpu_us"] - o["cpu_us"] for o, w in pairs)
+    return {"runs": runs, "cost_us": cost_us}
+
+
+def resident_mib(pid: int) -> float:
+    pages = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGESIZE") / (1 << 20)
+
+
+def children(pid: int) -> dict[str, int]:
+    """Return the scan and the recorder below a supervisor."""
+    found = {}
+    for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
+        command = Path(f"/proc/{each}/cmdline").read_text()
+        for name, text in (("scan", "scan_process"), ("recorder", "plcsim.recorder")):
+            if text in command:
+                found[name] = int(each)
+    return found
+
+
+def memory(folder: Path, seconds: float) -> list[dict[str, float]]:
+    """Return MiB of both processes of a long run, at its start, half way and at its end."""
+    bag = folder.parent / "long.bag"
+    words = ["run", folder, "--for", f"{seconds + 10}s", "--quiet", "--record", bag]
+    process = subprocess.Popen(plcsim(*words), stdout=subprocess.DEVNULL)
+    found = []
+    time.sleep(8)
+    for part in (0, seconds / 2, seconds / 2):
+        time.sleep(part)
+        sizes = {name: resident_mib(pid) for name, pid in children(process.pid).items()}
+        found.append({**sizes, "bag": sum(f.stat().st_size for f in bag.parent.glob("long*"))})
+    process.wait()
+    for file in bag.parent.glob("long*"):
+        file.unlink()
+    return found
+
+
+def replay(folder: Path, seconds: int) -> dict[str, float]:
+    """Return how long (c) took."""
+    slow = folder.parent / "slow"
+    make(slow, "10ms")
+    bag = folder.parent / "slow.bag"
+    words = ["run", slow, "--virtual", "--for", f"{seconds}s", "--quiet", "--record", bag]
+    subprocess.run(plcsim(*words), stdout=subprocess.DEVNULL, check=True)
+    done = subprocess.run(
+        plcsim("replay", bag, slow), stdout=subprocess.PIPE, text=True, check=True
+    )
+    found = re.search(r"in (\S+) s", done.stdout)
+    assert found is not None
+    return {"seconds": seconds, "took_s": float(found[1]), "times": seconds / float(found[1])}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="What recording costs, how quick a replay is.")
+    parser.add_argument("--seconds", type=float, default=10, help="of each run of (a)")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--long", type=float, default=0, metavar="SECONDS", help="of (b)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="keep all figures")
+    options = parser.parse_args()
+    found: dict[str, Any] = {}
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name) / "busy"
+        make(folder, "1ms")
+        found["costs"] = costs(folder, options.seconds, options.rounds)
+        print("(a)        CPU time of a cycle  missed  records lost")
+        for kind, runs in found["costs"]["runs"].items():
+            for each in runs:
+                missed, lost = each["missed"], each["lost"]
+                print(f"{kind:<10} {each['cpu_us']:16.1f} us {missed:7} {lost:13}")
+        print(f"recording costs {found['costs']['cost_us']:.1f} us of a cycle (median)")
+        if options.long:
+            found["memory"] = memory(folder, options.long)
+            print("(b) MiB: scan, recorder, bag")
+            for each in found["memory"]:
+                bag = each["bag"] / (1 << 20)
+                print(f"    {each.get('scan', 0):.1f} {each.get('recorder', 0):.1f} {bag:.1f}")
+        found["replay"] = replay(folder, 60)
+        print(f"(c) {found['replay']['times']:.0f} times as fast as real time")
+    if options.json is not None:
+        options.json.write_text(json.dumps(found, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()
