@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from plcsim.core.traffic import Topic, Traffic
 
 
-class Border(NamedTuple):
+class Border:
     """Where the messages of one topic are told of.
 
-    Attributes:
+    Args:
         traffic: is told of them, None for nobody.
         topic: what they go over.
     """
 
-    traffic: Traffic | None
-    topic: Topic
+    __slots__ = ("_followers", "_topic")
+
+    def __init__(self, traffic: Traffic | None, topic: Topic) -> None:
+        self._followers = () if traffic is None else traffic.followers
+        self._topic = topic
 
     def cross(self, body: bytes | memoryview) -> None:
-        """Tell of a message."""
-        if self.traffic:
-            self.traffic.tell(self.topic, body)
+        """Tell of a message; its bytes must not change afterwards."""
+        for told in self._followers:
+            told(self._topic, body)

@@ -12,15 +12,18 @@ from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.plc.extension import EXTENSION
 from crosnode.plc.in_process_master import InProcessMaster
+from crosnode.plc.player import Player
 from crosnode.plc.project import MASTER_IP, SharedTypes, step_beside, surroundings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.core.system import State
+from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.errors import RecordingError
 from plcsim.settings.table import Table
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
 
     from crosnode.messages import Message
     from crosnode.node import Publisher, Subscriber
@@ -30,6 +33,9 @@ __tracebackhide__ = True
 
 FIRST_IP: Final = 101
 """Last part of the address of the first node; the following ones count up."""
+
+SETTLING: Final = 3
+"""Cycles between a connection and the first message of a bag."""
 
 QUEUE: Final = 1000
 """Messages that wait for the test; in a program it is ten, but a test looks only now and then."""
@@ -65,6 +71,7 @@ class Ros:
         self._context = plc.controller.context
         self._hosts: list[_Host] = []
         self._numbers = count(FIRST_IP)
+        self._players = count(1)
         self._publishers: dict[tuple[str, str], Publisher] = {}
         self._last_ns = -1
         self._enter()
@@ -210,6 +217,53 @@ class Ros:
         message = publisher.new(**values)
         self._until(f"a subscriber of {topic}", lambda: publisher.subscribers)
         publisher.send(message)
+
+    def replay(self, bag: str | Path, topics: Collection[str] = ()) -> int:
+        """Play a bag to the programs: each message at its recorded time, on the virtual clock.
+
+        Types that the project does not know are taken from the bag. The controller runs until the
+        last message is sent and one cycle more; before the first one it runs until somebody
+        subscribes to a topic of the bag.
+
+        Args:
+            bag: of ``rosbag record``, of ROS 2 or of plcsim; relative names begin at the test's
+                working directory.
+            topics: that are played; none for all that programs subscribe to.
+
+        Returns:
+            how many messages were played.
+
+        Raises:
+            PlcTestError: the bag is damaged, has no such topic, or a type is another one here.
+            ExpectationFailed: nobody subscribes in time (see `Plc.until`).
+        """
+        plc = self._plc
+        player_node = self.node(f"player_{next(self._players)}")
+        try:
+            with open_bag(Path(bag)) as reader:
+                wanted = topics or self._subscribed({topic.name for topic in reader.topics})
+                player = Player(reader, player_node, wanted)
+                first = next(iter(player.publishers))
+                publisher = player.publishers[first]
+                self._until(f"a subscriber of {first}", lambda: publisher.subscribers)
+                plc.advance(SETTLING * plc.cycle_ns)  # the subscriber has to see the connection too
+                player.start(plc.time_ns)
+                while (due_ns := player.due_ns) is not None:
+                    plc.advance(max(0, due_ns - plc.time_ns))
+                    player.step(plc.time_ns)
+                plc.cycles(1)
+                return player.sent
+        except RecordingError as error:
+            raise PlcTestError(str(error)) from None
+
+    def _subscribed(self, topics: Collection[str]) -> list[str]:
+        """Run until programs subscribe to some of these topics; return which."""
+
+        def found() -> list[str]:
+            return sorted(set(topics) & set(self.system_state().subscribers))
+
+        self._until("a subscriber of a topic of the bag", found)
+        return found()
 
     def call(self, service: str, type_name: str, /, **values: object) -> Message:
         """Call a service as ``rosservice call`` does; the controller runs until the reply.

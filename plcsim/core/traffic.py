@@ -34,21 +34,13 @@ class Topic(NamedTuple):
 
 
 class Traffic:
-    """The messages of one controller; true where somebody follows them."""
+    """The messages of one controller.
 
-    __slots__ = ("_followers",)
+    Attributes:
+        followers: called with topic and bytes of every message, which do not change afterwards.
+    """
+
+    __slots__ = ("followers",)
 
     def __init__(self) -> None:
-        self._followers: list[Callable[[Topic, bytes | memoryview], None]] = []
-
-    def __bool__(self) -> bool:
-        return bool(self._followers)
-
-    def follow(self, told: Callable[[Topic, bytes | memoryview], None]) -> None:
-        """Have ``told`` called with topic and bytes of every message from now on."""
-        self._followers.append(told)
-
-    def tell(self, topic: Topic, body: bytes | memoryview) -> None:
-        """Tell of a message; its bytes must not change afterwards."""
-        for told in self._followers:
-            told(topic, body)
+        self.followers: list[Callable[[Topic, bytes | memoryview], None]] = []

@@ -47,11 +47,23 @@ class Message(NamedTuple):
 
 
 class Topic(NamedTuple):
-    """A topic of a bag."""
+    """A topic of a bag.
+
+    Attributes:
+        name: such as ``/chatter``.
+        type_name: such as ``std_msgs/msg/String``.
+        messages: how many there are.
+        digest: of the type, as ROS 1 or ROS 2 computes it.
+        definition: text of the type with all it contains.
+        is_latching: who comes later gets the last message.
+    """
 
     name: str
     type_name: str
     messages: int
+    digest: str
+    definition: str
+    is_latching: bool
 
 
 class BagReader:
@@ -68,13 +80,16 @@ class BagReader:
         self.path = path
         self._reader = reader
         self._is_cdr = is_cdr
-        counts: dict[tuple[str, str], int] = {}
+        found: dict[tuple[str, str], Topic] = {}
         for each in reader.connections:
-            key = each.topic, each.msgtype
-            counts[key] = counts.get(key, 0) + each.msgcount
-        self.topics = [Topic(*key, count) for key, count in sorted(counts.items())]
-        self.start_ns: int = reader.start_time if any(counts.values()) else 0
-        self.end_ns: int = reader.end_time if any(counts.values()) else 0
+            topic = _topic_of(each)
+            key = topic.name, topic.type_name
+            before = found.get(key)
+            count = topic.messages + (before.messages if before else 0)
+            found[key] = topic._replace(messages=count)
+        self.topics = [found[key] for key in sorted(found)]
+        self.start_ns: int = reader.start_time if reader.message_count else 0
+        self.end_ns: int = reader.end_time if reader.message_count else 0
 
     def messages(self, topics: Collection[str] = ()) -> Iterator[Message]:
         """Return messages in the order of their times; of all topics where none are named.
@@ -131,6 +146,17 @@ class BagReader:
                     before if cycle.step == CYCLE else cycle.variables,
                 ),
             )
+
+
+def _topic_of(connection: Any) -> Topic:
+    return Topic(
+        connection.topic,
+        connection.msgtype,
+        connection.msgcount,
+        connection.digest,
+        connection.msgdef.data,
+        bool(getattr(connection.ext, "latching", 0)),
+    )
 
 
 @contextmanager

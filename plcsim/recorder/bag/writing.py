@@ -164,7 +164,7 @@ class Writing:
         """Write a message of a topic, or note what comes over it."""
         number = packet.topic
         if packet.is_topic:
-            topic = Topic(**json.loads(bytes(packet.data)))
+            topic = Topic(**json.loads(packet.data))
             if self._topics.get(number) != topic:
                 self._topics[number] = topic
                 self._borders.pop(number, None)
@@ -174,7 +174,7 @@ class Writing:
             return
         if number not in self._borders:
             self._borders[number] = self._bag.add_foreign(self._topics[number])
-        self._bag.write(self._borders[number], bag_ns, bytes(packet.data))
+        self._bag.write(self._borders[number], bag_ns, packet.data)
 
     def _write_tags(self, bag_ns: int, variables: bytes) -> None:
         shown = self._shown

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Final
 
-from plcsim.recorder.journal.record import Entry, Packet, Record
+from plcsim.recorder.journal.record import Entry, Record, packet
 
 if TYPE_CHECKING:
     from plcsim.core.traffic import Topic
@@ -14,8 +14,20 @@ TOPIC_EVERY: Final = 1000
 """Messages of a topic after which it is described again."""
 
 
-def _text(topic: Topic) -> bytes:
+def topic_text(topic: Topic) -> bytes:
+    """Return a topic as JSON."""
     return json.dumps(topic._asdict()).encode()
+
+
+class _Known:
+    """A topic that has a number; it is found by its identity, which takes a tenth of the time."""
+
+    __slots__ = ("left", "number", "topic")
+
+    def __init__(self, topic: Topic, number: int) -> None:
+        self.topic = topic  # as long as it is here, no other one has its identity
+        self.number = number
+        self.left = 0
 
 
 class Journal:
@@ -33,7 +45,7 @@ class Journal:
         self.network = bytearray()
         self._writes = bytearray()
         self._messages = bytearray()
-        self._topics: dict[Topic, list[int]] = {}
+        self._topics: dict[int, _Known] = {}
         self._latches = 0
 
     def latched(self) -> None:
@@ -46,14 +58,14 @@ class Journal:
 
     def crossed(self, topic: Topic, body: bytes | memoryview) -> None:
         """Note a message; now and then what it goes over, for a recorder that came later."""
-        numbers = self._topics.get(topic)
-        if numbers is None:
-            numbers = self._topics[topic] = [len(self._topics), 0]
-        number, count = numbers
-        if count % TOPIC_EVERY == 0:
-            self._messages += Packet(number, is_topic=True, data=_text(topic)).to_bytes()
-        numbers[1] = count + 1
-        self._messages += Packet(number, is_topic=False, data=body).to_bytes()
+        found = self._topics.get(id(topic))
+        if found is None:
+            found = self._topics[id(topic)] = _Known(topic, len(self._topics))
+        if not found.left:
+            found.left = TOPIC_EVERY
+            self._messages += packet(found.number, topic_text(topic), is_topic=True)
+        found.left -= 1
+        self._messages += packet(found.number, body)
 
     def take(
         self, step: int, task_class: int, cycle: int, time_ns: int, variables: bytes

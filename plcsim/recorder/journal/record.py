@@ -87,11 +87,12 @@ class Packet(NamedTuple):
 
     topic: int
     is_topic: bool
-    data: bytes | memoryview
+    data: bytes
 
-    def to_bytes(self) -> bytes:
-        """Return the packet as `packets` reads it."""
-        return _PACKET.pack(self.topic, self.is_topic, len(self.data)) + self.data
+
+def packet(topic: int, data: bytes | memoryview, *, is_topic: bool = False) -> bytes:
+    """Return a `Packet` as `packets` reads it."""
+    return _PACKET.pack(topic, is_topic, len(data)) + data
 
 
 def packets(messages: bytes) -> Iterator[Packet]:

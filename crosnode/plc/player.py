@@ -1,0 +1,98 @@
+"""Plays a bag: publishes its messages at the times at which they were recorded, as rosbag play."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from crosnode.errors import CrosnodeError
+from plcsim.recorder.errors import RecordingError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from crosnode.node import CrosNode, Publisher
+    from plcsim.recorder.bag.reading import BagReader, Message, Topic
+
+OWN: Final = "/plcsim/"
+"""Topics of plcsim's own recordings begin so."""
+
+QUEUE: Final = 1000
+
+
+class Player:
+    """One run through a bag.
+
+    Args:
+        bag: that is played.
+        node: publishes; its types may learn those of the bag.
+        topics: that are played; none for all but those of plcsim's own.
+
+    Attributes:
+        publishers: by topic.
+        sent: messages so far.
+        is_over: all are sent.
+
+    Raises:
+        RecordingError: a topic is not in the bag, its type is unknown or not the one of the
+            programs, or the bag is damaged.
+    """
+
+    def __init__(self, bag: BagReader, node: CrosNode, topics: Collection[str] = ()) -> None:
+        self._bag = bag
+        known = {topic.name: topic for topic in bag.topics}
+        if missing := sorted(set(topics) - set(known)):
+            raise RecordingError(f"{bag.path}: has no topic {missing[0]}")
+        chosen = [known[n] for n in topics] or [
+            topic for name, topic in known.items() if not name.startswith(OWN) and topic.messages
+        ]
+        if not chosen:
+            raise RecordingError(f"{bag.path}: has no messages to be played")
+        self._node = node
+        self.publishers = {topic.name: self._publisher(topic) for topic in chosen}
+        self.sent = 0
+        self.is_over = False
+        self._messages: Iterator[Message] = bag.messages(self.publishers)
+        self._next: Message | None = None
+        self._first_ns = bag.start_ns
+        self._start_ns: int | None = None
+
+    def _publisher(self, topic: Topic) -> Publisher:
+        package, _, name = topic.type_name.replace("/msg/", "/").partition("/")
+        short = f"{package}/{name}"
+        try:
+            kind = self._node.types.define(short, topic.definition)
+            if len(topic.digest) == len(kind.md5sum) and kind.md5sum != topic.digest:
+                raise RecordingError(
+                    f"{self._bag.path}: {topic.name}: {short} has the MD5 sum {topic.digest} in "
+                    f"the bag, and {kind.md5sum} here"
+                )
+            return self._node.register_publisher(
+                topic.name, short, queue_size=QUEUE, latching=topic.is_latching
+            )
+        except CrosnodeError as error:
+            raise RecordingError(f"{self._bag.path}: {topic.name}: {error}") from None
+
+    def start(self, now_ns: int) -> None:
+        """Let the first message of the bag fall on ``now_ns``."""
+        self._start_ns = now_ns
+        self._advance()
+
+    @property
+    def due_ns(self) -> int | None:
+        """When the next message is due, on the clock of `start`; None behind the last one."""
+        if self._next is None or self._start_ns is None:
+            return None
+        return self._start_ns + self._next.time_ns - self._first_ns
+
+    def step(self, now_ns: int) -> None:
+        """Send what is due."""
+        while (due_ns := self.due_ns) is not None and due_ns <= now_ns:
+            message = self._next
+            assert message is not None
+            self.publishers[message.topic].send_raw(message.as_ros1)
+            self.sent += 1
+            self._advance()
+
+    def _advance(self) -> None:
+        self._next = next(self._messages, None)
+        self.is_over = self._next is None
