@@ -7,18 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from plcsim.cli.exit_codes import ExitCode, epilog
-from plcsim.cli.project_argument import add_project
+from plcsim.cli.project_argument import HELP as PROJECT_HELP
+from plcsim.cli.project_argument import add_project, own_project
 
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable
 
 BAG_HELP = "a bag that plcsim has recorded"
+CLASS_HELP = "whose cycles are counted (default: the one with the lowest number)"
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the commands."""
     _add_replay(subparsers)
+    _add_why(subparsers)
     bag = subparsers.add_parser(
         "bag",
         help="look into a recording: what it holds, and where two differ",
@@ -55,9 +58,33 @@ def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser])
         dest="task_class",
         type=int,
         metavar="N",
-        help="whose cycles are counted (default: the one with the lowest number)",
+        help=CLASS_HELP,
     )
     parser.set_defaults(func=_later("plcsim.recorder.commands.replay", "replay"))
+
+
+def _add_why(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = subparsers.add_parser(
+        "why",
+        help="tell who wrote a tag in a recorded run, with program, line and cycle",
+        description="Repeat a recorded run and tell who wrote a tag last: the program, its line "
+        "where it is in Python, or what came from outside; the latest write last.",
+        examples=(
+            ("plcsim why run.bag tank.valve", "at the end of the recording"),
+            ("plcsim why run.bag tank.valve --cycle 500", "up to and with cycle 500"),
+        ),
+        epilog=epilog(DONE="", FAILED="the bag or the project is wrong, or there is no such tag"),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
+    parser.add_argument("tag", metavar="TAG", help="such as tank.valve")
+    parser.add_argument(
+        "--project", type=Path, default=own_project(), metavar="PROJECT", help=PROJECT_HELP
+    )
+    parser.add_argument("--cycle", type=int, default=0, metavar="N", help="not later than this")
+    parser.add_argument(
+        "--class", dest="task_class", type=int, default=0, metavar="N", help=CLASS_HELP
+    )
+    parser.set_defaults(func=_later("plcsim.recorder.commands.replay", "why"))
 
 
 def _add_info(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -15,6 +15,7 @@ from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.extension import sources_of
 from plcsim.recorder.replay.replay import Replay
+from plcsim.recorder.replay.why import writers
 from st_types.writers.value_text import value_text
 
 if TYPE_CHECKING:
@@ -47,6 +48,24 @@ def replay(options: argparse.Namespace) -> int:
         f"{again.cycles} cycles repeated exactly: {recorded} in {took_s:.2f} s, "
         f"{ran_ns / 1e9 / took_s:.0f} times as fast"
     )
+    return ExitCode.DONE
+
+
+def why(options: argparse.Namespace) -> int:
+    """Tell who wrote a tag."""
+    project = read_project(options.project)
+    with open_bag(options.bag) as bag:
+        head = bag.head()
+        _tell_changes(head, options.project)
+        found = writers(
+            lambda: Replay(load(project), head, bag.records()),
+            options.tag,
+            project.folder,
+            options.task_class,
+            options.cycle,
+        )
+    for each in found:
+        print(each)
     return ExitCode.DONE
 
 
