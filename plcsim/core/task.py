@@ -33,7 +33,7 @@ class Task:
     Attributes:
         name: as in plc.toml; the first part of the program's tags.
         variables: all variables of the program as one tag, its path the name of the task.
-        areas: these, and its constants where it has some.
+        areas: these, its constants where it has some, and what else it has of its own.
         units: what runs for INIT, CYCLIC and EXIT.
         fault_of: tells what something that a unit raised means, and where it was.
         interrupt: ends the unit that runs: it raises CycleTimeViolation with the given reason, at
@@ -66,13 +66,14 @@ class Task:
         units: Mapping[Unit, Callable[[], None]],
         *,
         constants: Tag | None = None,
+        more: Sequence[Tag] = (),
         fault_of: Callable[[BaseException], Fault],
         interrupt: Callable[[str], None],
         instructions: Callable[[], int] | None = None,
     ) -> None:
         self.name = name
         self.variables = variables
-        self.areas = (variables,) if constants is None else (variables, constants)
+        self.areas = (variables, *(() if constants is None else (constants,)), *more)
         self.units = units
         self.cyclic = units[Unit.CYCLIC]
         self._suspended: Callable[[], None] | None = None

@@ -5,15 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.ansi_c.module import CModule
+from plcsim.ansi_c.variables import own_variables
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
+from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
 from plcsim.program.c.sources import compile_program
 from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
 from plcsim.program.compiled import Call, CompiledPrograms
 from plcsim.program.variables import variables_of
+from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from plcsim.machine import Frame, Machine
     from plcsim.program.c.sources import Compiled
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from plcsim.program.site import Site
     from plcsim.program.variables import Variables
     from st_types.resolve.scope import Scope
+    from st_types.types.derived import Member
 
 _UNIT_NAMES = {unit: f"_{unit.value}" for unit in Unit}
 
@@ -64,6 +68,8 @@ class CCode:
         module = CModule(name, self._module, site.machine, surroundings)
         compiled = CompiledPrograms.of(site)
         compiled.locate_by(name, locator(module))
+        names = [each.name for tag in (*own, *site.shared) for each in _members(tag)]
+        data = own_variables(self._module, self._scope, names, name)
         units = {unit: _unit(module, unit, site.machine) for unit in Unit}
         units[Unit.INIT] = _fresh(module, surroundings, units[Unit.INIT])
         return Task(
@@ -71,10 +77,16 @@ class CCode:
             variables,
             units,
             constants=constants,
+            more=() if data is None else [Tag(name, data, module.address)],
             fault_of=compiled.fault_of,
             interrupt=_interrupt,
             instructions=site.machine.meter,
         )
+
+
+def _members(tag: Tag) -> Sequence[Member]:
+    assert isinstance(tag.data_type, StructType)
+    return tag.data_type.members
 
 
 def locator(module: CModule) -> Locate:

@@ -253,3 +253,60 @@ def test_parts_of_a_program_lie_in_several_files_and_folders(controller):
     plc.boot()
     plc.run(cycles=3)
     assert value(plc, "conveyor.x") == 6
+
+
+OWN = """
+#include <AsDefault.h>
+typedef struct point { char tag; double x; short list[3]; } point;
+enum colour { RED = -1, GREEN = 5 };
+UINT plain = 3;
+static REAL slow = 0.5;
+char buffer[20] = "abc";
+SINT address[10] = "127.0.0.1";
+TON_typ timer_1;
+point where = {'p', 2.5, {1, 2, 3}};
+enum colour colour = GREEN;
+BOOL flag;
+LINT grid[2][3];
+static void (*action)(void);
+UDINT declared;
+void _CYCLIC run(void)
+{
+	static int calls = 40;
+	calls++;
+	plain++;
+	slow *= 2;
+	timer_1.PT = 7;
+	TON(&timer_1);
+	where.list[2] += declared;
+	grid[1][2] = calls;
+	flag = action == 0;
+	strcat(buffer, "!");
+}
+"""
+
+
+def test_what_c_defines_itself_are_tags(controller):
+    text = OWN.replace("<AsDefault.h>", "<AsDefault.h>\n#include <string.h>")
+    plc = controller({"Main.c": text, "V.var": "VAR declared : UDINT := 9; END_VAR"})
+    plc.boot()
+    plc.run(cycles=2)
+    figures = {
+        "plain": 5,
+        "slow": 2.0,
+        "buffer": "abc!!",
+        "address[3]": ord("."),
+        "timer_1.PT": 7,
+        "where.tag": ord("p"),
+        "where.x": 2.5,
+        "where.list[2]": 3 + 2 * 9,
+        "colour": 5,
+        "flag": True,
+        "grid[1,2]": 42,
+        "calls": 42,
+        "declared": 9,
+    }
+    assert {path: value(plc, f"conveyor.{path}") for path in figures} == figures
+    plc.tags.write(plc.tags.find("conveyor.plain"), value=100)
+    plc.run(cycles=1)
+    assert value(plc, "conveyor.plain") == 101

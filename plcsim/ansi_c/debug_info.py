@@ -1,0 +1,164 @@
+"""Variables of compiled C by its debug information: their names, places and types.
+
+Source: DWARF Debugging Information Format, version 4, chapters 2, 4, 5 and 7.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.machine.reader import Reader
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+_VERSION = 4
+
+# tags
+(ARRAY, ENUMERATION, MEMBER, POINTER, COMPILE_UNIT) = (0x01, 0x04, 0x0D, 0x0F, 0x11)
+(STRUCTURE, TYPEDEF, UNION, SUBRANGE, BASE) = (0x13, 0x16, 0x17, 0x21, 0x24)
+(CONST, ENUMERATOR, FUNCTION, VARIABLE, VOLATILE) = (0x26, 0x28, 0x2E, 0x34, 0x35)
+
+# attributes
+(LOCATION, NAME, SIZE, BIT_SIZE, CONST_VALUE) = (0x02, 0x03, 0x0B, 0x0D, 0x1C)
+(UPPER_BOUND, COUNT, OFFSET, ENCODING, SPECIFICATION) = (0x2F, 0x37, 0x38, 0x3E, 0x47)
+(TYPE, DATA_BIT_OFFSET) = (0x49, 0x6B)
+
+_PLACE: Final = re.compile(rb"(?:\xed\x03.{4})?\x03(.{4})\x22?", re.DOTALL)
+"""Of a variable: DW_OP_addr; newer clangs add (DW_OP_plus) it to a global (DW_OP_WASM_location)."""
+
+
+@dataclass(slots=True)
+class Entry:
+    """A debugging information entry.
+
+    Attributes:
+        tag: what it describes.
+        attributes: by number.
+        children: entries in it.
+    """
+
+    tag: int
+    attributes: dict[int, Any]
+    children: list[Entry] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """Its name, "" where it has none."""
+        text: str = self.attributes.get(NAME, "")
+        return text
+
+
+class DebugInfo:
+    """The entries of a module.
+
+    Args:
+        section: gives the content of a custom section by its name.
+
+    Raises:
+        MachineError: it ends in the middle of something.
+    """
+
+    def __init__(self, section: Callable[[str], bytes]) -> None:
+        self._strings = section(".debug_str")
+        self._abbreviations = section(".debug_abbrev")
+        self._info = section(".debug_info")
+        self.entries: dict[int, Entry] = {}
+        self.units: list[Entry] = []
+        reader = Reader(self._info)
+        while reader.more:
+            start = reader.place
+            end = _number(reader, 4) + reader.place
+            if _number(reader, 2) == _VERSION:
+                self._read_unit(reader, start, end)
+            reader.place = end
+
+    def variables(self) -> Iterator[tuple[str, int, Entry]]:
+        """Yield name, offset in the module's data and type of each variable that has a place."""
+        for unit in self.units:
+            yield from self._variables_in(unit)
+
+    def _variables_in(self, parent: Entry) -> Iterator[tuple[str, int, Entry]]:
+        for entry in parent.children:
+            if entry.tag == FUNCTION:
+                yield from self._variables_in(entry)
+            place = entry.attributes.get(LOCATION)
+            if entry.tag != VARIABLE or not isinstance(place, bytes):
+                continue
+            declared = self.entries.get(entry.attributes.get(SPECIFICATION, -1), entry)
+            kind = self.type_of(entry) or self.type_of(declared)
+            found = _PLACE.fullmatch(place)
+            if found and kind:
+                yield declared.name, int.from_bytes(found[1], "little"), kind
+
+    def type_of(self, entry: Entry) -> Entry | None:
+        """Return the type of a variable, a member, a pointer, a typedef; None for void."""
+        return self.entries.get(entry.attributes.get(TYPE, -1))
+
+    def _read_unit(self, reader: Reader, start: int, end: int) -> None:
+        abbreviations = self._read_abbreviations(_number(reader, 4))
+        reader.bytes(1)  # the size of an address
+        path: list[Entry] = []
+        while reader.place < end:
+            place = reader.place
+            code = reader.uleb()
+            if code == 0:
+                if path:
+                    path.pop()
+                continue
+            tag, has_children, forms = abbreviations[code]
+            attributes = {name: self._value(reader, form, start) for name, form in forms}
+            entry = self.entries[place] = Entry(tag, attributes)
+            (path[-1].children if path else self.units).append(entry)
+            if has_children:
+                path.append(entry)
+
+    def _read_abbreviations(self, place: int) -> dict[int, tuple[int, bool, list[tuple[int, int]]]]:
+        reader = Reader(self._abbreviations, place)
+        found: dict[int, tuple[int, bool, list[tuple[int, int]]]] = {}
+        while code := reader.uleb():
+            tag, has_children = reader.uleb(), bool(reader.byte())
+            forms = []
+            while pair := (reader.uleb(), reader.uleb()):
+                if pair == (0, 0):
+                    break
+                forms.append(pair)
+            found[code] = tag, has_children, forms
+        return found
+
+    def _value(self, reader: Reader, form: int, unit: int) -> Any:
+        if form in _SIZES:
+            return _number(reader, _SIZES[form])
+        if form in _REFERENCES:
+            return unit + _number(reader, _REFERENCES[form])
+        if form in _BLOCKS:
+            size = _BLOCKS[form]
+            return reader.bytes(_number(reader, size) if size else reader.uleb())
+        if form == _STRING_REFERENCE:
+            return _text(self._strings, _number(reader, 4))
+        if form == _STRING:
+            text = _text(self._info, reader.place)
+            reader.place = self._info.index(0, reader.place) + 1
+            return text
+        if form == _SIGNED:
+            return reader.sleb()
+        if form == _UNSIGNED_REFERENCE:
+            return unit + reader.uleb()
+        return reader.uleb() if form == _UNSIGNED else 1  # the last is DW_FORM_flag_present
+
+
+# forms; numbers, references and offsets by their bytes, blocks by the bytes of their length
+_SIZES: Final = {0x01: 4, 0x0B: 1, 0x05: 2, 0x06: 4, 0x07: 8, 0x0C: 1, 0x17: 4, 0x20: 8, 0x10: 4}
+_REFERENCES: Final = {0x11: 1, 0x12: 2, 0x13: 4, 0x14: 8}
+_BLOCKS: Final = {0x0A: 1, 0x03: 2, 0x04: 4, 0x09: 0, 0x18: 0}
+_STRING, _SIGNED, _STRING_REFERENCE, _UNSIGNED, _UNSIGNED_REFERENCE = 0x08, 0x0D, 0x0E, 0x0F, 0x15
+
+
+def _number(reader: Reader, size: int) -> int:
+    return int.from_bytes(reader.bytes(size), "little")
+
+
+def _text(data: bytes, place: int) -> str:
+    return data[place : data.index(0, place)].decode("utf-8", "replace")
