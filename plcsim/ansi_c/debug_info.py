@@ -90,7 +90,7 @@ class DebugInfo:
             declared = self.entries.get(entry.attributes.get(SPECIFICATION, -1), entry)
             kind = self.type_of(entry) or self.type_of(declared)
             found = _PLACE.fullmatch(place)
-            if found and kind:
+            if found and kind and declared.name:  # strings in the text have no name
                 yield declared.name, int.from_bytes(found[1], "little"), kind
 
     def type_of(self, entry: Entry) -> Entry | None:

@@ -152,9 +152,18 @@ def _facts(host: Host, rights: Rights) -> Iterator[tuple[str, str]]:
     yield "RLIMIT_MEMLOCK", f"{_limit(host.memlock_limit)} (bytes)"
     yield "load", f"{host.load:.2f}"
     yield "Python", host.python
+    yield "C compiler", _compiler()
     yield "rights given", ", ".join(rights.granted) or "none"
     if rights.refused:
         yield "rights refused", ", ".join(rights.refused)
+
+
+def _compiler() -> str:
+    """Return what compiles programs in C, or how to get it."""
+    from plcsim.ansi_c.toolchain import MISSING, system_clang, zig  # noqa: PLC0415  # for this line only
+
+    found = zig() or system_clang()
+    return MISSING if found is None else f"{found.name}, for programs in C"
 
 
 def _limit(limit: int) -> str:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import argparse
 
 DEFAULT_EXAMPLE = "blinky"
-_SUFFIXES = {"python": "", "st": "_st"}
+_SUFFIXES = {"python": "", "st": "_st", "c": "_c"}
 """What the names of examples end in, by the language of their programs."""
 
 
@@ -34,6 +34,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         examples=(
             ("plcsim new my_plc", ""),
             ("plcsim new my_plc --language st", "its program is in Structured Text"),
+            ("plcsim new my_plc --language c", "in C; needs the compiler of plcsim[c]"),
             ("plcsim new my_plc --like tank", "tags over Modbus for an HMI, and a plant"),
         ),
         epilog=epilog(DONE="", FAILED="the folder is there already, or cannot be made"),

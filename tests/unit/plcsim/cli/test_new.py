@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from plcsim.ansi_c.toolchain import system_clang, zig
 from plcsim.cli.main import main
 from plcsim.cli.new import _examples
 
@@ -38,6 +39,17 @@ def test_a_new_project_in_structured_text_runs_and_tests_itself(empty_folder, ca
     assert main(["new", "my_plc", "--language", "st"]) == 0
     assert "from the example blinky_st." in capsys.readouterr().out
     assert (empty_folder / "my_plc" / "blinky" / "Main.st").is_file()
+    assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
+    done = pytest_of("my_plc/tests")
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_new_project_in_c_runs_and_tests_itself(empty_folder, capsys):
+    if zig() is None and system_clang() is None:
+        pytest.skip("no compiler for C is installed")
+    assert main(["new", "my_plc", "--language", "c"]) == 0
+    assert "from the example blinky_c." in capsys.readouterr().out
+    assert (empty_folder / "my_plc" / "blinky" / "Main.c").is_file()
     assert main(["run", "my_plc", "--virtual", "--cycles", "3", "--quiet"]) == 0
     done = pytest_of("my_plc/tests")
     assert done.returncode == 0, done.stdout
