@@ -271,12 +271,12 @@ class Body:
         return Term("DINT", f"TIME_TO_DINT({a.st})", f"((int32_t)({a.c}))")
 
     def counted(self, _depth):
-        """SIZEOF, or a colour as a number."""
+        """SIZEOF, which is a bare number in C, or a colour as a number."""
         if not self.aggregates or self.random.random() < 0.3:
             a = self.place("Colour")
             return Term("DINT", f"{a.st}", a.c)
         name, _, size = self.random.choice(self.aggregates[self.random.choice([*self.aggregates])])
-        return Term("UDINT", f"SIZEOF({name})", f"{size}u")
+        return Term(None, f"SIZEOF({name})", str(size))
 
     def called(self, depth):
         name, result, parameters = self.random.choice(self.functions)
@@ -471,8 +471,9 @@ class Body:
             f"CASE {selector.st} OF {labels[0]}, {labels[1]}: {join(first, 0)} "
             f"10..99: {join(second, 0)} ELSE {join(other, 0)} END_CASE"
         )
+        c_type = compared_as(selector.type if selector.type == "UDINT" else "DINT")
         c = (
-            f"{{int64_t x={selector.c};if(x=={labels[0]}||x=={labels[1]}){{{join(first, 1)}}}"
+            f"{{{c_type} x={selector.c};if(x=={labels[0]}||x=={labels[1]}){{{join(first, 1)}}}"
             f"else if(x>=10&&x<=99){{{join(second, 1)}}}else{{{join(other, 1)}}}}}"
         )
         return st, c
