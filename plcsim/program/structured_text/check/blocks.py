@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plcsim.core.suggestion import did_you_mean
 from plcsim.program.structured_text.check.calls import CallChecker, Parameter, root_of
 from plcsim.program.structured_text.check.kinds import (
     BOOL,
@@ -110,7 +109,7 @@ class BlockChecker(CallChecker):
     ) -> None:
         names = [member.name for member in block.members if member.section in wanted]
         kind = "output" if argument.is_output else "input"
-        message = f"{block} has no {kind} {name}{did_you_mean(name, names)}"
+        message = f"{block} has no {kind} {name}{self.findings.near(name, names)}"
         self.error(argument, Code.UNKNOWN_PARAMETER, message)
         if argument.value is not None:
             self.value(argument.value)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from plcsim.core.suggestion import did_you_mean
 from plcsim.program.structured_text.check import builtins
 from plcsim.program.structured_text.check.expressions import ExpressionChecker
 from plcsim.program.structured_text.check.fits import are_alike
@@ -258,7 +257,7 @@ class CallChecker(ExpressionChecker):
             return self._not_callable(node)
         scope = self.names.scope
         known = (each for outer in scope.chain for each in outer.index.names("functions"))
-        message = f"no function is called {name.name}{did_you_mean(name.name, known)}"
+        message = f"no function is called {name.name}{self.findings.near(name.name, known)}"
         self.error(node, Code.UNKNOWN_NAME, message, scope.hint("functions", name.name))
         for argument in node.arguments:
             if argument.value is not None:
@@ -306,7 +305,7 @@ class CallChecker(ExpressionChecker):
         self, argument: syntax.Argument, name: str, parameters: Sequence[Parameter]
     ) -> None:
         if argument.name:
-            near = did_you_mean(argument.name, (each.name for each in parameters))
+            near = self.findings.near(argument.name, (each.name for each in parameters))
             message = f"{name} has no parameter {argument.name}{near}"
             self.error(argument, Code.UNKNOWN_PARAMETER, message)
         else:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim.core.suggestion import did_you_mean
 from plcsim.program.structured_text.check import operations
 from plcsim.program.structured_text.check.fits import fit
 from plcsim.program.structured_text.check.kinds import (
@@ -84,7 +83,7 @@ class ExpressionChecker:
             self.error(node, Code.NO_VALUE, f"{node.name} has no value; it is no variable")
             return NOTHING
         known = (name for each in scope.chain[:2] for name in each.index.names("variables"))
-        message = f"no variable is called {node.name}{did_you_mean(node.name, known)}"
+        message = f"no variable is called {node.name}{self.findings.near(node.name, known)}"
         self.error(node, Code.UNKNOWN_NAME, message, scope.hint("variables", node.name))
         return NOTHING
 
@@ -144,7 +143,7 @@ class ExpressionChecker:
             return self.unknown_name(base)
         spelling = enumeration.spelling(node.name)
         if spelling is None:
-            near = did_you_mean(node.name, enumeration.values)
+            near = self.findings.near(node.name, enumeration.values)
             message = f"{base.name} has no value {node.name}{near}"
             self.error(node, Code.UNKNOWN_MEMBER, message)
             return NOTHING
@@ -155,7 +154,7 @@ class ExpressionChecker:
     ) -> Value:
         spelling = data_type.spelling(node.name)
         if spelling is None:
-            near = did_you_mean(node.name, (member.name for member in data_type.members))
+            near = self.findings.near(node.name, (member.name for member in data_type.members))
             message = f"{data_type} has no member {node.name}{near}"
             self.error(node, Code.UNKNOWN_MEMBER, message)
             return NOTHING

@@ -5,8 +5,11 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
+from plcsim.core.suggestion import did_you_mean
+from st_types.syntax.diagnostics import MAX_DIAGNOSTICS
+
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Iterable
 
     from plcsim.program.structured_text.codes import Code
     from st_types.syntax.diagnostics import DiagnosticLog
@@ -38,6 +41,13 @@ class Findings:
         """Record a warning at a node, unless its code is hidden."""
         if code not in self._hidden:
             self.log.warning(self.tokens.offset(node.at), message, hint, code)
+
+    def near(self, name: str, known: Iterable[str]) -> str:
+        """Return what ``name`` may mean, as a message ends; "" where no message is recorded more.
+
+        Looking for it takes long, and a file may hold thousands of wrong names.
+        """
+        return "" if self.log.error_count >= MAX_DIAGNOSTICS else did_you_mean(name, known)
 
     def line(self, node: Node) -> int:
         """Return the line of a node, from 1."""

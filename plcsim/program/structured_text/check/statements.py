@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check import typed
@@ -185,10 +186,14 @@ class StatementChecker(BlockChecker):
             last = first if high is None else self._label(high)
             if first is None or last is None:
                 continue
-            if any(first <= upper and lower <= last for lower, upper in taken):
+            place = bisect(taken, (first, last))
+            if any(
+                lower <= last and first <= upper
+                for lower, upper in taken[max(place - 1, 0) : place + 1]
+            ):
                 self.error(low, Code.LABEL_TWICE, f"{first} has a label already")
                 continue
-            taken.append((first, last))
+            taken.insert(place, (first, last))
             ranges.append((first, last))
         return typed.CaseElement(self.findings.line(node), ranges, self.statements(node.body))
 
