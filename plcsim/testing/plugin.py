@@ -13,6 +13,7 @@ import pytest
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
+    from pathlib import Path
 
     from plcsim.testing.plc import Plc
 
@@ -60,6 +61,15 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "as 20us (see docs/testing-reference.md)",
         default="",
     )
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect tests in Structured Text: ``test_*.st``."""
+    if file_path.suffix.lower() != ".st" or not file_path.name.lower().startswith("test_"):
+        return None
+    collector = import_module("plcsim.testing.st_collector").StructuredTextFile
+    found: pytest.Collector = collector.from_parent(parent, path=file_path)
+    return found
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -152,6 +152,11 @@ class StructuredTextCode:
         self._variables = variables
         self.warnings = warnings
 
+    @property
+    def imported(self) -> frozenset[str]:
+        """Names of the blocks and functions of libraries that it calls."""
+        return frozenset(each.name for each in self._code.imports)
+
     def task(self, name: str, site: Site) -> Task:
         """Return a task with variables of its own."""
         variables, constants = self._variables.allocate(site.memory, name)

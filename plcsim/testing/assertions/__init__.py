@@ -1,0 +1,1 @@
+"""The library of assertions that tests in Structured Text call."""
