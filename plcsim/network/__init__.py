@@ -1,9 +1,16 @@
-"""TCP as function blocks need it: never blocking, never raising, on the host's or a virtual net.
+"""TCP and UDP as blocks need them: never blocking, never raising, on the host's or a virtual net.
 
 ``OsNetwork`` uses the sockets of the host. ``VirtualNetwork`` simulates hosts on one net, in
 virtual time, with faults at will. Both pass the suite in ``tests/contracts/network_contract.py``.
 """
 
+from plcsim.network.datagrams import (
+    Datagram,
+    DatagramNetwork,
+    DatagramSocket,
+    OpenedDatagrams,
+    datagrams_of,
+)
 from plcsim.network.os_network import OsNetwork
 from plcsim.network.protocol import (
     Accepted,
@@ -24,10 +31,14 @@ from plcsim.network.wire import Limits, Link
 __all__ = [
     "Accepted",
     "Address",
+    "Datagram",
+    "DatagramNetwork",
+    "DatagramSocket",
     "Limits",
     "Link",
     "Network",
     "Opened",
+    "OpenedDatagrams",
     "Option",
     "OptionValue",
     "OsNetwork",
@@ -36,5 +47,6 @@ __all__ = [
     "Sent",
     "Socket",
     "VirtualNetwork",
+    "datagrams_of",
     "network_of",
 ]

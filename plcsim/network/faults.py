@@ -98,7 +98,7 @@ class Faults:
         """Lose all packets between two hosts; without ``b`` and ``until_ns`` the host is lost.
 
         Packets are sent again as TCP does: a short silence only delays, a long one ends the
-        connection with TIMED_OUT at the end that sends or has keepalive on.
+        connection with TIMED_OUT at the end that sends or has keepalive on. Datagrams are lost.
 
         Raises:
             NetworkSetupError: not an IPv4 literal, a time in the past or an empty span.

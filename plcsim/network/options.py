@@ -30,10 +30,13 @@ class SocketOptions:
     def __getitem__(self, option: Option) -> int:
         return self._values[option]
 
+    def __contains__(self, option: Option) -> bool:
+        return option in self._values
+
     def set(self, option: Option, value: int) -> Outcome:
         """Set an option: OK, or INVALID for a value out of range."""
         legal = legal_value(option, value)
-        if legal is None:
+        if legal is None or option not in self._values:
             return Outcome.INVALID
         self._values[option] = legal
         return Outcome.OK

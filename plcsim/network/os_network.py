@@ -6,9 +6,11 @@ import errno
 import socket
 import struct
 from contextlib import suppress
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from plcsim.host import descriptors
+from plcsim.network import os_datagrams
+from plcsim.network.os_outcomes import OUTCOMES, outcome_of
 from plcsim.network.protocol import (
     ANY_IP,
     BUFFERS,
@@ -29,35 +31,8 @@ from plcsim.network.protocol import (
     legal_value,
 )
 
-_OUTCOMES: Final = {
-    errno.EAGAIN: Outcome.WOULD_BLOCK,
-    errno.EINPROGRESS: Outcome.WOULD_BLOCK,
-    errno.EALREADY: Outcome.WOULD_BLOCK,
-    errno.EINTR: Outcome.WOULD_BLOCK,
-    errno.ECONNRESET: Outcome.RESET,
-    errno.ECONNABORTED: Outcome.RESET,
-    errno.ETIMEDOUT: Outcome.TIMED_OUT,
-    errno.EPIPE: Outcome.NOT_CONNECTED,
-    errno.ENOTCONN: Outcome.NOT_CONNECTED,
-    errno.EISCONN: Outcome.ALREADY_CONNECTED,
-    errno.ECONNREFUSED: Outcome.REFUSED,
-    errno.EHOSTUNREACH: Outcome.UNREACHABLE,
-    errno.ENETUNREACH: Outcome.UNREACHABLE,
-    errno.ENETDOWN: Outcome.UNREACHABLE,
-    errno.EADDRINUSE: Outcome.IN_USE,
-    errno.EADDRNOTAVAIL: Outcome.NOT_LOCAL,
-    errno.EACCES: Outcome.DENIED,
-    errno.EPERM: Outcome.DENIED,
-    errno.EMFILE: Outcome.NO_RESOURCES,
-    errno.ENFILE: Outcome.NO_RESOURCES,
-    errno.ENOBUFS: Outcome.NO_RESOURCES,
-    errno.ENOMEM: Outcome.NO_RESOURCES,
-    errno.EINVAL: Outcome.INVALID,
-    errno.EBADF: Outcome.INVALID,
-    errno.EDOM: Outcome.INVALID,
-    errno.EOPNOTSUPP: Outcome.INVALID,
-    errno.ENOPROTOOPT: Outcome.INVALID,
-}
+if TYPE_CHECKING:
+    from plcsim.network.datagrams import OpenedDatagrams
 
 _ENDS: Final = frozenset({Outcome.RESET, Outcome.TIMED_OUT, Outcome.UNREACHABLE})
 """Outcomes after which a connection is gone for good."""
@@ -77,10 +52,6 @@ _LINGER: Final = struct.Struct("ii")
 
 _NOTHING_YET: Final = Received(Outcome.WOULD_BLOCK)
 _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
-
-
-def _outcome(error: OSError) -> Outcome:
-    return _OUTCOMES.get(error.errno or 0, Outcome.SYSTEM)
 
 
 class OsSocket:
@@ -120,7 +91,7 @@ class OsSocket:
         try:
             self._socket.listen(min(backlog, MAX_BACKLOG))
         except OSError as error:
-            return _outcome(error)
+            return outcome_of(error)
         self._listening = True
         return Outcome.OK
 
@@ -129,7 +100,7 @@ class OsSocket:
         try:
             os_socket, peer = self._socket.accept()
         except OSError as error:
-            outcome = _outcome(error)
+            outcome = outcome_of(error)
             # accept(2): an error of the waiting connection itself means "try the next one".
             return Accepted(Outcome.WOULD_BLOCK if outcome in _ENDS else outcome)
         return Accepted(Outcome.OK, OsSocket(os_socket, Address(*peer)), Address(*peer))
@@ -147,7 +118,7 @@ class OsSocket:
     def _connect(self, peer: Address) -> Outcome:
         # Linux answers a repeated connect() with the state of the first one.
         error = self._socket.connect_ex(peer)
-        outcome = _OUTCOMES.get(error, Outcome.SYSTEM) if error else Outcome.OK
+        outcome = OUTCOMES.get(error, Outcome.SYSTEM) if error else Outcome.OK
         self._target = peer if outcome is Outcome.WOULD_BLOCK else None
         if outcome is Outcome.OK and self.local == peer:
             # TCP lets a free port connect to itself (RFC 9293, simultaneous open).
@@ -192,7 +163,7 @@ class OsSocket:
     def _connection_outcome(self, error: OSError) -> Outcome:
         """Translate, and keep in mind that the connection is lost."""
         # EPIPE: the reset came after the peer's orderly end, or was told before.
-        outcome = Outcome.RESET if error.errno == errno.EPIPE else _outcome(error)
+        outcome = Outcome.RESET if error.errno == errno.EPIPE else outcome_of(error)
         if outcome in _ENDS:
             self._lost = self._lost or outcome
         return self._lost or outcome
@@ -225,20 +196,22 @@ class OsSocket:
     def set_option(self, option: Option, value: int) -> Outcome:
         """See ``Socket.set_option``."""
         legal = legal_value(option, value)
-        if legal is None:
+        if legal is None or option not in _OPTIONS:
             return Outcome.INVALID
         try:
             self._socket.setsockopt(*_OPTIONS[option], legal)
         except OSError as error:
-            return _outcome(error)
+            return outcome_of(error)
         return Outcome.OK
 
     def option(self, option: Option) -> OptionValue:
         """See ``Socket.option``."""
+        if option not in _OPTIONS:
+            return OptionValue(Outcome.INVALID)
         try:
             value = self._socket.getsockopt(*_OPTIONS[option])
         except OSError as error:
-            return OptionValue(_outcome(error))
+            return OptionValue(outcome_of(error))
         # socket(7): the kernel doubles the buffer sizes that are set.
         return OptionValue(Outcome.OK, value // 2 if option in BUFFERS else value)
 
@@ -250,7 +223,7 @@ class OsSocket:
         try:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, value)
         except OSError as error:
-            return _outcome(error)
+            return outcome_of(error)
         return Outcome.OK
 
     def linger(self) -> int | None:
@@ -264,7 +237,7 @@ class OsSocket:
 
 
 class OsNetwork:
-    """The TCP of the host this process runs on."""
+    """TCP and UDP of the host this process runs on."""
 
     def __init__(self) -> None:
         descriptors.make_room()
@@ -278,13 +251,17 @@ class OsNetwork:
         try:
             os_socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         except OSError as error:
-            return Opened(_outcome(error))
+            return Opened(outcome_of(error))
         try:
             os_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, int(reuse_address))
             os_socket.bind((ip or ANY_IP, port))
         except OSError as error:
             os_socket.close()
-            outcome = _outcome(error)
+            outcome = outcome_of(error)
             no_port_left = port == 0 and outcome is Outcome.IN_USE
             return Opened(Outcome.NO_RESOURCES if no_port_left else outcome)
         return Opened(Outcome.OK, OsSocket(os_socket))
+
+    def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
+        """See ``DatagramNetwork.open_datagrams``."""
+        return os_datagrams.open_datagrams(ip, port, reuse_address=reuse_address)

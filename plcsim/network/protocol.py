@@ -69,6 +69,8 @@ class Outcome(Enum):
 class Option(Enum):
     """Options of a socket with an integer value; 0 and 1 for switches."""
 
+    BROADCAST = auto()
+    """Of datagrams: they may go to all hosts."""
     KEEPALIVE = auto()
     SEND_BUFFER = auto()
     """Bytes."""

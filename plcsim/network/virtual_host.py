@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.network.datagrams import OpenedDatagrams
 from plcsim.network.protocol import ANY_IP, Address, Opened, Outcome, is_ipv4
+from plcsim.network.virtual_datagrams import VirtualDatagramSocket
 from plcsim.network.virtual_socket import VirtualSocket
 from plcsim.network.wire import is_loopback
 
@@ -16,7 +18,7 @@ LAST_PORT = 65_535
 
 
 class VirtualHost:
-    """A host's access to TCP on a virtual net; made by ``VirtualNetwork.host``.
+    """A host's access to TCP and UDP on a virtual net; made by ``VirtualNetwork.host``.
 
     Attributes:
         net: the net.
@@ -28,6 +30,7 @@ class VirtualHost:
         self.ip = ip
         self._count = 0
         self._ports: dict[int, list[VirtualSocket]] = {}
+        self._datagrams: dict[int, VirtualDatagramSocket] = {}
         self._fading: dict[int, int] = {}
         self._last_free = LAST_PORT
 
@@ -51,6 +54,35 @@ class VirtualHost:
         made = VirtualSocket(self, local, reuse_address=reuse_address)
         self.add(made)
         return Opened(Outcome.OK, made)
+
+    def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
+        """See ``DatagramNetwork.open_datagrams``; two sockets never share a port here."""
+        self.net.settle()
+        outcome = self._bindable(ip, port)
+        if outcome is not Outcome.OK:
+            return OpenedDatagrams(outcome)
+        free = (p for p in range(FIRST_FREE_PORT, LAST_PORT + 1) if p not in self._datagrams)
+        port = port or next(free, 0)
+        if not port or self.full():
+            return OpenedDatagrams(Outcome.NO_RESOURCES)
+        if port in self._datagrams:
+            return OpenedDatagrams(Outcome.IN_USE)
+        made = VirtualDatagramSocket(self, Address(ip or ANY_IP, port))
+        self._datagrams[port] = made
+        self._count += 1
+        return OpenedDatagrams(Outcome.OK, made)
+
+    def remove_datagrams(self, removed: VirtualDatagramSocket) -> None:
+        """Give up a UDP socket."""
+        if self._datagrams.pop(removed.bound.port, None) is not None:
+            self._count -= 1
+
+    def deliver_datagram(self, target: Address, data: bytes, source: Address) -> bool:
+        """Give a datagram to the socket at its port; False where it is lost."""
+        found = self._datagrams.get(target.port)
+        if found is None or (is_loopback(found.bound.ip) and not is_loopback(source.ip)):
+            return False
+        return found.take(data, source)
 
     def _bindable(self, ip: str, port: int) -> Outcome:
         if ip and not is_ipv4(ip):

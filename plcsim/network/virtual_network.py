@@ -7,6 +7,7 @@ from functools import partial
 from random import Random
 from typing import TYPE_CHECKING
 
+from plcsim.network.datagrams import BROADCAST_IP
 from plcsim.network.errors import NetworkSetupError
 from plcsim.network.events import Event, EventQueue
 from plcsim.network.faults import Faults
@@ -92,6 +93,13 @@ class VirtualNetwork:
     def find_host(self, ip: str) -> VirtualHost | None:
         """Return the host with this address, None if there is none."""
         return self._hosts.get(ip)
+
+    def hosts_at(self, ip: str, sender: VirtualHost) -> list[VirtualHost]:
+        """Return the hosts that a datagram of a host to this address goes to."""
+        if ip == BROADCAST_IP:
+            return [*self._hosts.values()]
+        host = sender if is_loopback(ip) else self._hosts.get(ip)
+        return [] if host is None else [host]
 
     def set_link(self, a: str, b: str, link: Link) -> None:
         """Describe the way between two hosts, for packets sent from now on."""

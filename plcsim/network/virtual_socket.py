@@ -212,6 +212,8 @@ class VirtualSocket:
         """See ``Socket.option``."""
         if self.state is State.CLOSED:
             return OptionValue(Outcome.INVALID)
+        if option not in self._options:
+            return OptionValue(Outcome.INVALID)
         return OptionValue(Outcome.OK, self._options[option])
 
     def set_linger(self, seconds: int | None) -> Outcome:

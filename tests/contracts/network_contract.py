@@ -411,7 +411,12 @@ class NetworkContract:
         assert fresh.set_option(option, value) is Outcome.OK
         assert fresh.option(option) == (Outcome.OK, value)
 
-    @pytest.mark.parametrize("option", list(Option))
+    def test_what_only_datagrams_have(self, talk: Talk) -> None:
+        fresh = talk.open(talk.client)
+        assert fresh.set_option(Option.BROADCAST, 1) is Outcome.INVALID
+        assert fresh.option(Option.BROADCAST).outcome is Outcome.INVALID
+
+    @pytest.mark.parametrize("option", [o for o in Option if o is not Option.BROADCAST])
     @pytest.mark.parametrize("value", [0, 4_294_967_295])
     def test_no_value_does_harm(self, talk: Talk, option: Option, value: int) -> None:
         fresh = talk.open(talk.client)
