@@ -37,6 +37,8 @@ _LAYOUT: Final = {
 _SAME: Final = ("plc.h", "globalTYP.h", "globalVAR.h", "Libraries.h")
 """Names by which Automation Studio has parts of what `DEFAULT` brings."""
 
+_FIRST: Final = "#include <bur/plctypes.h>\n"
+
 _PROTOTYPE = re.compile(r"^_BUR_PUBLIC [^(]*?\b(\w+)\(.*$", re.MULTILINE)
 
 
@@ -51,7 +53,7 @@ def library_headers(libraries: Sequence[Scope], known: list[Header]) -> dict[str
     for library in libraries:
         known.append(_header(library, known))
         text = c_header(known[-1], library.name)
-        headers[f"{library.name}.h"] = _without_standard(text)
+        headers[f"{library.name}.h"] = _including(headers, _without_standard(text))
     return headers
 
 
@@ -70,7 +72,7 @@ def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict
         headers[f"plcsim_{len(headers)}.h"] = c_header(known[-1], f"plcsim {scope.name}")
     known.append(_header(local, known))
     headers["plcsim_program.h"] = c_header(known[-1], "plcsim_program")
-    return headers | _bringing_all(headers)
+    return _of_files([*around, local]) | headers | _bringing_all(headers)
 
 
 def body_headers(library: Scope, libraries: Sequence[Scope]) -> dict[str, str]:
@@ -83,8 +85,22 @@ def body_headers(library: Scope, libraries: Sequence[Scope]) -> dict[str, str]:
     known: list[Header] = []
     headers = library_headers([each for each in libraries if each is not library], known)
     known.append(_header(library, known))
-    headers[f"{library.name}.h"] = c_header(known[-1], library.name)
-    return headers | _bringing_all(headers)
+    text = c_header(known[-1], library.name)
+    headers[f"{library.name}.h"] = _including(headers, text)
+    return _of_files([library]) | headers | _bringing_all(headers)
+
+
+def _including(headers: Iterable[str], text: str) -> str:
+    """Return a header that brings what it may rest on, as Automation Studio's do."""
+    includes = "".join(f"#include <{name}>\n" for name in headers)
+    return text.replace(_FIRST, f"{_FIRST}{includes}", 1)
+
+
+def _of_files(scopes: Iterable[Scope]) -> dict[str, str]:
+    """Return the headers that Automation Studio writes for single files: ``axisTYP.h``."""
+    names = [Path(file.path).stem for scope in scopes for file in scope.files]
+    headers = [f"{name}{kind}.h" for name in names for kind in ("TYP", "VAR")]
+    return dict.fromkeys(headers, f"#include <{DEFAULT}>\n")
 
 
 def _header(scope: Scope, known: Sequence[Header]) -> Header:
@@ -109,7 +125,7 @@ def _without_standard(text: str) -> str:
         return text
     text = _PROTOTYPE.sub(lambda m: f"/* {m[1]}: of C */" if m[1] in found else m[0], text)
     includes = "".join(f"#include <{name}>\n" for name in sorted({standard[f] for f in found}))
-    return text.replace("#include <bur/plctypes.h>\n", f"#include <bur/plctypes.h>\n{includes}", 1)
+    return text.replace(_FIRST, f"{_FIRST}{includes}", 1)
 
 
 @cache

@@ -44,6 +44,32 @@ class Scopes(Sequence["Scope"]):
     def __len__(self) -> int:
         return len(self._libraries)
 
+    def by_dependency(self) -> list[Scope]:
+        """Return the scopes, each behind those of the libraries that it says it needs.
+
+        What comes with plcsim comes first, then what comes without source.
+        """
+        by_name: dict[str, list[Library]] = {}
+        for library in self._libraries:
+            by_name.setdefault(library.name.upper(), []).append(library)
+        found: dict[Library, None] = {}
+
+        def add(library: Library, around: tuple[Library, ...]) -> None:
+            if library in found or library in around:
+                return
+            for name in library.dependencies:
+                for needed in by_name.get(name.upper(), ()):
+                    add(needed, (*around, library))
+            found[library] = None
+
+        for library in sorted(self._libraries, key=_rank):
+            add(library, ())
+        return [library.scope for library in found]
+
+
+def _rank(library: Library) -> tuple[bool, bool]:
+    return library.is_strict, library.beside is not None or bool(library.dependencies)
+
 
 @cache
 def installed() -> Mapping[str, Library]:

@@ -8,21 +8,24 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
 from st_types.errors import Severity, SourceError
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
+from st_types.syntax.tree import TypeBlock, VariableBlock
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
     from types import ModuleType
 
-    from st_types.syntax.tree import DeclarationFile
+    from st_types.resolve.index import NameSpace
+    from st_types.syntax.tree import DeclarationFile, Item
 
 NESTED: Final = (".st", ".c", ".cpp", ".cc", ".cxx")
 """Suffixes of the files that belong to a program or a library from folders inside its own."""
@@ -32,6 +35,26 @@ DEEPEST: Final = 8
 
 DECLARATIONS: Final = (".typ", ".var", ".fun")
 """Suffixes of files with declarations, in small letters."""
+
+
+_SPACES: Final[tuple[NameSpace, ...]] = ("types", "functions", "variables")
+
+
+class CBuild(NamedTuple):
+    """How C is compiled, beyond what holds for all of it.
+
+    Attributes:
+        gcc_version: that the sources shall find, such as "6.3.0"; "" for that of the compiler.
+        include_folders: that they find headers in.
+        options: for the compiler, such as "-D SIMULATION".
+    """
+
+    gcc_version: str = ""
+    include_folders: tuple[Path, ...] = ()
+    options: str = ""
+
+
+PLAIN: Final = CBuild()
 
 
 class Library:
@@ -44,6 +67,8 @@ class Library:
         name: of the library; by default that of its .fun file where it has one only, else that of
             its folder.
         files: that belong to it; by default those in its folder.
+        dependencies: names of libraries that it needs.
+        beside: the library of plcsim with the same name; what that one declares is left out here.
         strict: a type that nobody declares is an error; otherwise what has one is left out, for
             libraries whose own libraries are not there.
 
@@ -52,6 +77,10 @@ class Library:
         folder: likewise.
         package: likewise.
         files: likewise: declarations, sources, and whatever else there is.
+        dependencies: likewise.
+        beside: likewise.
+        c_build: how its sources in C are compiled.
+        is_strict: as above.
 
     Raises:
         ConfigurationError: the folder cannot be read.
@@ -65,12 +94,17 @@ class Library:
         *,
         name: str = "",
         files: Sequence[Path] | None = None,
+        dependencies: Sequence[str] = (),
+        beside: Library | None = None,
         strict: bool = False,
     ) -> None:
         self.folder = folder
-        self._strict = strict
+        self.is_strict = strict
         self.package = package
         self.files = tuple(sources_in(folder) if files is None else files)
+        self.dependencies = tuple(dependencies)
+        self.c_build = PLAIN
+        self.beside = beside
         self._outer = outer
         interfaces = [file.stem for file in self.files if file.suffix.lower() == ".fun"]
         self.name = name or (interfaces[0] if len(interfaces) == 1 else folder.name)
@@ -85,8 +119,12 @@ class Library:
         Raises:
             ConfigurationError: a file cannot be read.
         """
-        files = read_declarations(declarations_of(self.files))
-        return Scope(self.name, files, self._outer, strict=self._strict)
+        files, name = read_declarations(declarations_of(self.files)), self.name
+        if self.beside is not None:
+            declared = self.beside.scope.index
+            known = {each for space in _SPACES for each in declared.names(space)}
+            files, name = [_without(file, known) for file in files], f"{name}_more"
+        return Scope(name, files, self._outer, strict=self.is_strict)
 
     @property
     def module(self) -> ModuleType:
@@ -146,6 +184,18 @@ def read_declarations(files: Iterable[Path]) -> list[DeclarationFile]:
         return [parse_declarations(Source.read(file)) for file in files]
     except (OSError, SourceError) as err:
         raise ConfigurationError(str(err)) from None
+
+
+def _without(file: DeclarationFile, names: Collection[str]) -> DeclarationFile:
+    """Return a file without the declarations of some names."""
+    items: list[Item] = []
+    for item in file.items:
+        if isinstance(item, TypeBlock | VariableBlock):
+            kept = [each for each in item.declarations if each.name not in names]
+            items.append(replace(item, declarations=kept))
+        elif item.name not in names:
+            items.append(item)
+    return replace(file, items=items)
 
 
 def check_scope(scope: Scope) -> list[str]:

@@ -61,17 +61,33 @@ class Declarations:
         scopes = Scopes(around)
         own: list[Library] = []
         vendors: list[Library] = []
+        ours = {each.name.upper(): each for each in installed().values()}
         for place in layout.libraries:
-            library = _library(place, package, scopes)
+            beside = ours.get(place.name.upper()) if place.is_vendor else None
+            library = self._library(place, scopes, beside)
             (vendors if place.is_vendor else own).append(library)
         _check_names(own)
         hidden = {library.name.upper() for library in own}
         around += own
-        around += [each for each in installed().values() if each.name.upper() not in hidden]
+        around += [each for name, each in ours.items() if name not in hidden]
         around += [each for each in vendors if each.name.upper() not in hidden]
         self.own_libraries = tuple(own)
         stubs = layout.stubs | ({v.name.lower() for v in vendors} if "*" in layout.stubs else set())
         self.catalogue = Catalogue(around, languages, stubs)
+
+    def _library(self, place: LibraryPlace, around: Scopes, beside: Library | None) -> Library:
+        library = Library(
+            place.folder,
+            f"{self.package}.{place.package}",
+            around,
+            name=place.name,
+            files=place.files,
+            dependencies=place.dependencies,
+            beside=beside,
+            strict=not place.is_vendor,
+        )
+        library.c_build = self.layout.c_build
+        return library
 
     @cached_property
     def scope(self) -> Scope:
@@ -169,12 +185,6 @@ class Declarations:
         for library in self.own_libraries:
             found += [v for v in library.scope.variables if not v.is_constant]
         return found
-
-
-def _library(place: LibraryPlace, package: str, around: Scopes) -> Library:
-    name = f"{package}.{place.package}"
-    strict = not place.is_vendor
-    return Library(place.folder, name, around, name=place.name, files=place.files, strict=strict)
 
 
 def _check_unique(variables: Sequence[Variable]) -> None:

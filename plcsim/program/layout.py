@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.library.library import files_in, sources_in
+from plcsim.library.library import PLAIN, CBuild, files_in, sources_in
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -68,6 +68,7 @@ class LibraryPlace(NamedTuple):
         files: that belong to it.
         package: name of its folder for Python, below the project's.
         is_vendor: it comes without source; what plcsim has itself stands before it.
+        dependencies: names of libraries that it needs.
     """
 
     name: str
@@ -75,6 +76,7 @@ class LibraryPlace(NamedTuple):
     files: tuple[Path, ...]
     package: str
     is_vendor: bool = False
+    dependencies: tuple[str, ...] = ()
 
 
 class MadeVariable(NamedTuple):
@@ -99,6 +101,7 @@ class Layout:
         programs: by the names that task classes give them.
         libraries: in the order in which names are looked up in them.
         made_variables: global variables besides those that files declare.
+        c_build: how C is compiled.
         stubs: libraries of which a block without a body is idle, in small letters; "*" for all
             that come without source.
     """
@@ -108,6 +111,7 @@ class Layout:
     programs: Mapping[str, ProgramPlace] = field(default_factory=dict)
     libraries: tuple[LibraryPlace, ...] = ()
     made_variables: tuple[MadeVariable, ...] = ()
+    c_build: CBuild = PLAIN
     stubs: frozenset[str] = frozenset()
 
 

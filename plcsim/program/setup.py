@@ -29,10 +29,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ProgramSetup:
-    """A program and the name it runs under."""
+    """A program and the name it runs under; ``source`` is where it comes from, for messages."""
 
     name: str
     code: ProgramCode
+    source: str = ""
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,37 @@ def load(project: Project, *, watched: bool = False) -> Application:
         raise
 
 
+def placed(application: Application) -> Application:
+    """Return an application without the programs that cannot be put on a controller.
+
+    That shows when they are linked: what they call may be nowhere. `Application.left_out` says why.
+    """
+    if not application.setup.classes:
+        return application
+    try:
+        still_controller(application)
+    except ConfigurationError:
+        return _without_unplaced(application)
+    return application
+
+
+def _without_unplaced(application: Application) -> Application:
+    setup, left_out = application.setup, dict(application.left_out)
+    classes = []
+    for task_class in setup.classes:
+        good = []
+        for program in task_class.programs:
+            alone = replace(setup, classes=[replace(task_class, programs=[program])])
+            try:
+                still_controller(replace(application, setup=alone))
+                good.append(program)
+            except ConfigurationError as err:
+                left_out[program.source] = err.findings
+        if good:
+            classes.append(replace(task_class, programs=good))
+    return replace(application, setup=replace(setup, classes=classes), left_out=left_out)
+
+
 def runnable(project: Project) -> Project:
     """Return the part of a project that can run, for "keep going".
 
@@ -145,6 +176,7 @@ def runnable(project: Project) -> Project:
     project = replace(project, keep_going=True)
     application = load(project)
     try:
+        application = placed(application)
         left = project.without(application.left_out, _notes(project, application.left_out))
     finally:
         application.unload()
@@ -215,7 +247,7 @@ def _setup(project: Project, codes: Mapping[str, ProgramCode]) -> Setup:
     """Return the controller that runs programs; classes without any are left out."""
 
     def setup_of(entry: ProgramEntry) -> ProgramSetup:
-        return ProgramSetup(entry.name, codes[entry.source])
+        return ProgramSetup(entry.name, codes[entry.source], entry.source)
 
     exception = project.plc.exception_program
     classes = [

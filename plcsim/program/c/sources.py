@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.ansi_c.build import Order, build
@@ -14,6 +15,7 @@ from plcsim.ansi_c.headers import (
     written_headers,
 )
 from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.library.installed import Scopes
 from plcsim.machine.cache import CodeCache, default_folder
 from plcsim.machine.shared_module import read_shared
 
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.library.library import Library
+    from plcsim.library.library import CBuild, Library
     from plcsim.machine.shared_module import SharedModule
     from plcsim.program.language import ProgramSource
     from st_types.resolve.scope import Scope
@@ -40,11 +42,13 @@ def compile_program(source: ProgramSource) -> Compiled:
     Raises:
         ConfigurationError: there are errors in them, or no compiler; all are told.
     """
-    libraries = [library.scope for library in source.declarations.catalogue.libraries]
+    libraries = source.declarations.catalogue.scopes.by_dependency()
     around = [scope for scope in source.scope.chain if scope not in libraries]
     headers = _headers("program", [*around, *libraries], lambda: program_headers(around, libraries))
     own = _with_own_header(source.declarations.own_libraries)
-    return _compiled(source.name, source.files, [source.folder, *own, headers])
+    c_build = source.declarations.layout.c_build
+    folders = [source.folder, *c_build.include_folders, *own, headers]
+    return _compiled(source.name, source.files, folders, *_options(c_build))
 
 
 def compile_library(library: Library, files: Sequence[Path]) -> Compiled:
@@ -53,12 +57,25 @@ def compile_library(library: Library, files: Sequence[Path]) -> Compiled:
     Raises:
         ConfigurationError: as for `compile_program`.
     """
-    libraries = [scope for scope in library.scope.chain if scope is not library.scope]
+    around = library.scope.outer
+    libraries = around.by_dependency() if isinstance(around, Scopes) else around
     headers = _headers(
         "library", [library.scope, *libraries], lambda: body_headers(library.scope, libraries)
     )
     option = f"-D_{library.name.upper()}_EXPORT"
-    return _compiled(library.name, files, [library.folder, headers], option)
+    folders = [library.folder, *library.c_build.include_folders, headers]
+    return _compiled(library.name, files, folders, option, *_options(library.c_build))
+
+
+def _options(c_build: CBuild) -> list[str]:
+    """Return what a project says to the compiler, and which compiler its sources think it is."""
+    parts = c_build.gcc_version.split(".")
+    names = ("__GNUC__", "__GNUC_MINOR__", "__GNUC_PATCHLEVEL__")
+    options = shlex.split(c_build.options)
+    for name, number in zip(names, parts, strict=False):
+        if number.isdecimal():
+            options += [f"-U{name}", f"-D{name}={number}"]
+    return options
 
 
 def _with_own_header(libraries: Iterable[Library]) -> list[Path]:

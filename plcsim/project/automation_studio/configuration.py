@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.library import CBuild
 from plcsim.project.automation_studio.document import DocumentError, Element, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware, read_hardware
@@ -24,21 +25,6 @@ CPU_LISTS: Final = ("Cpu.pkg", "Plc.pkg")
 IO_MAP: Final = ".iom"
 PV_MAP: Final = ".vvm"
 PERMANENT: Final = ".per"
-
-
-@dataclass(frozen=True)
-class CBuild:
-    """How C is compiled for a configuration.
-
-    Attributes:
-        gcc_version: such as "6.3.0".
-        include_folders: that its programs find headers in.
-        options: for the compiler, such as "-D SIMULATION".
-    """
-
-    gcc_version: str = ""
-    include_folders: tuple[Path, ...] = ()
-    options: str = ""
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
+    from plcsim.library.library import CBuild
     from plcsim.project.automation_studio.logical_view import Package, SourceFolder
     from plcsim.project.automation_studio.reader import AutomationStudioProject, ProgramTask
 
@@ -36,6 +37,7 @@ def layout_of(
         _programs(tasks),
         tuple(map(_library, project.view.libraries)),
         tuple(MadeVariable(each.name, each.data_type) for each in project.mapp_variables),
+        _c_build(project),
         stubs,
     )
 
@@ -68,4 +70,13 @@ def _resolved(files: Iterable[Path]) -> tuple[Path, ...]:
 def _library(library: SourceFolder) -> LibraryPlace:
     folder, files = library.folder.resolve(), _resolved(library.files)
     package = "_".join(("library", *library.path))
-    return LibraryPlace(library.name, folder, files, package, library.is_binary)
+    needs = tuple(name.upper() for name in library.dependencies)
+    return LibraryPlace(library.name, folder, files, package, library.is_binary, needs)
+
+
+def _c_build(project: AutomationStudioProject) -> CBuild:
+    """Return how C is compiled: headers that libraries list are found by all programs."""
+    build = project.configuration.build
+    listed = [file for each in project.view.libraries for file in each.files]
+    own = [file.parent.resolve() for file in listed if file.suffix.lower() in (".h", ".hpp")]
+    return build._replace(include_folders=tuple(dict.fromkeys((*build.include_folders, *own))))

@@ -20,7 +20,17 @@ AXIS: Final = "McAxisType"
 AXES_GROUP: Final = "McAxesGroupType"
 COMPONENT: Final = "MpComIdentType"
 
-_TYPES: Final = {".axis": AXIS, ".axesgroup": AXES_GROUP}
+_TYPES: Final = {
+    ".axis": AXIS,
+    ".axesgroup": AXES_GROUP,
+    ".assembly": "McAssemblyType",
+    ".assembly6d": "Mc6DAssemblyType",
+    ".sector": "McSectorType",
+    ".processpoint": "McProcessPointType",
+    ".visioncomponent": "ViComponentType",
+}
+"""Types of the variables by the suffix of the file; there is a variable where a library has the
+type."""
 
 
 class MappVariable(NamedTuple):

@@ -91,3 +91,13 @@ def test_wrong_tables_are_told_in_one_go(catalogue):
         "plc.toml: library.standard: this library has no settings",
         "plc.toml: library.AsTCP.idents: 0 is outside 1..65535",
     )
+
+
+def test_what_has_no_body_is_idle_in_a_library_of_stubs(library):
+    found = Catalogue([library], [Spoken("A", "Ramp")], ["ramps"])
+    assert found.find_block("Ramp")[1].language == "A"
+    assert found.stubbed == {}
+    stub = found.find_function("twice")[1]
+    assert (stub.language, stub.bind(None)(4)) == ("stub", 0)
+    assert {name: [*names] for name, names in found.stubbed.items()} == {"ramps": ["twice"]}
+    assert Catalogue([library], []).find_function("twice")[1] is None

@@ -3,6 +3,7 @@
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.library.installed import Scopes
 from plcsim.library.library import (
     Library,
     check_scope,
@@ -66,3 +67,26 @@ def test_errors_are_told_with_a_caret_and_warnings_are_given_back(tmp_path):
         "     2 |   a : STRUCT x : Nothing; END_STRUCT;",
         "       |                  ^",
     ]
+
+
+def test_beside_a_library_of_plcsim_it_declares_the_rest(tmp_path):
+    texts = {"ours": ("A", "B"), "theirs": ("B", "C")}
+    for name, types in texts.items():
+        (tmp_path / name).mkdir()
+        text = "".join(f"TYPE {each} : STRUCT x : INT; END_STRUCT; END_TYPE\n" for each in types)
+        (tmp_path / name / "lib.typ").write_text(text)
+    ours = Library(tmp_path / "ours", "ours", name="Lib")
+    theirs = Library(tmp_path / "theirs", "theirs", [ours.scope], name="Lib", beside=ours)
+    assert theirs.scope.name == "Lib_more"
+    assert [each.name for each in theirs.scope.types] == ["C"]
+    assert theirs.scope.find_type("B") is ours.scope.find_type("B")
+
+
+def test_libraries_come_behind_those_that_they_need(tmp_path):
+    def library(name, *needs, strict=False):
+        return Library(tmp_path, name, name=name, dependencies=needs, strict=strict, files=())
+
+    libraries = [library("own", "VENDOR", strict=True), library("vendor", "Base"), library("base")]
+    libraries += [library("round", "Trip"), library("trip", "ROUND")]
+    names = [scope.name for scope in Scopes(libraries).by_dependency()]
+    assert names == ["base", "vendor", "trip", "round", "own"]

@@ -4,6 +4,7 @@ import pytest
 
 from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.core.errors import ConfigurationError
+from plcsim.project.assembly import runnable
 from plcsim.project.plc_toml import read_project
 from plcsim.project.survey import survey
 
@@ -94,3 +95,23 @@ def test_everything_that_is_wrong_is_told_by_task(surveyed, write_project):
 def test_nothing_that_can_run(surveyed, write_project):
     found = surveyed(write_project({"Logical/Package.pkg": []}, ["Nowhere"]))
     assert (found.controller, found.is_right) == (None, False)
+
+
+@pytest.mark.usefixtures("_a_compiler")
+def test_a_program_that_calls_what_is_nowhere_is_left_out(surveyed, write_project):
+    c = "#include <AsDefault.h>\nvoid gone(void);\nvoid _CYCLIC c(void) { gone(); }\n"
+    folder = write_project(
+        {
+            "Logical/Package.pkg": ["Program:Good", "Program:Bad"],
+            "Logical/Good/IEC.prg": ["File:Main.st"],
+            "Logical/Good/Main.st": "PROGRAM _CYCLIC\nEND_PROGRAM",
+            "Logical/Bad/ANSIC.prg": ["File:Main.c"],
+            "Logical/Bad/Main.c": c,
+        },
+        ["Good", "Bad"],
+    )
+    good, bad = surveyed(folder).rows
+    assert (good.reasons, bad.reasons) == ((), ("Bad: uses function gone, which is nowhere",))
+    left = runnable(read_project(folder))
+    assert left.left_out == ("Bad is left out: Bad: uses function gone, which is nowhere",)
+    assert [entry.name for entry in left.programs] == ["Good"]
