@@ -45,9 +45,11 @@ def compile_program(source: ProgramSource) -> Compiled:
     libraries = source.declarations.catalogue.scopes.by_dependency()
     around = [scope for scope in source.scope.chain if scope not in libraries]
     headers = _headers("program", [*around, *libraries], lambda: program_headers(around, libraries))
-    own = _with_own_header(source.declarations.own_libraries)
+    own = source.declarations.own_libraries
+    others = [each for each in source.declarations.catalogue.libraries if each not in own]
+    brought = [*_with_own_header(own), *_with_headers(others)]
     c_build = source.declarations.layout.c_build
-    folders = [source.folder, *c_build.include_folders, *own, headers]
+    folders = [source.folder, *c_build.include_folders, *brought, headers]
     return _compiled(source.name, source.files, folders, *_options(c_build))
 
 
@@ -85,6 +87,12 @@ def _with_own_header(libraries: Iterable[Library]) -> list[Path]:
         for library in libraries
         if any(f.name.lower() == f"{library.name.lower()}.h" for f in library.folder.iterdir())
     ]
+
+
+def _with_headers(libraries: Iterable[Library]) -> list[Path]:
+    """Return the folders of libraries, beside the project's, that bring any header."""
+    folders = [library.folder for library in libraries]
+    return [folder for folder in folders if any(folder.glob("*.[hH]"))]
 
 
 def _headers(kind: str, scopes: Sequence[Scope], make: Callable[[], Mapping[str, str]]) -> Path:

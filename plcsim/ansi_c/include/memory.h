@@ -1,0 +1,3 @@
+/* An old name of <string.h>. */
+
+#include <string.h>
