@@ -189,6 +189,8 @@ class _InScan:
                 self._give_up(err)
 
     def _give_up(self, err: OSError) -> None:
+        if self._writing is not None:
+            self._writing.abandon()
         self._writing = None
         self._controller.log(Severity.ERROR, "record", f"the recording ends: {err}")
 

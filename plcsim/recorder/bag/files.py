@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import shutil
 import struct
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from plcsim.recorder.bag.types import (
@@ -66,6 +67,9 @@ class Bag(Protocol):
     def close(self) -> None:
         """Write the index and end."""
 
+    def abandon(self) -> None:
+        """End without an index; what is in the file stays, under its ``.active`` name."""
+
 
 def create(path: Path) -> Bag:
     """Create a bag; the format goes by the end of the name.
@@ -83,7 +87,17 @@ def create(path: Path) -> Bag:
         path.parent.mkdir(parents=True, exist_ok=True)
         return Ros1Bag(path) if path.suffix == ".bag" else Ros2Bag(path)
     except OSError as err:
+        _remove(active(path))
         raise RecordingError(f"{path}: cannot be made: {err}") from None
+
+
+def _remove(path: Path) -> None:
+    """Take away what could not be begun: nothing is in it."""
+    with suppress(OSError):
+        if path.is_dir():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
 
 
 def active(path: Path) -> Path:
@@ -181,6 +195,11 @@ class Ros1Bag:
         self._stretch()
         self._active.rename(self._path)
 
+    def abandon(self) -> None:
+        """See `Bag`."""
+        with suppress(OSError):
+            self._writer.abort()
+
 
 class Ros2Bag:
     """A bag of ROS 2, one file: MCAP or sqlite3; messages are CDR."""
@@ -234,3 +253,8 @@ class Ros2Bag:
         (inner,) = self._folder.glob(f"*{self._path.suffix}")
         inner.rename(self._path)
         shutil.rmtree(self._folder)
+
+    def abandon(self) -> None:
+        """See `Bag`."""
+        with suppress(OSError):
+            self._writer.close()

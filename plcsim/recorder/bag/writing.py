@@ -213,6 +213,10 @@ class Writing:
         """End the file that is being written."""
         self._bag.close()
 
+    def abandon(self) -> None:
+        """End where nothing can be written any more."""
+        self._bag.abandon()
+
 
 def tag_messages(head: Head) -> list[TagMessages]:
     """Return how the chosen tags become messages.

@@ -8,10 +8,14 @@ from rich.table import Table
 
 from plcsim.cli.console import CommandConsole
 from plcsim.cli.exit_codes import ExitCode
+from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration
 from plcsim.recorder.bag.difference import difference
+from plcsim.recorder.bag.plot import draw, page
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.series import series_of
 from plcsim.recorder.bag.types import CYCLES, HEAD
+from plcsim.recorder.errors import RecordingError
 
 if TYPE_CHECKING:
     import argparse
@@ -50,6 +54,21 @@ def _records(records: Iterator[tuple[int, Record]]) -> str:
         count, last = count + 1, number
     lost = last + 1 - count
     return f"{count} records of cycles and steps, {lost or 'none'} lost"
+
+
+def plot(options: argparse.Namespace) -> int:
+    """Draw tags over time."""
+    check_output("--output", options.output)
+    if options.output.suffix not in (".svg", ".html"):
+        raise RecordingError(f"{options.output}: a picture ends in .svg or .html")
+    with open_bag(options.bag) as bag:
+        head = bag.head()
+        found = series_of(head, bag.records(), options.tags)
+    title = f"{head.project}: {options.bag.name}"
+    picture = draw(found, title)
+    is_page = options.output.suffix == ".html"
+    write_output("--output", options.output, page(picture, title) if is_page else picture)
+    return ExitCode.DONE
 
 
 def diff(options: argparse.Namespace) -> int:

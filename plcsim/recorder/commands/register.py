@@ -30,6 +30,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     commands = bag.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_info(commands)
     _add_diff(commands)
+    _add_plot(commands)
 
 
 def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -111,6 +112,23 @@ def _add_diff(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
     parser.add_argument("first", type=Path, metavar="BAG", help=BAG_HELP)
     parser.add_argument("second", type=Path, metavar="BAG", help="another one")
     parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "diff"))
+
+
+def _add_plot(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "plot",
+        help="draw tags over time",
+        description="Draw tags of a recording over time, each cycle, whether they were recorded as "
+        "messages or not.",
+        examples=(("plcsim bag plot run.bag tank.level tank.valve -o level.svg", ""),),
+        epilog=epilog(DONE="", FAILED="the bag is wrong, or has no such tag"),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
+    parser.add_argument("tags", nargs="+", metavar="TAG", help="such as tank.level")
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE", help=".svg or .html"
+    )
+    parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "plot"))
 
 
 def _later(module: str, name: str) -> Callable[[argparse.Namespace], int]:

@@ -35,11 +35,12 @@ def serve(service: Service) -> None:
     """
     file = Path(service.given["file"])
     head = head_from(service.given["head"])
+    writing = Writing(file, head, Limits(**service.given["limits"]), beside_others=True)
+    service.serving(f"recording into {writing.files[-1]}")
     try:
-        writing = Writing(file, head, Limits(**service.given["limits"]), beside_others=True)
-        service.serving(f"recording into {writing.files[-1]}")
         Recorder(service, writing).run()
     except OSError as err:
+        writing.abandon()
         raise RecordingError(f"{file}: cannot be written: {err}") from None
 
 

@@ -1,0 +1,136 @@
+"""``plcsim replay``, ``why`` and ``bag``, as they are typed."""
+
+from pathlib import Path
+
+import pytest
+
+from plcsim.cli.main import main
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.plc_toml import read_project
+
+MAIN = """
+from plcsim import Program
+from st_types import BOOL, UDINT, var
+
+class Cell(Program):
+    count = var(UDINT)
+    even = var(BOOL)
+
+    def cyclic(self):
+        self.count += 1
+        self.even = self.count % 2 == 0
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    folder = tmp_path / "cell"
+    (folder / "cell").mkdir(parents=True)
+    (folder / "cell" / "main.py").write_text(MAIN)
+    (folder / "plc.toml").write_text('[task_class.1]\ncycle = "10ms"\nprograms = ["cell"]\n')
+    return folder
+
+
+@pytest.fixture
+def bag(project: Path) -> str:
+    given = {"record": {"file": "run.bag"}}
+    with Supervisor(read_project(project, given), virtual=True, cycles=20, quiet=True) as run:
+        run.wait()
+    return str(project / "run.bag")
+
+
+def change(project: Path, old: str, new: str) -> None:
+    main_py = project / "cell" / "main.py"
+    main_py.write_text(main_py.read_text().replace(old, new))
+
+
+def test_replay_says_how_much_was_repeated(
+    project: Path, bag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", bag, str(project)]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("20 cycles repeated exactly: ")
+    assert err == ""
+
+
+def test_replay_names_the_first_difference_and_what_has_changed(
+    project: Path, bag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(project, "% 2", "% 3")
+
+    assert main(["replay", bag, str(project)]) == 4
+    out, err = capsys.readouterr()
+    assert out == "it differs in cycle 2 of task class 1: cell.even is FALSE, and was TRUE\n"
+    assert err == "changed since it was recorded: cell/main.py\n"
+
+
+def test_replay_shows_the_tags_of_a_cycle(
+    project: Path, bag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", bag, str(project), "--to-cycle", "7"]) == 0
+    assert capsys.readouterr().out == "cell.count = 7\ncell.even = FALSE\n"
+    assert main(["replay", bag, str(project), "--to-cycle", "70"]) == 1
+    assert "ends with cycle 20" in capsys.readouterr().err
+    assert main(["replay", bag, str(project), "--to-cycle", "7", "--class", "3"]) == 1
+    assert "no task class 3; there are 1" in capsys.readouterr().err
+
+
+def test_why_names_the_writer(project: Path, bag: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["why", bag, "cell.even", "--project", str(project), "--cycle", "4"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last == "cycle 4 of task class 1: cell, cell/main.py:11: TRUE"
+
+
+def test_info_lists_topics(bag: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bag", "info", bag]) == 0
+    out = capsys.readouterr().out
+    assert "project cell, virtual clock, task classes #1 every 10 ms" in out
+    assert "none lost" in out
+    assert "plcsim_msgs/Cycle" in out
+
+
+def test_diff_tells_the_first_cycle_that_differs(
+    project: Path, bag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(project, "+= 1", "+= 2")
+    given = {"record": {"file": "other.bag"}}
+    with Supervisor(read_project(project, given), virtual=True, cycles=20, quiet=True) as run:
+        run.wait()
+
+    assert main(["bag", "diff", bag, bag]) == 0
+    assert capsys.readouterr().out == "the recordings are the same\n"
+    assert main(["bag", "diff", bag, str(project / "other.bag")]) == 4
+    assert capsys.readouterr().out == "cycle 1 of task class 1: cell.count is 1 against 2\n"
+
+
+@pytest.mark.parametrize("name", ["p.svg", "p.html"])
+def test_plot_draws(bag: str, tmp_path: Path, name: str) -> None:
+    assert main(["bag", "plot", bag, "cell.count", "-o", str(tmp_path / name)]) == 0
+    assert "cell.count" in (tmp_path / name).read_text()
+
+
+@pytest.mark.parametrize(
+    "words", [["replay"], ["bag", "info"], ["bag", "plot", "cell.count", "-o", "x.svg"]]
+)
+def test_a_bag_that_is_none_is_one_line(
+    tmp_path: Path, words: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "no.bag").write_text("no bag\n")
+    at = 2 if words[0] == "bag" else 1
+
+    assert main([*words[:at], str(tmp_path / "no.bag"), *words[at:]]) == 1
+    err = capsys.readouterr().err
+    assert err.startswith("plcsim: ")
+    assert len(err.splitlines()) == 1
+
+
+def test_run_records_into_the_file_that_is_named(
+    project: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "mine.bag"
+    words = ["run", str(project), "--virtual", "--cycles", "5", "--quiet", "--record", str(file)]
+
+    assert main(words) == 0
+    assert file.exists()
+    assert main(words) == 1
+    assert "exists already" in capsys.readouterr().err

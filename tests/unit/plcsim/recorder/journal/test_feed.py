@@ -1,0 +1,60 @@
+import pytest
+
+from plcsim.core.control import Step
+from plcsim.recorder.journal.feed import Diverged, EndOfRecord, Feed
+from plcsim.recorder.journal.record import CYCLE, Entry, Record
+
+
+def record(step: int = CYCLE, clock: tuple[int, ...] = (), network: bytes = b"") -> Record:
+    writes = Entry(0, 1, b"a").to_bytes() + Entry(1, 2, b"b").to_bytes()
+    return Record(step, 1, 1, 1, clock, network, writes, b"", b"")
+
+
+def test_answers_come_in_their_order() -> None:
+    feed = Feed([record(clock=(3, 4), network=b"r\x02s\x00")])
+
+    assert [feed.number(), feed.number()] == [3, 4]
+    assert [feed.answer(b"r"), feed.answer(b"s")] == [2, 0]
+    assert feed.left == ""
+
+
+def test_a_cycle_that_asks_the_clock_too_often_differs() -> None:
+    feed = Feed([record(clock=(3,))])
+    feed.number()
+
+    with pytest.raises(Diverged):
+        feed.number()
+    assert feed.reason == "the clock was asked less often"
+
+
+def test_where_the_run_had_ended_it_ends_again() -> None:
+    feed = Feed([record(Step.SHUTDOWN.value)])
+
+    with pytest.raises(EndOfRecord):
+        feed.number()
+    assert feed.reason == ""
+
+
+def test_another_call_of_the_network_differs() -> None:
+    feed = Feed([record(network=b"r\x02")])
+
+    with pytest.raises(Diverged, match="asked for 'r', now for 's'"):
+        feed.answer(b"s")
+
+
+def test_what_is_left_of_a_cycle_is_told() -> None:
+    assert "clock was asked more often" in Feed([record(clock=(1,))]).left
+    assert "network was asked more often" in Feed([record(network=b"r\x02")]).left
+
+
+def test_writes_come_in_their_latch() -> None:
+    feed = Feed([record()])
+
+    assert feed.written(0) == [Entry(0, 1, b"a")]
+    assert feed.latch() == [Entry(1, 2, b"b")]
+    assert feed.latch() == []
+
+
+def test_programs_cannot_catch_a_difference() -> None:
+    assert not issubclass(Diverged, Exception)
+    assert not issubclass(EndOfRecord, Exception)

@@ -1,0 +1,68 @@
+"""Whatever a network answers, a replay answers the same."""
+
+from collections.abc import Callable
+from typing import Any
+
+from plcsim.network import Address, Network, Option, Outcome, VirtualNetwork
+from plcsim.recorder.journal.feed import Feed
+from plcsim.recorder.journal.journal import Journal
+from plcsim.recorder.journal.network import RecordedNetwork, ReplayNetwork
+
+SERVER, CLIENT = "192.168.0.1", "192.168.0.2"
+
+
+class Time:
+    now_ns = 0
+
+    def __call__(self) -> int:
+        return self.now_ns
+
+
+def talk(server: Network, client: Network, wait: Callable[[], None]) -> list[Any]:
+    """Use every call of a network; return the answers, without the sockets."""
+    listener = server.open(SERVER, 5000).socket
+    taken = server.open(SERVER, 5000).outcome
+    caller = client.open(CLIENT, 0).socket
+    assert listener is not None
+    assert caller is not None
+    told: list[Any] = [taken, listener.listen(3), listener.listening, listener.accept().outcome]
+    told.append(caller.connect(Address(SERVER, 5000)))
+    for _ in range(5):
+        wait()
+        told.append(caller.connect(Address(SERVER, 5000)))
+    accepted = listener.accept()
+    told += [accepted.outcome, accepted.peer, caller.local, caller.peer, listener.peer]
+    peer = accepted.socket
+    assert peer is not None
+    told += [caller.send(b"hello"), peer.recv(100)]
+    wait()
+    told += [peer.recv(3, peek=True), peer.recv(100), peer.recv(100)]
+    told += [caller.set_option(Option.NO_DELAY, 1), caller.option(Option.NO_DELAY)]
+    told += [caller.set_linger(3), caller.linger(), caller.set_linger(None), caller.linger()]
+    told += [caller.shutdown(write=True)]
+    wait()
+    told.append(peer.recv(100))
+    for each in (caller, peer, listener):
+        each.close()
+    told += [caller.local, caller.send(b"x"), caller.option(Option.NO_DELAY)]
+    return told
+
+
+def test_a_replay_answers_what_was_recorded() -> None:
+    time = Time()
+    net = VirtualNetwork(time)
+    journal = Journal()
+
+    def wait() -> None:
+        time.now_ns += 1_000_000
+
+    hosts = [RecordedNetwork(net.host(ip), journal) for ip in (SERVER, CLIENT)]
+    recorded = talk(*hosts, wait)
+    feed = Feed([journal.take(0, 1, 1, 1, b"")])
+
+    repeated = talk(ReplayNetwork(feed), ReplayNetwork(feed), lambda: None)
+
+    assert repeated == recorded
+    assert feed.left == ""
+    assert Outcome.OK in recorded
+    assert Outcome.WOULD_BLOCK in recorded

@@ -1,0 +1,42 @@
+from hypothesis import given
+from hypothesis import strategies as st
+
+from plcsim.recorder.journal.record import (
+    Entry,
+    Packet,
+    Record,
+    entries,
+    packet,
+    packets,
+    record_of,
+)
+
+I64 = st.integers(-(1 << 63), (1 << 63) - 1)
+U32 = st.integers(0, (1 << 32) - 1)
+
+
+@given(
+    st.builds(
+        Record,
+        st.integers(0, 255),
+        st.integers(0, 255),
+        I64,
+        I64,
+        st.lists(I64, max_size=20).map(tuple),
+        *[st.binary(max_size=50)] * 4,
+    )
+)
+def test_a_record_is_what_its_bytes_say(record: Record) -> None:
+    assert record_of(record.to_bytes()) == record
+
+
+@given(st.lists(st.builds(Entry, U32, U32, st.binary(max_size=20)), max_size=5))
+def test_entries_are_read_one_after_another(written: list[Entry]) -> None:
+    assert list(entries(b"".join(each.to_bytes() for each in written))) == written
+
+
+@given(st.lists(st.builds(Packet, st.integers(0, 65535), st.booleans(), st.binary()), max_size=5))
+def test_packets_are_read_one_after_another(sent: list[Packet]) -> None:
+    data = b"".join(packet(each.topic, each.data, is_topic=each.is_topic) for each in sent)
+
+    assert list(packets(data)) == sent

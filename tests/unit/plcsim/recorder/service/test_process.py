@@ -1,0 +1,93 @@
+"""The recorder, in a process of its own beside a scan on the real clock."""
+
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.assembly import load
+from plcsim.project.plc_toml import read_project
+from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.replay.replay import Replay
+
+MAIN = """
+from plcsim import Program
+from st_types import UDINT, var
+
+class Cell(Program):
+    count = var(UDINT)
+
+    def cyclic(self):
+        self.count += 1
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    folder = tmp_path / "cell"
+    (folder / "cell").mkdir(parents=True)
+    (folder / "cell" / "main.py").write_text(MAIN)
+    (folder / "plc.toml").write_text(
+        '[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "10ms"\nprograms = ["cell"]\n'
+        'on_violation = "log"\n[record]\nfile = "run.bag"\ntags = ["cell.count"]\n'
+    )
+    return folder
+
+
+def run(project: Path, look: Any = lambda _: None, for_ns: int = 4_000_000_000) -> dict[str, Any]:
+    with Supervisor(read_project(project), for_ns=for_ns, quiet=True) as supervisor:
+        return supervisor.wait(lambda: look(supervisor))
+
+
+def repeat(project: Path, bag: Path) -> Replay:
+    with open_bag(bag) as reader:
+        again = Replay(load(read_project(project)), reader.head(), reader.records())
+        assert again.run() is None
+    return again
+
+
+def test_a_run_on_the_real_clock_is_repeated_cycle_by_cycle(project: Path) -> None:
+    report = run(project)
+
+    again = repeat(project, project / "run.bag")
+    (task_class,) = report["task_classes"]
+    assert again.cycles == task_class["cycles"] > 0
+    assert again.controller.classes[0].missed == task_class["missed_grid_points"]
+    assert [f.name for f in project.glob("run*")] == ["run.bag"]
+
+
+def test_the_bag_of_a_scan_that_was_killed_is_closed(project: Path) -> None:
+    killed: list[int] = []
+
+    def kill(supervisor: Supervisor) -> None:
+        is_time = supervisor.page.elapsed_ns > 1_000_000_000 and supervisor.services.pids
+        if is_time and not killed:
+            killed.append(supervisor._process.pid)
+            os.kill(killed[0], signal.SIGKILL)
+
+    report = run(project, kill, for_ns=60_000_000_000)
+
+    assert report["state"] == "SERVICE"
+    assert repeat(project, project / "run.bag").cycles > 50
+
+
+def test_a_recorder_that_was_killed_is_started_again_and_loses_nothing(project: Path) -> None:
+    killed: list[int] = []
+
+    def kill(supervisor: Supervisor) -> None:
+        active = project / "run.bag.active"
+        if not killed and active.exists() and active.stat().st_size > 10_000:
+            (pid,) = supervisor.services.pids
+            os.kill(pid, signal.SIGKILL)
+            killed.append(time.monotonic_ns())
+
+    report = run(project, kill, for_ns=6_000_000_000)
+
+    assert killed
+    (task_class,) = report["task_classes"]
+    assert repeat(project, project / "run_1.bag").cycles == task_class["cycles"]
+    assert (project / "run.bag.active").stat().st_size > 10_000
