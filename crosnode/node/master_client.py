@@ -213,6 +213,7 @@ class MasterClient:
         self._answered()
         if call.state is CallState.FAILED:
             self._move(registration, RegistrationTrigger.REFUSED)
+            registration.is_hopeless = call.is_unreadable
             self._tell(StatusKind.REGISTRATION_REFUSED, registration.name, call.error)
             return
         self._move(registration, RegistrationTrigger.TAKEN)
@@ -268,7 +269,7 @@ class MasterClient:
     def _register_again(self) -> None:
         self._is_dirty = True
         for registration in self._registrations:
-            if registration.is_settled:
+            if registration.is_settled and not registration.is_hopeless:
                 self._move(registration, RegistrationTrigger.FORGOTTEN)
 
     def _tell(self, kind: StatusKind, name: str, text: str = "") -> None:

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 FIRST_RETRY_NS: Final = 100_000_000
 LONGEST_RETRY_NS: Final = 5_000_000_000
 
+FIRST_FORGIVEN_NS: Final = 10_000_000_000
+LONGEST_FORGIVEN_NS: Final = 600_000_000_000
+"""Nanoseconds until a publisher is tried again that broke the protocol or a limit."""
+
 
 class PublisherState(Enum):
     """How far the way to a publisher is."""
@@ -111,6 +115,7 @@ class PublisherLink:
         self._call: ApiCall | None = None
         self._address: Address | None = None
         self._backoff = Backoff(FIRST_RETRY_NS, LONGEST_RETRY_NS)
+        self._forgiveness = Backoff(FIRST_FORGIVEN_NS, LONGEST_FORGIVEN_NS)
 
     @property
     def is_streaming(self) -> bool:
@@ -119,8 +124,9 @@ class PublisherLink:
 
     def step(self, now_ns: int, budget: StepBudget) -> None:
         """Ask for the address, then connect, each when it is time."""
-        if self.state is PublisherState.WAITING and self._backoff.is_due(now_ns):
-            self._ask()
+        if self.state is PublisherState.WAITING:
+            if self._backoff.is_due(now_ns) and self._forgiveness.is_due(now_ns):
+                self._ask()
         elif self.state is PublisherState.ASKING and self._call:
             self._take_answer(self._call, now_ns)
         elif self.state is PublisherState.LOCATED and self._address and budget.start_call():
@@ -180,6 +186,8 @@ class PublisherLink:
         elif isinstance(event, Refused):
             self._tell(StatusKind.PEER_REFUSED, event.error)
         elif isinstance(event, Failed):
+            if self.is_streaming:
+                self._forgiveness.failed(now_ns)
             self._tell(StatusKind.BAD_MESSAGE, event.reason)
 
     def expects_data(self, link: PeerLink) -> bool:

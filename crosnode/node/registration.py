@@ -79,6 +79,7 @@ class Registration:
         on_value: called with the value of the master's answer.
         state: where it stands.
         is_late: registered after the others, where many are.
+        is_hopeless: refused because the master's answer is beyond the limits, as it would be again.
     """
 
     name: str
@@ -87,6 +88,7 @@ class Registration:
     on_value: Callable[[Value], None] | None = None
     state: RegistrationState = field(default=RegistrationState.NEW)
     is_late: bool = False
+    is_hopeless: bool = False
 
     @property
     def is_settled(self) -> bool:

@@ -17,6 +17,8 @@ from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.node.ros_time import Epoch
 from crosnode.plc.node_watch import NodeWatch
+from crosnode.tcpros import TcprosLimits
+from crosnode.xmlrpc import ValueLimits, XmlRpcLimits
 from plcsim.network import OsNetwork, network_of
 
 if TYPE_CHECKING:
@@ -118,6 +120,10 @@ def make_node(
         epoch=found.epoch,
         clock_ns=found.clock_ns,
         respawns=ros.table.respawn,
+        tcpros=TcprosLimits(
+            max_message=ros.table.limits.message, timeout_ns=ros.table.limits.service_timeout_ns
+        ),
+        xmlrpc=XmlRpcLimits(values=_values(ros.table.limits.parameter)),
         traffic=context.traffic,
         beside=partial(step_beside, context),
     )
@@ -131,6 +137,13 @@ def _step(table: StepTable) -> dict[str, int]:
     """Return the bounds that [ros.step] names."""
     found = {each.name: getattr(table, each.name) for each in fields(table)}
     return {name: bound for name, bound in found.items() if bound is not None}
+
+
+def _values(size: int) -> ValueLimits:
+    """Return the limits of a document of ``size`` bytes; a large one may have more elements."""
+    default = ValueLimits()
+    elements = default.max_elements * max(1, size // default.max_size)
+    return ValueLimits(max_size=size, max_elements=elements)
 
 
 def _epoch_now(context: Context) -> Epoch:

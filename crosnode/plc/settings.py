@@ -16,7 +16,7 @@ from crosnode.node.parameter import check_parameters
 from plcsim.core.errors import Findings
 from plcsim.network.protocol import is_ipv4
 from plcsim.project.project_file import FILE_NAME
-from plcsim.settings import Converted, Duration, Key, PathTo, Whole, settings
+from plcsim.settings import Converted, Duration, Key, PathTo, Size, Whole, settings
 
 if TYPE_CHECKING:
     from plcsim.settings import Table
@@ -145,6 +145,21 @@ class StepTable:
 
 
 @settings
+class LimitsTable:
+    """The keys of [ros.limits]: what is beyond is refused, and told once.
+
+    Attributes:
+        message: bytes of a message, a request or a response that is received.
+        service_timeout_ns: nanoseconds that a provider may take for an answer.
+        parameter: bytes of a parameter, or of all below a namespace, as XML-RPC carries it.
+    """
+
+    message: Annotated[int, Size(1 << 10, MOST)] = 16 << 20
+    service_timeout_ns: Annotated[int, Duration(minimum_ns=1_000_000)] = 10_000_000_000
+    parameter: Annotated[int, Size(1 << 10, MOST)] = 4 << 20
+
+
+@settings
 class RosTable:
     """The keys of [ros].
 
@@ -159,6 +174,7 @@ class RosTable:
         hosts: IPv4 addresses by host name.
         respawn: whether nodes return that others end: rosnode kill, or another of their name.
         step: bounds of one step.
+        limits: of what comes in.
         node: base name of the bridge's node.
         publish: tags to topics, by topic.
         subscribe: topics to tags, by topic.
@@ -176,6 +192,7 @@ class RosTable:
     hosts: Mapping[str, Annotated[str, Converted(_ipv4)]] = field(default_factory=dict)
     respawn: bool = False
     step: StepTable = StepTable()
+    limits: LimitsTable = LimitsTable()
     node: Annotated[str, Converted(check_base_name)] = "plc_bridge"
     publish: Mapping[str, Publication] = field(default_factory=dict)
     subscribe: Mapping[str, Subscription] = field(default_factory=dict)

@@ -12,6 +12,7 @@ from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
     FaultReceived,
     ResponseReceived,
+    Unreadable,
     Value,
     XmlRpcClientConnection,
     XmlRpcLimits,
@@ -51,11 +52,13 @@ class ApiCall:
         value: the value of the answer once DONE.
         error: why it failed once FAILED.
         was_answered: False where the node could not be reached.
+        is_unreadable: the answer was no document, or one beyond the limits: asked again it would be
+            the same.
         reply: the answer as it came, code and message included.
     """
 
-    __slots__ = ("error", "method", "on_end", "params", "reply", "state", "uri", "value",
-                 "was_answered")  # fmt: skip
+    __slots__ = ("error", "is_unreadable", "method", "on_end", "params", "reply", "state", "uri",
+                 "value", "was_answered")  # fmt: skip
 
     def __init__(
         self,
@@ -73,6 +76,7 @@ class ApiCall:
         self.reply: Value = None
         self.error = ""
         self.was_answered = False
+        self.is_unreadable = False
 
     def __repr__(self) -> str:
         return f"ApiCall({self.method} {self.params} {self.state.name} {self.error or self.value})"
@@ -209,6 +213,10 @@ class _Channel:
             self.calls.popleft().answer(event.value)
         elif isinstance(event, FaultReceived):
             self.calls.popleft().fail(event.text, was_answered=True)
+        elif isinstance(event, Unreadable):
+            call = self.calls.popleft()
+            call.is_unreadable = True
+            call.fail(event.reason, was_answered=True)
 
     def expects_data(self, link: PeerLink) -> bool:
         """Whether a call waits for its answer."""

@@ -110,6 +110,11 @@ class FaultReceived(ConnectionEvent):
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Unreadable(Failed):
+    """The server answers with what is no document, or one beyond the limits."""
+
+
 class XmlRpcConnection(ProtocolConnection):
     """What both ends share; see ``ProtocolConnection`` for its use.
 
@@ -346,7 +351,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
 
 
 class XmlRpcClientConnection(XmlRpcConnection):
-    """The end that calls. Events: ResponseReceived, FaultReceived, Closed or Failed.
+    """The end that calls. Events: ResponseReceived, FaultReceived, Closed, Unreadable or Failed.
 
     Args:
         host: what the ``Host`` header says: name or number, and port.
@@ -378,6 +383,12 @@ class XmlRpcClientConnection(XmlRpcConnection):
         if isinstance(http_event, h11.Response) and http_event.status_code != 200:
             raise XmlRpcError(f"HTTP status {http_event.status_code}")
         return None
+
+    def _refuse(self, reason: str, *, http_status: int) -> Failed:
+        if http_status == 200:  # HTTP was right, what it carried was not
+            self.close()
+            return Unreadable(reason)
+        return self._fail(reason)
 
     def _document(self, document: Document, now_ns: int) -> ConnectionEvent:
         if isinstance(document, MethodCall):

@@ -8,6 +8,7 @@ from crosnode.errors import MessageValueError
 from crosnode.node import ParameterUpdate, StatusKind
 from crosnode.node.parameter import ParameterSubscription, check_parameters
 from crosnode.node.registration import Registration, RegistrationState
+from crosnode.xmlrpc import ValueLimits, XmlRpcLimits
 
 from .world import OTHER_IP, PLC_IP, World, drain, news
 
@@ -147,3 +148,19 @@ def test_a_node_with_such_an_argument_opens_nothing() -> None:
     world = World()
     with pytest.raises(MessageValueError, match="parameter /n/p: "):
         world.node("n", PLC_IP, "_p:=3000000000")
+
+
+def test_a_parameter_beyond_the_limit_is_refused_once() -> None:
+    world = World()
+    limits = XmlRpcLimits(values=ValueLimits(max_size=2_000))
+    node, other = world.node("n", xmlrpc=limits), world.node("other", OTHER_IP)
+    other.set_param("/much", "x" * 3_000)
+    world.run(50)
+    param = node.subscribe_param("/much")
+    publisher = node.register_publisher("/x", "std_msgs/String")
+    world.run(10_000)
+    (refused,) = news(node, StatusKind.REGISTRATION_REFUSED)
+    assert refused.name == "/much"
+    assert "more than 2000 bytes" in refused.text
+    assert param.value == {}
+    assert publisher.registration.state is RegistrationState.REGISTERED

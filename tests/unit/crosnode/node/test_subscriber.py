@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from crosnode.node import CrosNode, StatusKind, Subscriber
 from crosnode.node.publisher_link import PublisherState
 from crosnode.node.subscriber import MAX_PUBLISHERS
+from crosnode.tcpros import TcprosLimits
 from crosnode.tcpros.header import encode_header
 from plcsim.network import Outcome, Socket
 
@@ -296,3 +297,20 @@ def test_any_bytes_end_at_most_their_own_connection(data: bytes, greeted: bool) 
     assert not node.is_shut_down
     assert node.is_registered
     assert world.now_ns > 10 * MS
+
+
+def test_a_publisher_of_what_is_too_large_is_not_tried_several_times_a_second() -> None:
+    world = World()
+    node = world.node("listener", tcpros=TcprosLimits(max_message=1_000))
+    subscriber = node.register_subscriber("/x", STRING)
+    publisher = world.node("talker", OTHER_IP).register_publisher("/x", STRING)
+    world.until(lambda: subscriber.publishers)
+    for _ in range(2_000):
+        publisher.send(publisher.new(data="x" * 2_000))
+        world.run(10, step_ms=10)
+    told = news(node, StatusKind.BAD_MESSAGE)
+    assert [status.text for status in told] == ["message of 2004 bytes, at most 1000 are read"] * 2
+    world.until(lambda: subscriber.publishers, 30_000)
+    publisher.send(publisher.new(data="small"))
+    world.run(20)
+    assert words(subscriber.pop) == ["small"]
