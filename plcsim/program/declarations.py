@@ -15,6 +15,7 @@ from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library, check_scope, declarations_of, read_declarations
+from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import BodyLanguage
     from plcsim.program.layout import Layout, LibraryPlace, MadeVariable, Place
     from st_types.resolve.declared import Variable
+    from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
 MADE: Final = "configuration"
@@ -114,26 +116,38 @@ class Declarations:
         names = (scope.index.names("types") for scope in self.catalogue.scopes)
         return any(variable.data_type in each for each in names)
 
-    def scope_of(self, source: str, more: Iterable[DeclarationFile] = ()) -> Scope:
+    def scope_of(
+        self,
+        source: str,
+        more: Iterable[DeclarationFile] = (),
+        dialect: Dialect = AUTOMATION_STUDIO,
+    ) -> Scope:
         """Return what a program sees: its own declarations, and around them all others.
 
         Args:
             source: the program, as the layout names it.
             more: what the files with its units declare; told at the first call.
+            dialect: of the program; likewise.
 
         Raises:
             ConfigurationError: a file cannot be read.
         """
         place = self.layout.programs[source]
-        return self._scope_of((*place.around, place.own), more)
+        return self._scope_of((*place.around, place.own), more, dialect)
 
-    def _scope_of(self, places: tuple[Place, ...], more: Iterable[DeclarationFile] = ()) -> Scope:
+    def _scope_of(
+        self,
+        places: tuple[Place, ...],
+        more: Iterable[DeclarationFile] = (),
+        dialect: Dialect = AUTOMATION_STUDIO,
+    ) -> Scope:
         if not places:
             return self.scope
         if places not in self._scopes:
             outer = self._scope_of(places[:-1])
             files = [*read_declarations(declarations_of(places[-1].files)), *more]
-            self._scopes[places] = Scope(places[-1].name, files, (outer,), strict=True)
+            name = places[-1].name
+            self._scopes[places] = Scope(name, files, (outer,), dialect=dialect, strict=True)
         return self._scopes[places]
 
     def check(self) -> list[str]:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from plcsim.program.declarations import Declarations
     from plcsim.program.site import Site
     from plcsim.program.variables import Variables
+    from st_types.resolve.dialect import Dialect
     from st_types.resolve.scope import Scope
     from st_types.syntax.tree import DeclarationFile
 
@@ -92,6 +93,9 @@ class Language(Protocol):
         Raises:
             ConfigurationError: a file cannot be read.
         """
+
+    def dialect(self, declared: Sequence[DeclarationFile]) -> Dialect:
+        """Return the rules of a program, by what `declarations` has returned."""
 
     def load(self, source: ProgramSource) -> ProgramCode:
         """Load a program and check what can be checked before it runs.

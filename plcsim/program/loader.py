@@ -22,9 +22,10 @@ from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
 from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
 from plcsim.program.variables import Variables, variables_of
+from st_types.resolve.dialect import AUTOMATION_STUDIO
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from plcsim.library.executable import BodyLanguage
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from plcsim.program.language import Language, ProgramCode
     from plcsim.program.layout import Layout
     from st_types.resolve.declared import Function, FunctionBlock
+    from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
 LANGUAGES: Final[tuple[Language, ...]] = (PYTHON, STRUCTURED_TEXT, C_LANGUAGE)
@@ -136,20 +138,23 @@ class ProgramLoader:
         for name in self._layout.programs:
             wrong = Findings()
             with wrong.gathered():
-                self.declarations.scope_of(name, self._declared_in(name))
+                self.declarations.scope_of(name, *self._declared_in(name))
                 self.warnings += self.declarations.check_program(name)
             if wrong:
                 failures[name] = wrong.texts
         return Loaded({}, common.texts, failures)
 
-    def _declared_in(self, name: str) -> Iterator[DeclarationFile]:
-        """Iterate over what the files with units of a program declare."""
+    def _declared_in(self, name: str) -> tuple[Sequence[DeclarationFile], Dialect]:
+        """Return what the files with units of a program declare, and in which dialect."""
         files = self._layout.programs[name].own.files
         try:
             for language in self._languages:
-                yield from language.declarations(language.units(files))
+                declared = language.declarations(language.units(files))
+                if declared:
+                    return declared, language.dialect(declared)
         except OSError as err:
             raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
+        return (), AUTOMATION_STUDIO
 
     def _load_declared(self, declared: Loaded) -> Loaded:
         """Load the programs whose declarations are right."""

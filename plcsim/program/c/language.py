@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.c.names import NAME, c_files
+from st_types.resolve.dialect import AUTOMATION_STUDIO
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import Executable
     from plcsim.library.library import Library
     from plcsim.program.language import ProgramCode, ProgramSource
+    from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
 
@@ -33,6 +35,10 @@ class C:
     def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Return nothing: what C declares is its own."""
         return ()
+
+    def dialect(self, _declared: Sequence[DeclarationFile]) -> Dialect:
+        """Return the rules of .var, .typ and .fun files."""
+        return AUTOMATION_STUDIO
 
     def load(self, source: ProgramSource) -> ProgramCode:
         """Compile and link the files of a program."""

@@ -21,6 +21,7 @@ from plcsim.program.python.modules import add_package, load_module, own_names
 from plcsim.program.python.program import Program
 from plcsim.program.python.shared import Constant, GlobalVariable
 from plcsim.program.variables import Variables, variables_of
+from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.types.derived import StructType, resolve_alias
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
+    from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
     from st_types.types.elementary import DataType
 
@@ -82,6 +84,10 @@ class Python:
     def declarations(self, _files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Return nothing: what a class declares is checked where it is loaded."""
         return ()
+
+    def dialect(self, _declared: Sequence[DeclarationFile]) -> Dialect:
+        """Return the rules of .var, .typ and .fun files."""
+        return AUTOMATION_STUDIO
 
     def load(self, source: ProgramSource) -> PythonCode:
         """Import the files of a program."""

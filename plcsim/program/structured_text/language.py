@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import Executable
     from plcsim.library.library import Library
     from plcsim.program.language import ProgramCode, ProgramSource
+    from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
 SUFFIX: Final = ".st"
@@ -39,6 +40,12 @@ class StructuredText:
         from plcsim.program.structured_text.sources import read_files  # noqa: PLC0415  # as in `load`
 
         return [file.declarations() for file in read_files(files)]
+
+    def dialect(self, declared: Sequence[DeclarationFile]) -> Dialect:
+        """Return IEC 61131-3 where a file has VAR blocks, which Automation Studio's have not."""
+        from plcsim.program.structured_text.sources import dialect_of  # noqa: PLC0415  # likewise
+
+        return dialect_of(declared)
 
     def load(self, source: ProgramSource) -> ProgramCode:
         """Check and compile the files of a program."""

@@ -13,18 +13,21 @@ from plcsim.program.structured_text.check.program import declarations_of
 from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
 from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.errors import Severity, SourceError
+from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.syntax.diagnostics import DiagnosticLog
 from st_types.syntax.lexer import Tokens
 from st_types.syntax.source import Source
 from st_types.syntax.tree import DeclarationFile
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+    from st_types.resolve.dialect import Dialect
 
 _NO_CODE: Final = re.compile(
     r"""\(\*.*?\*\) | /\*.*?\*/ | //[^\n]* | '(?:[^'$\n]|\$.)*' | "(?:[^"$\n]|\$.)*" """,
@@ -91,6 +94,13 @@ class UnitDeclarations(DeclarationFile):
     """What a file with units declares."""
 
     unit_file: UnitFile = field(compare=False)
+
+
+def dialect_of(declared: Sequence[DeclarationFile]) -> Dialect:
+    """Return the rules of a program whose files declare this."""
+    files = [each.unit_file for each in declared if isinstance(each, UnitDeclarations)]
+    standard = any(file.may_declare and is_standard(file.parsed) for file in files)
+    return IEC if standard else AUTOMATION_STUDIO
 
 
 def read_files(files: Iterable[Path]) -> list[UnitFile]:

@@ -53,6 +53,9 @@ class Other:
     def declarations(self, files):
         return ()
 
+    def dialect(self, declared):
+        raise AssertionError("nothing is declared")
+
     def load(self, source):
         return OtherCode(source)
 

@@ -240,3 +240,20 @@ def test_what_a_body_in_python_raises_is_a_fault_at_both_places(run, ramp):
 def test_the_library_standard_is_there(run, value):
     controller = run(program("t(IN := TRUE, PT := T#15ms); q := t.Q;", "t : TON; q : BOOL;"))
     assert value(controller, "main.q") is True
+
+
+@pytest.mark.parametrize(
+    ("files", "result"),
+    [
+        (program("n := 30000; wide := n + n;", "n : INT; wide : DINT;"), 60000),
+        (
+            {
+                "main/a.st": "PROGRAM p VAR n : INT; wide : DINT; END_VAR "
+                "N := 30000; Wide := n + n; END_PROGRAM"
+            },
+            -5536,
+        ),
+    ],
+)
+def test_a_var_block_in_a_file_makes_it_a_file_of_the_standard(run, value, files, result):
+    assert value(run(files), "main.wide") == result
