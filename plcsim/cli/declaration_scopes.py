@@ -211,6 +211,11 @@ def _logical_around(folder: Path) -> Path | None:
     return start if is_package(start) else None
 
 
+def is_in_a_project(folder: Path) -> bool:
+    """Return whether a folder is or lies in a project of ours, or in a logical view."""
+    return _project_around(folder) is not None or _logical_around(folder) is not None
+
+
 def _project_around(folder: Path) -> Path | None:
     """Return the folder with a ``plc.toml`` that ``folder`` is or lies in, else None."""
     start = folder.resolve()
@@ -350,7 +355,7 @@ class _FolderTree:
         around: list[list[Scope]] = []
         for folder, inside in folders:
             kind = "project" if folder == self._top else "folder"
-            kind = "library" if _is_library(folder) else kind
+            kind = "library" if is_library(folder) else kind
             around.append([scopes[parent].scope for parent in folder.parents if parent in scopes])
             path = folder.relative_to(self._top).parts or (self._top.name,)
             scope = Scope(path[-1], inside, around[-1], strict=strict)
@@ -362,7 +367,8 @@ class _FolderTree:
         yield from sorted(scopes.values(), key=lambda each: each.kind != "library")
 
 
-def _is_library(folder: Path) -> bool:
+def is_library(folder: Path) -> bool:
+    """Return whether a folder of no logical view is a library."""
     names = names_in(folder)
     if any(name.lower() in names for name in LIBRARY_LISTS):
         return True

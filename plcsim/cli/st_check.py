@@ -11,7 +11,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.cli.declaration_scopes import library_scopes, read_declarations
+from plcsim.cli.declaration_files import SUFFIXES
+from plcsim.cli.declaration_files import read_files as read_declaration_files
+from plcsim.cli.declaration_scopes import (
+    NamedScope,
+    is_in_a_project,
+    is_library,
+    library_scopes,
+    read_declarations,
+)
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.syntax.tree import ActionUnit
@@ -22,9 +30,9 @@ from st_types.resolve.scope import Scope
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from plcsim.cli.declaration_scopes import NamedScope
     from plcsim.program.structured_text.check.typed import Storage
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+    from st_types.syntax.tree import DeclarationFile
 
 
 UNLISTED: Final = "no list of its program names this file; only its syntax was checked"
@@ -46,21 +54,49 @@ class _Group(NamedTuple):
     is_library: bool = False
 
 
-def check_files(files: Sequence[StructuredTextFile]) -> list[str]:
+def check_files(paths: Sequence[Path], files: Sequence[StructuredTextFile]) -> list[str]:
     """Check parsed files; findings go to their ``diagnostics``.
 
     Files with errors in their syntax are left out.
 
+    Args:
+        paths: as the user named them. A file that lies in no project sees the declarations of its
+            folder, and of none below.
+        files: at and below these paths.
+
     Returns:
-        errors in the declarations beside them.
+        errors in the declarations around them.
     """
-    folders = sorted({Path(file.path).parent for file in files})
-    found = read_declarations(folders, strict=True)
-    scopes = [*found.scopes, *found.others]
+    folders = dict.fromkeys(path if path.is_dir() else path.parent for path in paths)
+    loose = [each for each in folders if each not in paths and not is_in_a_project(each)]
+    failures: list[str] = []
+    own, scopes = [], []
+    for folder in loose:
+        reading = read_declaration_files(_declaration_files(folder))
+        failures += reading.failures
+        own.append(_scope_of(folder, reading.files))
+    around = [each for each in folders if each not in loose]
+    if around:
+        found = read_declarations(around, strict=True)
+        failures += found.reading.failures
+        own += found.scopes
+        scopes += found.others
+    scopes = [*own, *scopes]
     sound = {Path(f.path).resolve(): f for f in files if not f.diagnostics.error_count}
     for group in _groups(sound, scopes):
         _check(group)
-    return [*found.reading.failures, *_errors(found.scopes)]
+    return [*failures, *_errors(own)]
+
+
+def _declaration_files(folder: Path) -> list[Path]:
+    return sorted(file for file in folder.iterdir() if file.suffix.lower() in SUFFIXES)
+
+
+def _scope_of(folder: Path, files: Sequence[DeclarationFile]) -> NamedScope:
+    kind = "library" if is_library(folder) else "folder"
+    name = folder.resolve().name
+    scope = Scope(name, files, library_scopes(), strict=True)
+    return NamedScope(kind, (name,), scope, folder.resolve())
 
 
 def _errors(scopes: Iterable[NamedScope]) -> Iterator[str]:

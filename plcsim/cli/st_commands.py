@@ -45,7 +45,7 @@ def check(options: argparse.Namespace) -> int:
     counts: Counter[str] = Counter()
     defines = _defines(options.defines)
     files = [file for path in shown_progress(paths) if (file := _read(path, defines, counts))]
-    told = [] if options.syntax else check_files(files)
+    told = [] if options.syntax else check_files(options.paths, files)
     for line in told:
         print(line)
     counts["error"] += len(told)

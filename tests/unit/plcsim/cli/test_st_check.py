@@ -14,10 +14,11 @@ ADD = "a := b + 1;"
 def check(project):
     """``check(files)``: what is found in the .st files of a tree, ``file:line:column CODE``."""
 
-    def check(files):
+    def check(files, *names):
         folder = project(files)
-        parsed = [file.parsed for file in read_files(sorted(folder.rglob("*.st")))]
-        told = check_files(parsed)
+        paths = [folder / name for name in names] or sorted(folder.rglob("*.st"))
+        parsed = [file.parsed for file in read_files(paths)]
+        told = check_files(paths if names else [folder], parsed)
         found = [line.replace(f"{folder}/", "") for line in told]
         for file in parsed:
             name = file.path.removeprefix(f"{folder}/")
@@ -91,3 +92,13 @@ def test_errors_in_declarations_are_told(check):
 def test_what_has_errors_in_its_syntax_is_left_out(check):
     files = {"main/Main.st": unit("a := ;"), "main/Other.st": unit("a := 1;", "_INIT")}
     assert check(files) == ["main/Main.st:2:6 ST1001", "main/Other.st:2:1 ST2001"]
+
+
+def test_a_file_alone_sees_its_folder_and_none_below(check):
+    files = {
+        "a.st": unit("x := y;"),
+        "a.var": "VAR x : INT; END_VAR\n",
+        "below/b.var": "VAR y : Nonsense; END_VAR\n",
+    }
+    assert check(files, "a.st") == ["a.st:2:6 ST2001"]
+    assert check(files | {"plc.toml": ""}, "a.st") == ["a.st:2:6 ST2001"]
