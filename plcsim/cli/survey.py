@@ -66,7 +66,7 @@ class _Sheet:
         print_(_tasks(survey))
         self._list("cannot run", self._reasons())
         if survey.stubs:
-            print_("\nidle, for nothing executes them here:")
+            print_("\nstubs, for nothing executes them here (idle, or simulated by a table):")
             print_(self._stubs())
         self._list("wrong in what several programs see", survey.common)
         self._list("no controller", survey.trouble)
@@ -169,7 +169,11 @@ def _tasks(survey: Survey) -> Table:
     return table
 
 
+def _count(stubs: Sequence[StubCall]) -> str:
+    return f"{len(stubs)} stub" + "s" * (len(stubs) != 1)
+
+
 def _state(row: TaskRow) -> str:
     if row.reasons:
         return "cannot run"
-    return f"runs, {len(row.stubs)} idle" if row.stubs else "runs"
+    return f"runs, {_count(row.stubs)}" if row.stubs else "runs"

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.installed import Scopes
+from plcsim.library.simulated import Rules, built_in_rules, table_body
 from plcsim.library.stub import Stub
 from plcsim.settings import is_settings
-from st_types.types.derived import StringType, StructType, resolve_alias
+from st_types.types.derived import DataBlockType, StringType, StructType, resolve_alias
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -31,12 +32,15 @@ class Catalogue:
     Args:
         libraries: as above.
         languages: that bodies may be written in.
-        stubs: names of libraries, in small letters, in which what has no body is idle.
+        stubs: names of libraries, in small letters, in which what has no body is idle, or follows
+            rules.
+        rules: for blocks of such libraries.
 
     Attributes:
         libraries: as above.
         scopes: of the libraries; read when a name is looked up.
-        stubbed: names that somebody looked up and that are idle, by library.
+        stubbed: names that somebody looked up and that nothing executes, by library, and what they
+            do instead: "" for nothing.
     """
 
     def __init__(
@@ -44,10 +48,12 @@ class Catalogue:
         libraries: Sequence[Library],
         languages: Sequence[BodyLanguage],
         stubs: Collection[str] = (),
+        rules: Rules | None = None,
     ) -> None:
         self.libraries = tuple(libraries)
         self._stubs = frozenset(stubs)
-        self.stubbed: dict[str, dict[str, None]] = {}
+        self._rules = rules or built_in_rules()
+        self.stubbed: dict[str, dict[str, str]] = {}
         self.scopes = Scopes(self.libraries)
         self._languages = languages
         self._bodies: dict[Library, dict[str, Executable]] = {}
@@ -81,9 +87,17 @@ class Catalogue:
     def _body(self, library: Library, name: str) -> Executable | None:
         body = self.bodies(library).get(name)
         if body is None and self.has_stubs(library):
-            self.stubbed.setdefault(library.name, {})[name] = None
-            return Stub(_zero(library.scope.find_function(name)))
+            return self._stub(library, name)
         return body
+
+    def _stub(self, library: Library, name: str) -> Executable:
+        """Return what stands for a body that is not here."""
+        data_type = library.scope.find_type(name)
+        body = None
+        if isinstance(data_type, DataBlockType):
+            body = table_body(data_type, self._rules.of(name))
+        self.stubbed.setdefault(library.name, {})[name] = "" if body is None else body.text
+        return body or Stub(_zero(library.scope.find_function(name)))
 
     def find_block(self, name: str) -> tuple[Library, Executable | None] | None:
         """Return the library that declares a FUNCTION_BLOCK, and its body; None for no such block.

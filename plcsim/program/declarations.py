@@ -15,6 +15,7 @@ from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library, check_scope, declarations_of, read_declarations
+from plcsim.library.simulated import built_in_rules
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
@@ -75,7 +76,9 @@ class Declarations:
         around += [each for each in vendors if each.name.upper() not in hidden]
         self.own_libraries = tuple(own)
         stubs = layout.stubs | ({v.name.lower() for v in vendors} if "*" in layout.stubs else set())
-        self.catalogue = Catalogue(around, languages, stubs)
+        self.catalogue = Catalogue(
+            around, languages, stubs, built_in_rules().extended(layout.simulate)
+        )
 
     def _library(self, place: LibraryPlace, around: Scopes, beside: Library | None) -> Library:
         library = Library(

@@ -26,6 +26,8 @@ from plcsim.library.library import PLAIN, CBuild, files_in, sources_in
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
+    from plcsim.library.simulated import Value
+
 DEEPEST: Final = 4
 """Folders below the project's in which libraries are looked for."""
 
@@ -104,6 +106,7 @@ class Layout:
         c_build: how C is compiled.
         stubs: libraries of which a block without a body is idle, in small letters; "*" for all
             that come without source.
+        simulate: rules for blocks of such libraries (`plcsim.library.simulated`), by block.
     """
 
     folder: Path
@@ -113,6 +116,7 @@ class Layout:
     made_variables: tuple[MadeVariable, ...] = ()
     c_build: CBuild = PLAIN
     stubs: frozenset[str] = frozenset()
+    simulate: Mapping[str, Mapping[str, Value]] = field(default_factory=dict)
 
 
 def folder_layout(

@@ -279,10 +279,15 @@ def _notes(project: Project, left_out: Mapping[str, Sequence[str]]) -> list[str]
 
 
 def _stub_notes(catalogue: Catalogue) -> list[str]:
-    return [
-        f"{library}: {', '.join(names)}: nothing executes them here, they do nothing"
-        for library, names in catalogue.stubbed.items()
-    ]
+    notes = []
+    for library, found in catalogue.stubbed.items():
+        idle = [name for name, text in found.items() if not text]
+        if idle:
+            notes.append(
+                f"{library}: {', '.join(idle)}: nothing executes them here, they do nothing"
+            )
+        notes += [f"{library}: {name} is simulated: {text}" for name, text in found.items() if text]
+    return notes
 
 
 def assemble(

@@ -47,7 +47,7 @@ _NOTHING: Final[Mapping[str, Mapping[str, Any]]] = MappingProxyType({})
 COMPILING_NS: Final = 300_000_000_000
 """Loading an Automation Studio project may take so long at least, on a slow host too."""
 
-_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries", PROJECT, "as")
+_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate")
 
 
 @dataclass(frozen=True)
@@ -177,7 +177,7 @@ class _Parts:
         automation_studio = self._automation_studio_folder()
         if automation_studio is not None:
             return self._of_automation_studio(automation_studio)
-        for name in ("as", PROJECT):
+        for name in ("as", "simulate", PROJECT):
             if name in self._top:
                 raise self._top.error(name, "there is no Automation Studio project here")
         classes = _task_classes(self._top.table("task_class"), self._plc.tick_ns)
@@ -219,6 +219,7 @@ class _Parts:
         stubs = self._folders.stub
         names = frozenset([ALL_VENDORS] if stubs is None else (name.lower() for name in stubs))
         layout = layout_of(found, self._file.parent, tasks, names)
+        layout = replace(layout, simulate=_simulated(self._top.table("simulate")))
         return Project(
             self._file.parent,
             self._plc.name or found.name,
@@ -253,6 +254,21 @@ def _toml(file: Path) -> dict[str, Any]:
         raise ConfigurationError(f"{file}: {err}") from None
     except RecursionError:
         raise ConfigurationError(f"{file}: brackets are nested too deep") from None
+
+
+def _simulated(table: Table) -> Mapping[str, Mapping[str, Any]]:
+    """Return tables [simulate.BLOCK]: an output by the input that it follows, or its value."""
+    findings = Findings()
+    found: dict[str, Mapping[str, Any]] = {}
+    for name, each in table.tables().items():
+        with findings.gathered():
+            rules = each.values()
+            for key, value in rules.items():
+                if not isinstance(value, str | bool | int | float):
+                    raise each.error(key, f"{value!r} is neither the name of an input nor a value")
+            found[name] = rules
+    findings.check()
+    return found
 
 
 def _class_tables(table: Table) -> dict[int, TaskClassTable]:

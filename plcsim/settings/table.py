@@ -61,6 +61,10 @@ class Table:
         """Return a table inside this one, empty where there is none."""
         return Table(self._file, self._field(key), self._values.pop(key, {}))
 
+    def values(self) -> dict[str, object]:
+        """Return what is in it and nobody has taken, by key."""
+        return dict(self._values)
+
     def only(self, *keys: str) -> Table:
         """Return the part of this table that has these keys."""
         values = {key: self._values.pop(key) for key in keys if key in self._values}

@@ -48,12 +48,12 @@ def test_one_source_as_two_tasks_with_variables_of_their_own(plc):
     assert plc["linePulse.count"] == 3
 
 
-def test_what_nothing_executes_is_idle_and_told(plc):
+def test_what_nothing_executes_is_simulated_by_a_table_and_told(plc):
     plc.run("100ms")
     assert plc["FillStatio.alarms.Enable"] is True
-    assert plc["FillStatio.alarm_ready"] is False
+    assert plc["FillStatio.alarm_ready"] is True
     texts = [entry.text for entry in plc.controller.logbook]
-    assert "MpAlarm: MpAlarmCore: nothing executes them here, they do nothing" in texts
+    assert "MpAlarm: MpAlarmCore is simulated: Active follows Enable" in texts
 
 
 def test_io_channels_are_latched_and_published(plc):

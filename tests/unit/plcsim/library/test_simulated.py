@@ -1,0 +1,67 @@
+"""Blocks that follow a table where nothing executes them."""
+
+import pytest
+
+from plcsim.core.context import Context
+from plcsim.core.memory import Memory
+from plcsim.library.simulated import Rules, built_in_rules, table_body
+from st_types import BOOL, DINT, INT
+from st_types.types.derived import DataBlockType, Member, Section
+
+BLOCK = DataBlockType(
+    "Alarm",
+    [
+        Member("Enable", BOOL, section=Section.INPUT),
+        Member("Level", INT, section=Section.INPUT),
+        Member("Active", BOOL, section=Section.OUTPUT),
+        Member("Error", BOOL, section=Section.OUTPUT),
+        Member("StatusID", DINT, section=Section.OUTPUT),
+        Member("Actual", INT, section=Section.OUTPUT),
+        Member("Hidden", BOOL),
+    ],
+)
+
+
+@pytest.fixture
+def run():
+    """``run(rules, Enable=1)``: the values of all members after one call."""
+    memory = Memory()
+
+    def run(rules, **inputs):
+        address = memory.allocate(BLOCK.size)
+        for name, value in inputs.items():
+            member, offset = BLOCK.find(name)
+            memory.set(member.data_type, address + offset, value)
+        table_body(BLOCK, rules).bind(Context(memory, None))(address)
+        return {
+            member.name: memory.get(member.data_type, address + offset)
+            for member, offset in zip(BLOCK.members, BLOCK.offsets, strict=True)
+        }
+
+    return run
+
+
+def test_outputs_follow_inputs_or_keep_a_value(run):
+    rules = {"Active": "Enable", "Actual": "Level", "StatusID": -7, "Error": True}
+    values = run(rules, Enable=True, Level=-3)
+    assert (values["Active"], values["Actual"]) == (True, -3)
+    assert (values["StatusID"], values["Error"]) == (-7, True)
+    assert run(rules, Enable=False)["Active"] is False
+
+
+def test_rules_that_do_not_fit_are_no_rules(run):
+    assert table_body(BLOCK, {"Done": "Execute", "Actual": "Enable", "Hidden": "Enable"}) is None
+    assert table_body(BLOCK, {"Error": False}) is None
+    assert run({"Active": "Enable", "Enable": "Enable", "Done": "Enable"}, Enable=True)["Active"]
+
+
+def test_a_component_is_active_when_it_is_enabled():
+    body = table_body(BLOCK, built_in_rules().of("Alarm"))
+    assert body.text == "Active follows Enable"
+
+
+def test_a_project_adds_rules_to_those_of_a_block():
+    rules = Rules({"Active": "Enable"}, {"Alarm": {"Error": False}})
+    found = rules.extended({"Alarm": {"Actual": "Level"}, "Other": {"Done": "Execute"}})
+    assert found.of("Alarm") == {"Active": "Enable", "Error": False, "Actual": "Level"}
+    assert found.of("Other") == {"Active": "Enable", "Done": "Execute"}
