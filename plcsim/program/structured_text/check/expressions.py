@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text.check import operations
 from plcsim.program.structured_text.check.fits import fit
+from plcsim.program.structured_text.check.iec_check import IecCheck
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     ANY_REAL,
@@ -64,6 +65,7 @@ class ExpressionChecker:
         self.names = names
         self.findings = findings
         self.error = findings.error
+        self._checks = IecCheck(names)
         self._members: dict[tuple[Type, str], tuple[int, Type]] = {}
 
     def value(self, node: Expression) -> Value:
@@ -208,10 +210,11 @@ class ExpressionChecker:
             message = f"{array} takes {len(array.bounds)} indices, not {len(indices)}"
             self.error(node, Code.WRONG_INDEX, message)
             return NOTHING
-        for each, index, (low, high) in zip(node.indices, indices, array.bounds, strict=True):
-            if type(index) is not Constant or index.type is VOID:
-                continue
-            if not low <= int(index.value) <= high:
+        for place, (each, (low, high)) in enumerate(zip(node.indices, array.bounds, strict=True)):
+            index = indices[place]
+            if type(index) is not Constant:
+                indices[place] = self._checks.index(index, low, high)
+            elif index.type is not VOID and not low <= int(index.value) <= high:
                 message = f"index {index.value} is outside {low}..{high}"
                 self.error(each, Code.INDEX_OUTSIDE, message)
         return followed(Element(plain(array.element), value, array, indices))
@@ -263,6 +266,8 @@ class ExpressionChecker:
 
     def _operation(self, node: syntax.Binary, left: Value, right: Value) -> Value:
         left, right = address_of_aggregate(left), address_of_aggregate(right)
+        if node.operator == "/":
+            right = self._checks.divisor(right)
         found = operations.operation(node.operator, left, right)
         if found is None:
             if left.type is not VOID and right.type is not VOID:

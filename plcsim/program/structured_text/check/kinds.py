@@ -195,6 +195,8 @@ def _elementary_fit(source: ElementaryType[Any], target: ElementaryType[Any]) ->
     from_kind, to_kind = _ELEMENTARY_KINDS[source], _ELEMENTARY_KINDS[target]
     if source is target or (from_kind is Kind.BOOL and to_kind in NUMBERS):
         return Fit.EXACT
+    if from_kind is Kind.BOOL and to_kind is Kind.TIME:
+        return Fit.NARROWED
     if source is ANY_INT and to_kind is not Kind.BOOL:
         return Fit.EXACT  # of a constant, its value is looked at
     if from_kind is Kind.INTEGER and to_kind is Kind.REAL:

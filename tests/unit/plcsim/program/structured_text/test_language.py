@@ -257,3 +257,36 @@ def test_the_library_standard_is_there(run, value):
 )
 def test_a_var_block_in_a_file_makes_it_a_file_of_the_standard(run, value, files, result):
     assert value(run(files), "main.wide") == result
+
+
+IEC_CHECK = {
+    "IecCheck/IecCheck.fun": """
+        FUNCTION CheckBounds : DINT
+        VAR_INPUT index, lower, upper : DINT; END_VAR VAR own : ARRAY[0..1] OF DINT; END_VAR
+        END_FUNCTION
+        FUNCTION CheckDivInt : INT VAR_INPUT divisor : INT; END_VAR END_FUNCTION
+        FUNCTION CheckDivReal : REAL VAR_INPUT divisor : REAL; END_VAR END_FUNCTION
+        """,
+    "IecCheck/IecCheck.st": """
+        FUNCTION CheckBounds
+        own[1] := LIMIT(lower, index, upper);
+        CheckBounds := own[1];
+        END_FUNCTION
+        FUNCTION CheckDivInt
+        CheckDivInt := SEL(divisor = 0, divisor, 1);
+        END_FUNCTION
+        FUNCTION CheckDivReal
+        CheckDivReal := divisor;
+        IF divisor = 0 THEN CheckDivReal := 2; END_IF
+        END_FUNCTION
+        """,
+}
+
+
+def test_indices_and_divisors_go_through_the_library_iec_check(run, value):
+    text = "list[i] := 5; list[1] := list[-i]; j := 7 / zero; r := 3.0 / q; k := 8 / 2;"
+    declared = "list : ARRAY[1..3] OF INT; i : INT := 9; j, k, zero : INT; r, q : REAL; next : INT;"
+    controller = run(program(text, declared) | IEC_CHECK)
+    assert controller.fault is None
+    assert [value(controller, f"main.list[{n}]") for n in (1, 2, 3)] == [0, 0, 5]
+    assert [value(controller, f"main.{name}") for name in ("j", "k", "r", "next")] == [7, 4, 1.5, 0]
