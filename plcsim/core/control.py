@@ -33,6 +33,13 @@ class Step(Enum):
     RUN = 6
 
 
+class Ending(Enum):
+    """How a run is asked to end after its cycle."""
+
+    PAUSE = 1
+    STOP = 2
+
+
 AS_FAST_AS_POSSIBLE = 0
 """The speed of a virtual clock that waits for nothing."""
 

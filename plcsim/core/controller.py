@@ -6,7 +6,7 @@ from collections import deque
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.clock import MonotonicClock, first_date_ns
-from plcsim.core.control import Step
+from plcsim.core.control import Ending, Step
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import ProgramError
 from plcsim.core.forces import Forces
@@ -127,6 +127,7 @@ class Controller:
         context.give_settings(self)
         self.requests: deque[Request] = deque()
         self._violation_followers: list[Callable[[Violation], None]] = []
+        self._ending_followers: list[Callable[[Ending], None]] = []
         self._step_followers: list[Callable[[Step, int, int], None]] = []
         self.stop_requested = False
         self._started = False
@@ -208,7 +209,7 @@ class Controller:
     def stop(self) -> None:
         """End `run` after the current cycle; a signal handler may call this."""
         self.stop_requested = True
-        self.scan.stop()
+        self._ask_to_end(Ending.STOP)
 
     def abort_program(self, reason: str) -> None:
         """End the program that is running, if one is, by CycleTimeViolation.
@@ -254,7 +255,7 @@ class Controller:
     def request(self, request: Request) -> None:
         """Ask for an act, which whoever runs the controller carries out after this cycle."""
         self.requests.append(request)
-        self.scan.pause()
+        self._ask_to_end(Ending.PAUSE)
 
     def follow_violations(self, told: Callable[[Violation], None]) -> None:
         """Have ``told`` called with every violation from now on."""
@@ -266,6 +267,22 @@ class Controller:
         It gets the limits of a run as well: its end on the clock and its cycles, 0 for none.
         """
         self._step_followers.append(told)
+
+    def follow_endings(self, told: Callable[[Ending], None]) -> None:
+        """Have ``told`` called when a run is asked to end after its cycle, in any phase of it."""
+        self._ending_followers.append(told)
+
+    def end_run(self, ending: Ending) -> None:
+        """End `run` after the current cycle."""
+        if ending is Ending.STOP:
+            self.scan.stop()
+        else:
+            self.scan.pause()
+
+    def _ask_to_end(self, ending: Ending) -> None:
+        self.end_run(ending)
+        for told in self._ending_followers:
+            told(ending)
 
     def _about_to(self, step: Step, until_ns: int | None = None, cycles: int | None = None) -> None:
         for told in self._step_followers:

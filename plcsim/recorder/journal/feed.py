@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.recorder.journal.record import CYCLE, Record, entries
+from plcsim.recorder.journal.record import CYCLE, ENDINGS, Record, entries
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
+    from plcsim.core.control import Ending
     from plcsim.recorder.journal.record import Entry
 
 
@@ -32,19 +33,32 @@ class Feed:
     Attributes:
         current: the record that is being used up, None behind the last one.
         reason: why the replay differs, "" while it does not.
+        end_run: called where the recorded run was asked to end.
     """
 
     def __init__(self, records: Iterable[Record]) -> None:
         self._records: Iterator[Record] = iter(records)
         self.current: Record | None = None
         self.reason = ""
+        self.end_run: Callable[[Ending], None] = lambda _ending: None
+        self._endings: dict[int, Ending] = {}
         self._number = self._byte = self._latch = 0
         self.advance()
 
     def advance(self) -> None:
         """Go to the next record."""
-        self.current = next(self._records, None)
+        record = self.current = next(self._records, None)
         self._number = self._byte = self._latch = 0
+        self._endings = {}
+        if record is not None and record.writes:
+            asked = [each for each in entries(record.writes) if each.address in ENDINGS]
+            self._endings = {each.latch: ENDINGS[each.address] for each in asked}
+            self._end_run()
+
+    def _end_run(self) -> None:
+        """Ask the run to end where it was asked to, by the answers of the clock so far."""
+        if self._number in self._endings:
+            self.end_run(self._endings.pop(self._number))
 
     @property
     def left(self) -> str:
@@ -68,6 +82,8 @@ class Feed:
         record, at = self.current, self._number
         if record is not None and at < len(record.clock):
             self._number = at + 1
+            if self._endings:
+                self._end_run()
             return record.clock[at]
         if record is None or record.step != CYCLE:
             raise EndOfRecord
@@ -110,7 +126,8 @@ class Feed:
         """Return what was written in a LATCH of this record; 0 for between two cycles."""
         if self.current is None or not self.current.writes:
             return []
-        return [entry for entry in entries(self.current.writes) if entry.latch == latch]
+        found = entries(self.current.writes)
+        return [e for e in found if e.latch == latch and e.address not in ENDINGS]
 
     def differs(self, reason: str) -> Diverged:
         """Return the error for a difference; the first one counts."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.recorder.journal.record import Entry, Record, packet
 
 if TYPE_CHECKING:
+    from plcsim.core.control import Ending
     from plcsim.core.traffic import Topic
 
 TOPIC_EVERY: Final = 1000
@@ -55,6 +56,10 @@ class Journal:
     def wrote(self, address: int, data: bytes) -> None:
         """Note a store from outside, or with address 0 a new list of forced tags."""
         self._writes += Entry(self._latches, address, data).to_bytes()
+
+    def asked_to_end(self, ending: Ending) -> None:
+        """Note that the run shall end after this cycle: from here on nothing preempts it."""
+        self._writes += Entry(len(self.clock), ending.value, b"").to_bytes()
 
     def crossed(self, topic: Topic, body: bytes | memoryview) -> None:
         """Note a message; now and then what it goes over, for a recorder that came later."""

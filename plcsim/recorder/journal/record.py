@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from plcsim.core.control import Ending
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
@@ -109,8 +111,10 @@ class Entry(NamedTuple):
     """What was written from outside.
 
     Attributes:
-        latch: in which LATCH since the last record, from 1; 0 between two cycles.
-        address: of the bytes; 0 where ``data`` is the whole list of forced tags.
+        latch: in which LATCH since the last record, from 1; 0 between two cycles. Of an ending, how
+            many answers the clock had given since.
+        address: of the bytes; 0 where ``data`` is the whole list of forced tags, and the values of
+            `plcsim.core.control.Ending` where a run was asked to end.
         data: the bytes.
     """
 
@@ -121,6 +125,10 @@ class Entry(NamedTuple):
     def to_bytes(self) -> bytes:
         """Return the entry as `entries` reads it."""
         return _ENTRY.pack(self.latch, self.address, len(self.data)) + self.data
+
+
+ENDINGS: Final = {each.value: each for each in Ending}
+"""Addresses of entries that are no writes."""
 
 
 def entries(writes: bytes) -> Iterator[Entry]:

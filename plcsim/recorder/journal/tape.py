@@ -44,6 +44,7 @@ class Tape:
         controller.image.followers.append(journal.wrote)
         controller.forces.follow(self._forced)
         controller.follow_steps(self._stepped)
+        controller.follow_endings(journal.asked_to_end)
         controller.context.traffic.followers.append(journal.crossed)
 
     def _latch(self, _task_class: TaskClass) -> None:

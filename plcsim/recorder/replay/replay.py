@@ -100,6 +100,7 @@ class Replay:
         self._views = [
             self.controller.memory.view(a.address, a.data_type.size) for a in self.controller.areas
         ]
+        feed.end_run = self.controller.end_run
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.insert(0, self._publish)
 

@@ -1,12 +1,12 @@
 import pytest
 
-from plcsim.core.control import Step
+from plcsim.core.control import Ending, Step
 from plcsim.recorder.journal.feed import Diverged, EndOfRecord, Feed
 from plcsim.recorder.journal.record import CYCLE, Entry, Record
 
 
 def record(step: int = CYCLE, clock: tuple[int, ...] = (), network: bytes = b"") -> Record:
-    writes = Entry(0, 1, b"a").to_bytes() + Entry(1, 2, b"b").to_bytes()
+    writes = Entry(0, 100, b"a").to_bytes() + Entry(1, 200, b"b").to_bytes()
     return Record(step, 1, 1, 1, clock, network, writes, b"", b"")
 
 
@@ -50,11 +50,25 @@ def test_what_is_left_of_a_cycle_is_told() -> None:
 def test_writes_come_in_their_latch() -> None:
     feed = Feed([record()])
 
-    assert feed.written(0) == [Entry(0, 1, b"a")]
-    assert feed.latch() == [Entry(1, 2, b"b")]
+    assert feed.written(0) == [Entry(0, 100, b"a")]
+    assert feed.latch() == [Entry(1, 200, b"b")]
     assert feed.latch() == []
 
 
 def test_programs_cannot_catch_a_difference() -> None:
     assert not issubclass(Diverged, Exception)
     assert not issubclass(EndOfRecord, Exception)
+
+
+def test_a_run_is_asked_to_end_after_as_many_answers_as_then() -> None:
+    writes = Entry(2, Ending.PAUSE.value, b"").to_bytes()
+    feed = Feed([Record(CYCLE, 1, 1, 1, (7, 8, 9), b"", writes, b"", b"")])
+    asked: list[tuple[Ending, int]] = []
+    answers: list[int] = []
+    feed.end_run = lambda ending: asked.append((ending, len(answers)))
+
+    for _ in range(3):
+        answers.append(feed.number())
+
+    assert asked == [(Ending.PAUSE, 1)]  # while the second answer was on its way
+    assert feed.written(2) == []

@@ -6,9 +6,11 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
+from plcsim.core.control import Action, Request
 from plcsim.core.controller import Controller
 from plcsim.library.astcp import TcpOpen
 from plcsim.network import VirtualNetwork
+from plcsim.process.operation import Operation
 from plcsim.project.assembly import Application
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.errors import RecordingError
@@ -167,3 +169,36 @@ def test_a_recording_without_its_beginning_cannot_be_repeated(recordings: Record
         records = [(n - 5, r) for n, r in reader.records() if n >= 5]
         with pytest.raises(RecordingError, match="does not begin with the start"):
             Replay(application, reader.head(), records)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        [(5, Action.PAUSE), (0, Action.CONTINUE)],
+        [(7, Action.WARM_RESTART)],
+        [(4, Action.COLD_RESTART), (9, Action.PAUSE), (0, Action.CYCLES), (0, Action.CONTINUE)],
+    ],
+)
+def test_pauses_single_cycles_and_restarts_come_again(
+    recordings: Recordings, asked: list[tuple[int, Action]]
+) -> None:
+    def operate(controller: Controller) -> None:
+        waiting = list(asked)
+
+        def ask() -> None:
+            if waiting and controller.classes[0].cycles % 20 >= waiting[0][0]:
+                controller.request(Request(waiting.pop(0)[1], 3, "test"))
+
+        controller.image.inputs.append(lambda _: ask())
+        controller.image.exchanges.append(ask)
+        Operation(controller, rest=lambda _: None).run(cycles=40)
+
+    application = application_of(Watcher, Slow, Fast)
+    bag = recordings("a.bag", application, act=operate, clock=Jittery())
+
+    again = repeat(bag, application)
+
+    assert again.difference is None
+    with open_bag(bag) as reader:
+        cycles = sum(record.step == 0 for _, record in reader.records())
+    assert again.cycles == cycles
