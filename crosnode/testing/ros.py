@@ -37,6 +37,9 @@ FIRST_IP: Final = 101
 SETTLING: Final = 3
 """Cycles between a connection and the first message of a bag."""
 
+SETTLING_NS: Final = 500_000_000
+"""As long as no other topic is subscribed to for so long, all are."""
+
 QUEUE: Final = 1000
 """Messages that wait for the test; in a program it is ten, but a test looks only now and then."""
 
@@ -239,31 +242,40 @@ class Ros:
         """
         plc = self._plc
         player_node = self.node(f"player_{next(self._players)}")
+        host = self._hosts[-1]
         try:
             with open_bag(Path(bag)) as reader:
                 wanted = topics or self._subscribed({topic.name for topic in reader.topics})
                 player = Player(reader, player_node, wanted)
-                first = next(iter(player.publishers))
-                publisher = player.publishers[first]
-                self._until(f"a subscriber of {first}", lambda: publisher.subscribers)
+                heard = [p for n, p in player.publishers.items() if n in self._heard()]
+                self._until(
+                    "subscribers of the bag's topics", lambda: all(p.subscribers for p in heard)
+                )
                 plc.advance(SETTLING * plc.cycle_ns)  # the subscriber has to see the connection too
-                player.start(plc.time_ns)
-                while (due_ns := player.due_ns) is not None:
-                    plc.advance(max(0, due_ns - plc.time_ns))
-                    player.step(plc.time_ns)
+                player.start(plc.clock.now_ns())
+                host.step = partial(_play, player, player_node, plc)
+                plc.advance(reader.end_ns - reader.start_ns + plc.cycle_ns, lambda: player.is_over)
                 plc.cycles(1)
                 return player.sent
         except RecordingError as error:
             raise PlcTestError(str(error)) from None
 
+    def _heard(self) -> set[str]:
+        """Return the topics that somebody subscribes to."""
+        return set(self.system_state().subscribers)
+
     def _subscribed(self, topics: Collection[str]) -> list[str]:
         """Run until programs subscribe to some of these topics; return which."""
 
         def found() -> list[str]:
-            return sorted(set(topics) & set(self.system_state().subscribers))
+            return sorted(set(topics) & self._heard())
 
         self._until("a subscriber of a topic of the bag", found)
-        return found()
+        known: list[str] = []
+        while known != found():  # a node registers one topic after another
+            known = found()
+            self._plc.advance(SETTLING_NS)
+        return known
 
     def call(self, service: str, type_name: str, /, **values: object) -> Message:
         """Call a service as ``rosservice call`` does; the controller runs until the reply.
@@ -316,6 +328,11 @@ class Ros:
         for host in self._hosts:
             host.context.release_ns = now_ns
             host.step()
+
+
+def _play(player: Player, node: CrosNode, plc: Plc) -> None:
+    player.step(plc.clock.now_ns())
+    node.do_events_loop()
 
 
 class _Host:

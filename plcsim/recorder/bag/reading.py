@@ -118,7 +118,10 @@ class BagReader:
                 return head_from(json.loads(message.as_ros1[4 : 4 + size]))
             except (ValueError, KeyError, TypeError) as err:
                 raise RecordingError(f"{self.path}: {HEAD} is no recording: {err}") from None
-        raise RecordingError(f"{self.path}: was not recorded by plcsim: it has no topic {HEAD}")
+        raise RecordingError(
+            f"{self.path}: was not recorded by plcsim: it has no topic {HEAD}; in a test, "
+            "ros.replay plays the messages of any bag to a project"
+        )
 
     def records(self) -> Iterator[tuple[int, Record]]:
         """Return the records with their numbers, the variables of each whole.
