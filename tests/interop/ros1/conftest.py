@@ -28,7 +28,10 @@ def ros(request: pytest.FixtureRequest, tmp_path: Path, rospy_installed: None) -
 def roscpp(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the folder with the compiled roscpp peers."""
     flags = subprocess.run(
-        ["pkg-config", "--cflags", "--libs", "roscpp"], capture_output=True, text=True, check=False
+        ["pkg-config", "--cflags", "--libs", "roscpp", "actionlib"],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     if flags.returncode or not GENCPP.exists():
         pytest.skip("Debian's roscpp is not installed (tests/interop/ros1/install.sh)")

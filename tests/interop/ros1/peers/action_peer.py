@@ -1,0 +1,63 @@
+"""An actionlib client of rospy: sends goals of FollowJointTrajectory, says what becomes of them.
+
+    action_peer.py client FULL_TEXT_FILE NAME | server NAME
+
+The types are made of their full text, for Debian has no control_msgs.
+"""
+
+import sys
+from pathlib import Path
+
+import actionlib
+import rospy
+from actionlib.msg import TestAction, TestFeedback, TestResult
+from actionlib_msgs.msg import GoalStatus
+from genpy.dynamic import generate_dynamic
+
+NAMES = {value: name for name, value in vars(GoalStatus).items() if name.isupper()}
+
+
+def client(text_file, name):
+    kinds = generate_dynamic(
+        "control_msgs/FollowJointTrajectoryAction", Path(text_file).read_text()
+    )
+    action = kinds["control_msgs/FollowJointTrajectoryAction"]
+    goal_type = kinds["control_msgs/FollowJointTrajectoryGoal"]
+    point_type = kinds["trajectory_msgs/JointTrajectoryPoint"]
+    made = actionlib.SimpleActionClient(name, action)
+    print("connected", made.wait_for_server(rospy.Duration(10)), flush=True)
+    for target, stop in ((0.5, False), (50.0, True), (1.0, False)):
+        goal = goal_type()
+        goal.trajectory.joint_names = ["a", "b"]
+        goal.trajectory.points = [
+            point_type(positions=[target, -target], time_from_start=rospy.Duration(0.5))
+        ]
+        heard = []
+        made.send_goal(goal, feedback_cb=heard.append)
+        if stop:
+            made.wait_for_result(rospy.Duration(0.3))
+            made.cancel_goal()
+        made.wait_for_result(rospy.Duration(5))
+        result = made.get_result()
+        print("goal", target, NAMES[made.get_state()], result and result.error_code,
+              "feedback" if heard else "none", flush=True)  # fmt: skip
+
+
+def server(name):
+    def execute(goal):
+        for number in range(3):
+            made.publish_feedback(TestFeedback(number))
+            rospy.sleep(0.05)
+            if made.is_preempt_requested():
+                made.set_preempted(TestResult(-1))
+                return
+        made.set_succeeded(TestResult(goal.goal * 2), "twice")
+
+    made = actionlib.SimpleActionServer(name, TestAction, execute, auto_start=False)
+    made.start()
+    print("serving", flush=True)
+    rospy.spin()
+
+
+rospy.init_node("action_peer", anonymous=True)
+{"client": client, "server": server}[sys.argv[1]](*sys.argv[2:])
