@@ -69,3 +69,75 @@ def values(tmp_path_factory):
 @pytest.mark.parametrize("number", range(len(CALLS)), ids=[text for _, text, _ in CALLS])
 def test_a_call_gives_its_value(values, number):
     assert values[number] == CALLS[number][2]
+
+
+WRITER = """
+PROGRAM _CYCLIC
+CASE step OF
+    0:
+        create(enable := TRUE, pDevice := ADR('USER'), pFile := ADR('log.txt'));
+        IF create.status = ERR_OK THEN
+            step := 1;
+        ELSIF create.status <> ERR_FUB_BUSY THEN
+            failed := create.status;
+        END_IF
+    1:
+        text := CONCAT(DT_TO_STRING(DT#2026-03-31-06:00:00), ' started');
+        size := brsstrlen(ADR(text));
+        write(enable := TRUE, ident := create.ident, pSrc := ADR(text), len := size);
+        IF write.status = ERR_OK THEN
+            step := 2;
+        END_IF
+    2:
+        close(enable := TRUE, ident := create.ident);
+        IF close.status = ERR_OK THEN
+            step := 3;
+        END_IF
+    END_CASE
+END_PROGRAM
+"""
+
+WRITER_VARIABLES = """
+VAR
+    step : USINT;
+    create : FileCreate;
+    write : FileWrite;
+    close : FileClose;
+    text : STRING[80];
+    size : UDINT;
+    failed : UINT;
+END_VAR
+"""
+
+
+@pytest.fixture
+def writer(tmp_path):
+    """``writer(devices)``: a controller whose program writes a file on device USER."""
+    (tmp_path / "main").mkdir()
+    (tmp_path / "main" / "Main.st").write_text(WRITER)
+    (tmp_path / "main" / "Main.var").write_text(WRITER_VARIABLES)
+    (tmp_path / "files").mkdir()
+
+    def writer(devices):
+        plc_toml = f'[task_class.1]\ncycle = "10ms"\nprograms = ["main"]\n{devices}'
+        (tmp_path / "plc.toml").write_text(plc_toml)
+        clock = VirtualClock()
+        network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
+        controller = assemble(load(read_project(tmp_path)), clock=clock, network=network)
+        controller.boot()
+        assert controller.run_for(100_000_000) is State.RUN, controller.fault
+        return controller
+
+    return writer
+
+
+def test_a_program_writes_a_file_on_a_device_of_plc_toml(writer, tmp_path):
+    controller = writer('[library.FileIO.devices]\nUSER = "files"\n')
+    assert controller.tags.read(controller.tags.find("main.step")) == 3
+    assert (tmp_path / "files" / "log.txt").read_text() == "DT#2026-03-31-06:00:00 started"
+
+
+def test_a_device_that_plc_toml_does_not_name(writer, tmp_path):
+    controller = writer("")
+    assert controller.tags.read(controller.tags.find("main.failed")) == 20709
+    assert not [*(tmp_path / "files").iterdir()]
