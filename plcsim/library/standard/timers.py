@@ -49,8 +49,8 @@ class Timer(FunctionBlock):
         """True from `start` to `clear`."""
         raise NotImplementedError
 
-    def elapsed(self) -> int:
-        """Return the time since the start, within 0..PT; 0 for a PT below 0."""
+    def elapsed(self, limit: int) -> int:
+        """Return the time since the start, within 0 and a limit; 0 for a limit below 0."""
         raise NotImplementedError
 
 
@@ -85,11 +85,12 @@ class MillisecondTimer(Timer):
         """True from `start` to `clear`."""
         return bool(self.StartTime or self.Restart)
 
-    def elapsed(self) -> int:
+    def elapsed(self, limit: int) -> int:
         """Return the milliseconds since the start."""
         start = self.Restart << 32 | self.StartTime & 0xFFFF_FFFF
         elapsed = (1 + self.context.release_ns - start) // NS_PER_MS
-        return max(0, min(elapsed, self.PT))
+        elapsed = min(limit, elapsed)
+        return elapsed if elapsed > 0 else 0  # quicker than min() and max()
 
 
 class TickTimer(Timer):
@@ -112,9 +113,9 @@ class TickTimer(Timer):
         """True from `start` to `clear`."""
         return bool(self.StartTime)
 
-    def elapsed(self) -> int:
+    def elapsed(self, limit: int) -> int:
         """Return the ticks since the start."""
-        return min((1 + self._tick - self.StartTime) % (TICK_COUNTS - 1), self.PT)
+        return min((1 + self._tick - self.StartTime) % (TICK_COUNTS - 1), limit)
 
     @property
     def _tick(self) -> int:
@@ -136,8 +137,9 @@ class OnDelay(Timer):
             self.M = True
             self.start()
         if not self.Q:
-            self.ET = self.elapsed()
-            self.Q = self.ET >= self.PT
+            limit = self.PT
+            elapsed = self.ET = self.elapsed(limit)
+            self.Q = elapsed >= limit
 
 
 class TON(interface.TON, OnDelay, MillisecondTimer):
@@ -166,8 +168,9 @@ class OffDelay(Timer):
             self.M = False
             self.start()
         if self.Q:
-            self.ET = self.elapsed()
-            self.Q = self.ET < self.PT
+            limit = self.PT
+            elapsed = self.ET = self.elapsed(limit)
+            self.Q = elapsed < limit
 
 
 class TOF(interface.TOF, OffDelay, MillisecondTimer):
@@ -192,8 +195,9 @@ class Pulse(Timer):
             self.start()
             self.Q = True
         if self.Q:
-            self.ET = self.elapsed()
-            self.Q = self.ET < self.PT
+            limit = self.PT
+            elapsed = self.ET = self.elapsed(limit)
+            self.Q = elapsed < limit
         if not (self.Q or self.IN):
             self.clear()
             self.ET = 0
