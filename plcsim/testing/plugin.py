@@ -6,6 +6,7 @@ fixture ``plc``. What it does then is in `plcsim.testing.session`.
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -70,6 +71,14 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     collector = import_module("plcsim.testing.st_collector").StructuredTextFile
     found: pytest.Collector = collector.from_parent(parent, path=file_path)
     return found
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown() -> None:
+    """Hand over what has run to coverage.py, where its plugin was asked for."""
+    coverage = sys.modules.get("plcsim.testing.coverage")
+    if coverage is not None:
+        coverage.collect()
 
 
 def pytest_configure(config: pytest.Config) -> None:

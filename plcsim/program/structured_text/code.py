@@ -10,6 +10,7 @@ from plcsim.core.task import Task, Unit
 from plcsim.program.structured_text.check.program import check_program, is_meant, unit_scope
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
+from plcsim.program.structured_text.coverage import MEASURING, keep_possible
 from plcsim.program.structured_text.layout import OWN, Layout, addresses
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
@@ -67,7 +68,8 @@ def compile_program(
     Raises:
         ConfigurationError: there are errors; all are told, with file, line and column.
     """
-    cache, key = code_cache(), key_of((name, only, scope.dialect.name), files, scope, shared)
+    names = (name, only, scope.dialect.name, repr(MEASURING.options))
+    cache, key = code_cache(), key_of(names, files, scope, shared)
     stored = find(cache, key)
     if stored is None:
         check_syntax(files)
@@ -75,6 +77,7 @@ def compile_program(
         keep(cache, key, stored)
     else:
         layout = Layout(name, _own_scopes(files, scope, only), scope.chain, shared)
+    keep_possible(stored.code.profile, {file.path: file.source.text for file in files})
     absent = missing(catalogue, scope, stored.code.imports)
     if absent:
         raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
@@ -106,7 +109,7 @@ def _compiled(
     semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
     module = lower(program, layout.areas, semantics)
     module.name = f"{name}.{only}" if only else name
-    return Stored(generate(module), warnings), layout
+    return Stored(generate(module, MEASURING.options), warnings), layout
 
 
 def checked(

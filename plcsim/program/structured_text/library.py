@@ -9,6 +9,7 @@ from plcsim.program.site import Site
 from plcsim.program.structured_text.calling import callable_of, extern_of, interface_of
 from plcsim.program.structured_text.code import checked
 from plcsim.program.structured_text.codegen.generate import generate
+from plcsim.program.structured_text.coverage import MEASURING, keep_possible
 from plcsim.program.structured_text.layout import Layout, types_of
 from plcsim.program.structured_text.linkage import Linkage
 from plcsim.program.structured_text.lower.module import lower
@@ -38,7 +39,7 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     read = read_files(files)
     check_syntax(read)
     program, _ = checked(library.name, [file.parsed for file in read], library.scope, "global")
-    whole = CompiledLibrary(program, library.scope)
+    whole = CompiledLibrary(program, library.scope, {file.path: file.source.text for file in read})
     found: dict[str, Executable] = {}
     for body in program.bodies:
         if body.kind == "block":
@@ -57,10 +58,12 @@ class CompiledLibrary:
     Args:
         program: its bodies, checked.
         scope: of the library.
+        texts: of its files, by path.
     """
 
-    def __init__(self, program: Program, scope: Scope) -> None:
+    def __init__(self, program: Program, scope: Scope, texts: dict[str, str]) -> None:
         self._program = program
+        self._texts = texts
         self._scope = scope
         self._codes: dict[object, ObjectCode] = {}
 
@@ -74,7 +77,8 @@ class CompiledLibrary:
         shared = types_of(site.shared)
         if shared not in self._codes:
             layout = Layout(self._scope.name, (), self._scope.chain, shared)
-            self._codes[shared] = generate(lower(self._program, layout.areas))
+            self._codes[shared] = generate(lower(self._program, layout.areas), MEASURING.options)
+            keep_possible(self._codes[shared].profile, self._texts)
         return self._codes[shared]
 
 

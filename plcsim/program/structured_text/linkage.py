@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from plcsim.program.compiled import CompiledPrograms, no_function_body
 from plcsim.program.site import no_body
 from plcsim.program.structured_text.codegen.link import Linker
+from plcsim.program.structured_text.coverage import MEASURING
 from plcsim.program.structured_text.fault import locator
 from plcsim.program.structured_text.layout import SHARED, addresses
 
@@ -60,7 +61,9 @@ class Linkage:
             if segment.data is not None:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
         self._compiled.locate_by(code.name, locator(code.lines))
-        return self._linker.link(code, places, partial(self._provide, scope))
+        instance = self._linker.link(code, places, partial(self._provide, scope))
+        MEASURING.link(code.profile, instance)
+        return instance
 
     def library(self, key: object, link: Callable[[], Instance]) -> Instance | None:
         """Return the module of a library; None while it is being linked.
