@@ -38,6 +38,7 @@ _OPTIONS = (
     *("-mno-bulk-memory", "-mno-nontrapping-fptoint", "-mno-reference-types", "-mno-multivalue"),
     *("-nostdlibinc", "-fno-color-diagnostics", "-ferror-limit=0", "-Wno-unknown-warning-option"),
     *("-D_DEFAULT_INCLUDES", "-D_SG4", "-D_REPLACE_CONST"),
+    "-UNDEBUG",  # zig defines it where it optimises
 )
 _C_OPTIONS = (
     "-std=gnu11",
