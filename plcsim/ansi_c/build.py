@@ -51,6 +51,8 @@ _C_OPTIONS = (
 _CPP_OPTIONS = (
     *("-std=gnu++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"),
     *("-fno-finite-loops", "-fcheck-new", "-Wno-register"),
+    # inline functions are the module's own; static objects live as long as the program
+    *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
 )
 _LINK_OPTIONS = ("--shared", "--experimental-pic", "--import-memory", "--import-undefined")
 

@@ -1,0 +1,89 @@
+"""Units in C++: new and delete, templates, virtual functions, static construction."""
+
+import pytest
+
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.system import State
+
+MAIN = """
+#include <bur/plctypes.h>
+#ifdef _DEFAULT_INCLUDES
+	#include <AsDefault.h>
+#endif
+#include <stdint.h>
+#include <stddef.h>
+#include <string.h>
+#include <math.h>
+
+unsigned long bur_heap_size = 0xFFFF;
+
+struct Shape {
+	virtual ~Shape() {}
+	virtual double area() const = 0;
+};
+struct Square : Shape {
+	double a;
+	explicit Square(double x) : a(x) {}
+	double area() const override { return a * a; }
+};
+template <typename T, int N> struct Ring {
+	T values[N];
+	int count = 0;
+	void put(T v) { values[count++ % N] = v; }
+	T sum() const { T s = 0; for (int i = 0; i < N && i < count; i++) s += values[i]; return s; }
+};
+class Counter {
+public:
+	Counter() : n(40) {}
+	~Counter() { n = 0; }
+	int n;
+};
+static Counter counter;
+static Ring<long, 4> ring;
+
+void _INIT ProgramInit(void) { counter.n++; }
+void _CYCLIC ProgramCyclic(void)
+{
+	static Counter once;
+	Shape *shape = new Square(1.5);
+	int *many = new int[10]();
+	ring.put(counter.n);
+	total = ring.sum() + once.n + many[3];
+	area = sqrt(shape->area());
+	on = true;
+	delete shape;
+	delete[] many;
+}
+"""
+
+
+@pytest.fixture(autouse=True)
+def _a_compiler():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+
+
+def test_a_unit_in_cpp_runs_and_starts_anew(run, value):
+    files = {
+        "main/Main.cpp": MAIN,
+        "main/V.var": "VAR total : DINT; area : LREAL; on : BOOL; END_VAR",
+    }
+    controller = run(files, cycles=3)
+    assert (controller.state, controller.fault) == (State.RUN, None)
+    assert value(controller, "main.total") == 3 * 41 + 40
+    assert value(controller, "main.area") == 1.5
+    assert value(controller, "main.on") is True
+
+
+def test_new_without_room_is_a_fault_with_its_line(run):
+    text = MAIN.replace("0xFFFF", "0x80")
+    controller = run(
+        {"main/Main.cpp": text, "main/V.var": "VAR total : DINT; area : LREAL; on : BOOL; END_VAR"},
+        cycles=3,
+    )
+    line = next(n for n, each in enumerate(text.splitlines(), 1) if "new int[10]" in each)
+    assert controller.fault.location.endswith(f"main/Main.cpp:{line}")
+    assert controller.fault.reason == "the heap has no room for what new asks for"
