@@ -13,6 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
+from plcsim.core.memory import DEFAULT_SIZE
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
 from plcsim.program.layout import folder_layout, outside_libraries, program_places
 from plcsim.project.automation_studio.layout import ALL_VENDORS, layout_of
@@ -43,6 +44,10 @@ PROJECT: Final = "project"
 """Key with the path of an Automation Studio project."""
 
 _NOTHING: Final[Mapping[str, Mapping[str, Any]]] = MappingProxyType({})
+
+AUTOMATION_STUDIO_MEMORY: Final = 128 << 20
+"""Bytes of PLC memory of an Automation Studio project where plc.toml does not say; what no variable
+takes costs the host nothing."""
 
 COMPILING_NS: Final = 300_000_000_000
 """Loading an Automation Studio project may take so long at least, on a slow host too."""
@@ -223,12 +228,17 @@ class _Parts:
         return Project(
             self._file.parent,
             self._plc.name or found.name,
-            replace(self._plc, tick_ns=tick_ns(hardware, classes)),
+            replace(self._plc, tick_ns=tick_ns(hardware, classes), memory_size=self._memory_size()),
             classes,
             self._with_own(layout, tables),
             self._libraries,
             automation_studio=found,
         )
+
+    def _memory_size(self) -> int:
+        """Return the memory of a project that was written for a controller with much of it."""
+        size = self._plc.memory_size
+        return AUTOMATION_STUDIO_MEMORY if size == DEFAULT_SIZE else size
 
     def _with_own(self, layout: Layout, tables: Mapping[int, TaskClassTable]) -> Layout:
         """Add programs and libraries that plc.toml names beside an Automation Studio project."""
