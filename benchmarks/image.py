@@ -23,7 +23,14 @@ from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.host import realtime
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
-from plcsim.shared_image import ImageReader, ImageWriter, Sample, Scatter, Store, Write
+from plcsim.shared_image import (
+    ImageReader,
+    ImageWriter,
+    Sample,
+    Scatter,
+    Store,
+    Write,
+)
 from plcsim.shared_image.layout import make_file
 from plcsim.shared_image.samples import sample_of
 from st_types import ARRAY, UDINT, var

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 
-class Kind(Enum):
+class ArgumentKind(Enum):
     """What a person types for an argument."""
 
     NOTHING = "nothing: an option without a value"
@@ -29,12 +29,12 @@ class Argument(NamedTuple):
         text: its help.
         kind: what is typed for it.
         metavar: how it is called.
-        choices: the words of `Kind.CHOICE`.
+        choices: the words of `ArgumentKind.CHOICE`.
     """
 
     flags: tuple[str, ...]
     text: str
-    kind: Kind
+    kind: ArgumentKind
     metavar: str
     choices: tuple[str, ...] = ()
 
@@ -87,11 +87,11 @@ def _argument(parser: argparse.ArgumentParser, action: argparse.Action) -> Argum
     return Argument(tuple(action.option_strings), text, _kind(action, name), name, choices)
 
 
-def _kind(action: argparse.Action, name: str) -> Kind:
+def _kind(action: argparse.Action, name: str) -> ArgumentKind:
     if action.nargs == 0:
-        return Kind.NOTHING
+        return ArgumentKind.NOTHING
     if action.choices is not None:
-        return Kind.CHOICE
+        return ArgumentKind.CHOICE
     if name in {"PROJECT", "DIR"}:
-        return Kind.FOLDER
-    return Kind.FILE if action.type is Path else Kind.TEXT
+        return ArgumentKind.FOLDER
+    return ArgumentKind.FILE if action.type is Path else ArgumentKind.TEXT

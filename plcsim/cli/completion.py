@@ -8,7 +8,7 @@ from __future__ import annotations
 import shlex
 from typing import TYPE_CHECKING
 
-from plcsim.cli.command_tree import Argument, Command, Kind, command_tree
+from plcsim.cli.command_tree import Argument, ArgumentKind, Command, command_tree
 from plcsim.cli.exit_codes import epilog
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def _steps(root: Command) -> str:
 def _valued(command: Command) -> Iterator[tuple[str, Argument]]:
     """Iterate over the options that take a value, as a pattern, with what they are."""
     for argument in command.arguments:
-        if argument.flags and argument.kind is not Kind.NOTHING:
+        if argument.flags and argument.kind is not ArgumentKind.NOTHING:
             flags = (f'"{_name(command)} {flag}"' for flag in argument.flags)
             yield " | ".join(flags), argument
 
@@ -68,15 +68,21 @@ def _words(command: Command) -> list[str]:
     return [*(inner.path[-1] for inner in command.commands), *choices, *flags]
 
 
-def _takes(command: Command) -> Kind:
+def _takes(command: Command) -> ArgumentKind:
     """Return whether files or folders may stand next."""
     kinds = {argument.kind for argument in command.arguments if not argument.flags}
-    return Kind.FILE if Kind.FILE in kinds else Kind.FOLDER if Kind.FOLDER in kinds else Kind.TEXT
+    return (
+        ArgumentKind.FILE
+        if ArgumentKind.FILE in kinds
+        else ArgumentKind.FOLDER
+        if ArgumentKind.FOLDER in kinds
+        else ArgumentKind.TEXT
+    )
 
 
 # bash
 
-_BASH_FILES = {Kind.FILE: "-f", Kind.FOLDER: "-d"}
+_BASH_FILES = {ArgumentKind.FILE: "-f", ArgumentKind.FOLDER: "-d"}
 
 
 def bash(root: Command) -> Iterator[str]:
@@ -115,7 +121,7 @@ def _bash_value(argument: Argument) -> str:
 
 # zsh
 
-_ZSH_FILES = {Kind.FILE: "_files", Kind.FOLDER: "_files -/"}
+_ZSH_FILES = {ArgumentKind.FILE: "_files", ArgumentKind.FOLDER: "_files -/"}
 
 
 def zsh(root: Command) -> Iterator[str]:
@@ -152,7 +158,7 @@ def zsh(root: Command) -> Iterator[str]:
 
 
 def _zsh_value(argument: Argument) -> str:
-    if argument.kind is Kind.CHOICE:
+    if argument.kind is ArgumentKind.CHOICE:
         return f"compadd -- {shlex.join(argument.choices)}"
     return _ZSH_FILES.get(argument.kind) or f"_message {shlex.quote(argument.metavar)}"
 
@@ -177,7 +183,10 @@ def _one_line(text: str) -> str:
 
 # fish
 
-_FISH_FILES = {Kind.FILE: "__fish_complete_path", Kind.FOLDER: "__fish_complete_directories"}
+_FISH_FILES = {
+    ArgumentKind.FILE: "__fish_complete_path",
+    ArgumentKind.FOLDER: "__fish_complete_directories",
+}
 
 
 def fish(root: Command) -> Iterator[str]:
@@ -204,12 +213,12 @@ def fish(root: Command) -> Iterator[str]:
 
 def _fish_argument(argument: Argument) -> str:
     names = [f"-l {f[2:]}" if f.startswith("--") else f"-s {f[1:]}" for f in argument.flags]
-    if argument.kind is Kind.CHOICE:
+    if argument.kind is ArgumentKind.CHOICE:
         value = f"-a {shlex.quote(' '.join(argument.choices))}"
     else:
         finder = _FISH_FILES.get(argument.kind)
         value = f"-a '({finder})'" if finder else ""
-    takes = "-x" if argument.flags and argument.kind is not Kind.NOTHING else ""
+    takes = "-x" if argument.flags and argument.kind is not ArgumentKind.NOTHING else ""
     return " ".join(filter(None, [*names, takes, value, f"-d {_fish_text(argument.text)}"]))
 
 

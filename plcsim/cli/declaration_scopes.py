@@ -60,7 +60,7 @@ class NamedScope(NamedTuple):
     listed: tuple[Path, ...] | None = None
 
 
-class Declarations(NamedTuple):
+class FoundDeclarations(NamedTuple):
     """All that was read.
 
     Attributes:
@@ -76,7 +76,7 @@ class Declarations(NamedTuple):
     files: list[DeclarationFile]
 
 
-def read_declarations(paths: Sequence[Path], *, strict: bool = False) -> Declarations:
+def read_declarations(paths: Sequence[Path], *, strict: bool = False) -> FoundDeclarations:
     """Read the declarations at and below ``paths``, and what they see around them.
 
     Raises:
@@ -94,7 +94,7 @@ def read_declarations(paths: Sequence[Path], *, strict: bool = False) -> Declara
     named = [each for each in scopes if any(id(file) in wanted for file in each.scope.files)]
     others = [each for each in scopes if each not in named]
     others += [NamedScope("library", (scope.name,), scope) for scope in libraries]
-    return Declarations(reading, named, others, files)
+    return FoundDeclarations(reading, named, others, files)
 
 
 def _scopes_of(
@@ -114,7 +114,7 @@ def _scopes_of(
         yield from made
 
 
-def report(found: Declarations, show: Callable[[str], object]) -> int:
+def report(found: FoundDeclarations, show: Callable[[str], object]) -> int:
     """Show all findings in the files that the user named, and return the number of errors."""
     for line in (*found.reading.failures, *found.reading.notes):
         show(line)

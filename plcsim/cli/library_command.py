@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.library.face import INTERFACE
-from plcsim.library.face_writer import Package, interface_source
+from plcsim.library.face_writer import FolderFace, interface_source
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library, check_scope, declarations_of, files_in
 from plcsim.program.declarations import Declarations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.library.face_writer import Declared
+    from plcsim.library.face_writer import FaceSource
 
 STUB: Final = "__init__.pyi"
 """Tells editors and type checkers what a folder is as a package; Python does not read it."""
@@ -53,7 +53,7 @@ def _written(folder: Path, only_checked: bool) -> Path | None:  # of the command
     return None
 
 
-def _declared_in(folder: Path) -> tuple[Declared, Sequence[Declared]]:
+def _declared_in(folder: Path) -> tuple[FaceSource, Sequence[FaceSource]]:
     """Return what is declared in a folder, and what it sees beside installed libraries."""
     if not declarations_of(files_in(folder)):
         raise ConfigurationError(f"{folder}: no .typ, .var or .fun file was found")
@@ -66,7 +66,7 @@ def _declared_in(folder: Path) -> tuple[Declared, Sequence[Declared]]:
         return Library(here, here.name, Scopes([*installed().values()])), ()
     libraries = declarations.own_libraries
     packages = _packages(declarations, here)
-    faces: dict[Path, Declared] = {each.folder: each for each in libraries}
+    faces: dict[Path, FaceSource] = {each.folder: each for each in libraries}
     faces.update(packages)
     found = faces.get(here) or Library(here, here.name, declarations.catalogue.scopes)
     return found, [*libraries, *packages.values()]
@@ -80,13 +80,13 @@ def _project_around(folder: Path) -> Declarations | None:
     return None
 
 
-def _packages(declarations: Declarations, folder: Path) -> dict[Path, Package]:
+def _packages(declarations: Declarations, folder: Path) -> dict[Path, FolderFace]:
     """Return what a project declares, and what the program in a folder does, by folder."""
     top = declarations.folder
-    found = {top: Package(top.name, declarations.package, declarations.scope)}
+    found = {top: FolderFace(top.name, declarations.package, declarations.scope)}
     for source, place in declarations.layout.programs.items():
         if place.folder == folder != top:
             inner = folder.relative_to(top).parts
             package = ".".join((declarations.package, *inner))
-            found[folder] = Package(folder.name, package, declarations.scope_of(source))
+            found[folder] = FolderFace(folder.name, package, declarations.scope_of(source))
     return found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.logbook import Severity
 from plcsim.core.task import Cause
 from plcsim.core.text import escaped
-from plcsim.shared_image.events import Kind, entry_of
+from plcsim.shared_image.events import EventKind, entry_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +68,7 @@ class LiveLogbook:
         if now_ns // 1_000_000_000 != self._second:
             self._begin_second(now_ns // 1_000_000_000)
         for record in self._reader.read():
-            if record.kind == Kind.ENTRY.value:
+            if record.kind == EventKind.ENTRY.value:
                 self._tell(entry_of(record))
 
     def _begin_second(self, second: int) -> None:

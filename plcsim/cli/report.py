@@ -46,7 +46,7 @@ Key = tuple[str, str]
 """Test (all of its repeats) and program."""
 
 
-class Comparison(NamedTuple):
+class ReportComparison(NamedTuple):
     """One program in one test, in two runs.
 
     Attributes:
@@ -199,7 +199,7 @@ def comparisons(
     before: Mapping[Key, Sequence[float]],
     after: Mapping[Key, Sequence[float]],
     smallest: float = SMALLEST_CHANGE,
-) -> list[Comparison]:
+) -> list[ReportComparison]:
     """Compare what both runs have.
 
     The samples of A, made larger by the smallest growth that counts, are tested against those of B.
@@ -223,15 +223,15 @@ def comparisons(
 
 def _compare(
     key: Key, before: Sequence[float], after: Sequence[float], smallest: float, alarm_below: float
-) -> Comparison:
+) -> ReportComparison:
     change = median(after) / median(before) - 1
     allowed = [value * (1 + smallest) for value in before]
     probability = rank_test(allowed, after).probability
     repeats = len(before), len(after)
-    return Comparison(*key, repeats, change, probability, probability < alarm_below)
+    return ReportComparison(*key, repeats, change, probability, probability < alarm_below)
 
 
-def _table(found: Sequence[Comparison]) -> Table:
+def _table(found: Sequence[ReportComparison]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in ("test", "program", "repeats", "change", "p", ""):
         left = column in ("test", "program", "")

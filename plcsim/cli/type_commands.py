@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import argparse
     from collections.abc import Callable, Sequence
 
-    from plcsim.cli.declaration_scopes import Declarations
+    from plcsim.cli.declaration_scopes import FoundDeclarations
     from st_types.syntax.tree import DeclarationFile
     from st_types.types.elementary import DataType
 
@@ -34,7 +34,7 @@ def check(options: argparse.Namespace) -> int:
     return 1 if errors else 0
 
 
-def _contents(found: Declarations) -> str:
+def _contents(found: FoundDeclarations) -> str:
     scopes = [each.scope for each in found.scopes]
     counts = {
         "file": len(found.files),
@@ -52,11 +52,11 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def _warnings(found: Declarations) -> int:
+def _warnings(found: FoundDeclarations) -> int:
     return len(found.reading.notes) + sum(f.diagnostics.warning_count for f in found.files)
 
 
-def _resolved(paths: Sequence[Path], *, strict: bool = False) -> Declarations:
+def _resolved(paths: Sequence[Path], *, strict: bool = False) -> FoundDeclarations:
     with collector_paused():
         found = read_declarations(paths, strict=strict)
         for each in found.scopes:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.cli.declaration_scopes import Declarations, NamedScope
+    from plcsim.cli.declaration_scopes import FoundDeclarations, NamedScope
 
 
 def header(options: argparse.Namespace) -> int:
@@ -56,7 +56,7 @@ def python(options: argparse.Namespace) -> int:
     return _finish(found, texts, options.output)
 
 
-def _planned(found: Declarations, options: argparse.Namespace) -> list[PlannedFile]:
+def _planned(found: FoundDeclarations, options: argparse.Namespace) -> list[PlannedFile]:
     """Return the files to write, each behind those that it includes.
 
     Raises:
@@ -118,7 +118,7 @@ def _stem(name: str) -> str:
     return f"_{stem}" if not stem.isidentifier() or iskeyword(stem) else stem
 
 
-def _finish(found: Declarations, texts: Mapping[str, str], folder: Path | None) -> int:
+def _finish(found: FoundDeclarations, texts: Mapping[str, str], folder: Path | None) -> int:
     """Write the files, tell the findings and what is left out, and return the exit code."""
     for name, text in texts.items():
         if folder is None:
@@ -134,7 +134,7 @@ def _finish(found: Declarations, texts: Mapping[str, str], folder: Path | None) 
     return 1 if errors or missing else 0
 
 
-def _left_out(found: Declarations) -> Iterator[str]:
+def _left_out(found: FoundDeclarations) -> Iterator[str]:
     for each in found.scopes:
         names = left_out(each.scope)
         if names:

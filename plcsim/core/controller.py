@@ -292,7 +292,7 @@ class Controller:
         """Write an entry of the logbook at the present time."""
         self.logbook.write(self.clock.stamp_ns() - self.origin_ns, severity, source, text)
 
-    # what the scan tells (plcsim.core.scan.Supervisor)
+    # what the scan tells (plcsim.core.scan.ScanListener)
 
     def started(self, task: Task) -> None:
         """Pass the heartbeat on."""

@@ -35,7 +35,7 @@ class Phase(Enum):
     PUBLISH = "PUBLISH"
 
 
-class Image(Protocol):
+class IoImage(Protocol):
     """What moves values in and out around a cycle (`plcsim.core.image`)."""
 
     def latch(self, task_class: TaskClass) -> None:
@@ -45,7 +45,7 @@ class Image(Protocol):
         """Give outputs out; called in PUBLISH."""
 
 
-class Supervisor(Protocol):
+class ScanListener(Protocol):
     """Who is told what runs, and decides what a fault leads to."""
 
     def started(self, task: Task) -> None:
@@ -87,8 +87,8 @@ class Scan:
         classes: Sequence[TaskClass],
         clock: Clock,
         context: Context,
-        image: Image,
-        supervisor: Supervisor,
+        image: IoImage,
+        supervisor: ScanListener,
         idle: Callable[[int], None],
     ) -> None:
         numbers = sorted(c.number for c in classes)

@@ -36,7 +36,7 @@ LONGEST_LINE: Final = 100
 _FACE: Final = "plcsim.library.face"
 
 
-class Declared(Protocol):
+class FaceSource(Protocol):
     """Declarations and the package that Python finds them in: a library, a project, a program."""
 
     @property
@@ -52,8 +52,8 @@ class Declared(Protocol):
         """What is declared."""
 
 
-class Package(NamedTuple):
-    """The package of a project or a program; see `Declared`."""
+class FolderFace(NamedTuple):
+    """The package of a project or a program; see `FaceSource`."""
 
     name: str
     package: str
@@ -68,7 +68,7 @@ class _Line(NamedTuple):
     comment: str
 
 
-def interface_source(library: Declared, others: Iterable[Declared] = ()) -> str:
+def interface_source(library: FaceSource, others: Iterable[FaceSource] = ()) -> str:
     """Return the text of a library's ``interface.py``, or of the stub of another package.
 
     Args:
@@ -81,7 +81,7 @@ def interface_source(library: Declared, others: Iterable[Declared] = ()) -> str:
 class _Writer:
     """Writes the classes and remembers what they import."""
 
-    def __init__(self, library: Declared, others: Iterable[Declared]) -> None:
+    def __init__(self, library: FaceSource, others: Iterable[FaceSource]) -> None:
         self._library = library
         self._others = [*others, *installed().values()]
         self._scope = library.scope
@@ -202,8 +202,8 @@ class _Writer:
         return "int"
 
 
-def _kind_of(declared: Declared) -> str:
-    return "What is declared in" if isinstance(declared, Package) else "Library"
+def _kind_of(declared: FaceSource) -> str:
+    return "What is declared in" if isinstance(declared, FolderFace) else "Library"
 
 
 def _imports(names: Iterable[tuple[str, str]]) -> Iterator[tuple[str, bool]]:

@@ -14,7 +14,7 @@ from plcsim.cli.output_file import check_output, write_output
 from plcsim.cli.project_argument import add_project
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.export import FORMATS
-from plcsim.modbus.export.entry import Entry, Export
+from plcsim.modbus.export.entry import Export, ExportEntry
 from plcsim.modbus.map.automatic import LOCK_FILE, write_lock
 from plcsim.modbus.map.load import TagMap, load_map
 from plcsim.project.assembly import load, still_controller
@@ -128,8 +128,10 @@ def list_tags(options: argparse.Namespace) -> int:
     return 0
 
 
-def _entries(tag_map: TagMap) -> list[Entry]:
-    return [Entry(row, point) for row, point in zip(tag_map.rows, tag_map.points, strict=True)]
+def _entries(tag_map: TagMap) -> list[ExportEntry]:
+    return [
+        ExportEntry(row, point) for row, point in zip(tag_map.rows, tag_map.points, strict=True)
+    ]
 
 
 def export(options: argparse.Namespace) -> int:

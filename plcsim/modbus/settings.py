@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, field, replace
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
-from plcsim.settings import Converted, Duration, Kind, Whole, settings
+from plcsim.settings import Converted, Duration, SettingKind, Whole, settings
 from plcsim.settings.kinds import PathTo
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ MODBUS_PORT: Final = 502
 SECURE_PORT: Final = 802
 
 
-class _File(Kind):
+class _File(SettingKind):
     """A file that must be there, as text: settings go to the service as JSON."""
 
     def convert(self, value: object, folder: Path) -> str:

@@ -26,7 +26,7 @@ from plcsim.network.protocol import (
     network_of,
 )
 from plcsim.network.virtual_network import VirtualNetwork
-from plcsim.network.wire import Limits, Link
+from plcsim.network.wire import Link, WireLimits
 
 __all__ = [
     "Accepted",
@@ -34,7 +34,6 @@ __all__ = [
     "Datagram",
     "DatagramNetwork",
     "DatagramSocket",
-    "Limits",
     "Link",
     "Network",
     "Opened",
@@ -47,6 +46,7 @@ __all__ = [
     "Sent",
     "Socket",
     "VirtualNetwork",
+    "WireLimits",
     "datagrams_of",
     "network_of",
 ]

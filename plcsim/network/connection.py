@@ -11,7 +11,7 @@ from plcsim.network.wire import SECOND_NS, Packet
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.network.events import Event
+    from plcsim.network.events import NetworkEvent
     from plcsim.network.options import SocketOptions
     from plcsim.network.virtual_network import VirtualNetwork
 
@@ -59,8 +59,8 @@ class Connection:
         self._gone = False
         self._ended_first = False
         self._in_order_ns = 0
-        self._fade: Event | None = None
-        self._probe: Event | None = None
+        self._fade: NetworkEvent | None = None
+        self._probe: NetworkEvent | None = None
         self._missed_probes = 0
 
     def apply_options(self) -> None:

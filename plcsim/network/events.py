@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(order=True, slots=True)
-class Event:
+class NetworkEvent:
     """One planned act; ``action`` is None once it is cancelled."""
 
     time_ns: int
@@ -23,7 +23,7 @@ class EventQueue:
     """Events in the order (time, planning), so that a run repeats exactly."""
 
     def __init__(self) -> None:
-        self._heap: list[Event] = []
+        self._heap: list[NetworkEvent] = []
         self._sequence = 0
         self._cancelled = 0
 
@@ -38,14 +38,14 @@ class EventQueue:
             self._cancelled -= 1
         return self._heap[0].time_ns if self._heap else None
 
-    def plan(self, time_ns: int, action: Callable[[], None]) -> Event:
+    def plan(self, time_ns: int, action: Callable[[], None]) -> NetworkEvent:
         """Plan ``action`` for ``time_ns``."""
         self._sequence += 1
-        event = Event(time_ns, self._sequence, action)
+        event = NetworkEvent(time_ns, self._sequence, action)
         heappush(self._heap, event)
         return event
 
-    def cancel(self, event: Event) -> None:
+    def cancel(self, event: NetworkEvent) -> None:
         """Take a planned event back; nothing happens if it is over or already cancelled."""
         if event.action is None:
             return

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 
-class FaultKind(Enum):
+class NetworkFaultKind(Enum):
     """What can go wrong for a span of time."""
 
     REFUSE = auto()
@@ -24,7 +24,7 @@ class FaultKind(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class NetworkFault:
     """A fault between hosts ``a`` and ``b`` (None: any other) from ``from_ns`` until ``until_ns``.
 
     Attributes:
@@ -36,7 +36,7 @@ class Fault:
         value: port of REFUSE (0: all), extra nanoseconds of DELAY, largest bytes of SHORT_SENDS.
     """
 
-    kind: FaultKind
+    kind: NetworkFaultKind
     a: str
     b: str | None
     from_ns: int
@@ -56,7 +56,7 @@ class Fault:
         return self.from_ns <= now_ns and (self.until_ns is None or now_ns < self.until_ns)
 
 
-class Faults:
+class NetworkFaults:
     """Plans faults. Hosts are IPv4 literals; times are of the net, ``at_ns`` None means now.
 
     Args:
@@ -71,7 +71,7 @@ class Faults:
     ) -> None:
         self._now_ns = now_ns
         self._plan_reset = plan_reset
-        self._faults: list[Fault] = []
+        self._faults: list[NetworkFault] = []
 
     def reset(self, a: str, b: str | None = None, *, at_ns: int | None = None) -> None:
         """Tear down all connections that exist at ``at_ns`` between two hosts: both ends see RESET.
@@ -90,7 +90,7 @@ class Faults:
         Raises:
             NetworkSetupError: not an IPv4 literal, a time in the past or an empty span.
         """
-        self._add(FaultKind.REFUSE, host, None, at_ns, until_ns, port)
+        self._add(NetworkFaultKind.REFUSE, host, None, at_ns, until_ns, port)
 
     def silence(
         self, a: str, b: str | None = None, *, at_ns: int | None = None, until_ns: int | None = None
@@ -103,7 +103,7 @@ class Faults:
         Raises:
             NetworkSetupError: not an IPv4 literal, a time in the past or an empty span.
         """
-        self._add(FaultKind.SILENCE, a, b, at_ns, until_ns)
+        self._add(NetworkFaultKind.SILENCE, a, b, at_ns, until_ns)
 
     def unreachable(
         self, a: str, b: str | None = None, *, at_ns: int | None = None, until_ns: int | None = None
@@ -113,7 +113,7 @@ class Faults:
         Raises:
             NetworkSetupError: not an IPv4 literal, a time in the past or an empty span.
         """
-        self._add(FaultKind.UNREACHABLE, a, b, at_ns, until_ns)
+        self._add(NetworkFaultKind.UNREACHABLE, a, b, at_ns, until_ns)
 
     def delay(
         self,
@@ -129,7 +129,7 @@ class Faults:
         Raises:
             NetworkSetupError: not an IPv4 literal, a time in the past, an empty span or no delay.
         """
-        self._add(FaultKind.DELAY, a, b, at_ns, until_ns, self._positive(by_ns, "by_ns"))
+        self._add(NetworkFaultKind.DELAY, a, b, at_ns, until_ns, self._positive(by_ns, "by_ns"))
 
     def short_sends(
         self,
@@ -145,7 +145,7 @@ class Faults:
             NetworkSetupError: not an IPv4 literal, a time in the past, an empty span or no bytes.
         """
         value = self._positive(largest, "largest")
-        self._add(FaultKind.SHORT_SENDS, host, None, at_ns, until_ns, value)
+        self._add(NetworkFaultKind.SHORT_SENDS, host, None, at_ns, until_ns, value)
 
     def clear(self) -> None:
         """End all faults that last for a span; resets that are planned still come."""
@@ -153,34 +153,36 @@ class Faults:
 
     def silent(self, a: str, b: str, now_ns: int) -> bool:
         """Whether packets between ``a`` and ``b`` are lost."""
-        kinds = (FaultKind.SILENCE, FaultKind.UNREACHABLE)
+        kinds = (NetworkFaultKind.SILENCE, NetworkFaultKind.UNREACHABLE)
         return any(f.kind in kinds and f.covers(a, b, now_ns) for f in self._faults)
 
     def no_route(self, a: str, b: str, now_ns: int) -> bool:
         """Whether connecting from ``a`` to ``b`` fails at once."""
-        kind = FaultKind.UNREACHABLE
+        kind = NetworkFaultKind.UNREACHABLE
         return any(f.kind is kind and f.covers(a, b, now_ns) for f in self._faults)
 
     def refuses(self, host: str, port: int, now_ns: int) -> bool:
         """Whether ``host`` refuses connections to ``port``."""
-        return any(f.value in (0, port) for f in self._of_host(FaultKind.REFUSE, host, now_ns))
+        return any(
+            f.value in (0, port) for f in self._of_host(NetworkFaultKind.REFUSE, host, now_ns)
+        )
 
     def extra_delay_ns(self, a: str, b: str, now_ns: int) -> int:
         """Nanoseconds that packets between ``a`` and ``b`` take longer."""
-        kind = FaultKind.DELAY
+        kind = NetworkFaultKind.DELAY
         return sum(f.value for f in self._faults if f.kind is kind and f.covers(a, b, now_ns))
 
     def largest_send(self, host: str, now_ns: int) -> int | None:
         """Most bytes that one ``send`` of ``host`` takes, None without limit."""
-        faults = self._of_host(FaultKind.SHORT_SENDS, host, now_ns)
+        faults = self._of_host(NetworkFaultKind.SHORT_SENDS, host, now_ns)
         return min((f.value for f in faults), default=None)
 
-    def _of_host(self, kind: FaultKind, host: str, now_ns: int) -> Iterator[Fault]:
+    def _of_host(self, kind: NetworkFaultKind, host: str, now_ns: int) -> Iterator[NetworkFault]:
         return (f for f in self._faults if f.kind is kind and f.a == host and f.holds(now_ns))
 
     def _add(
         self,
-        kind: FaultKind,
+        kind: NetworkFaultKind,
         a: str,
         b: str | None,
         at_ns: int | None,
@@ -190,7 +192,7 @@ class Faults:
         from_ns, until_ns = self._span(a, b, at_ns, until_ns)
         now_ns = self._now_ns()
         self._faults = [f for f in self._faults if f.until_ns is None or f.until_ns > now_ns]
-        self._faults.append(Fault(kind, a, b, from_ns, until_ns, value))
+        self._faults.append(NetworkFault(kind, a, b, from_ns, until_ns, value))
 
     def _span(
         self, a: str, b: str | None, at_ns: int | None, until_ns: int | None

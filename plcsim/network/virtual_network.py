@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 from plcsim.network.datagrams import BROADCAST_IP
 from plcsim.network.errors import NetworkSetupError
-from plcsim.network.events import Event, EventQueue
-from plcsim.network.faults import Faults
+from plcsim.network.events import EventQueue, NetworkEvent
+from plcsim.network.faults import NetworkFaults
 from plcsim.network.protocol import ANY_IP, is_ipv4
 from plcsim.network.virtual_host import VirtualHost
-from plcsim.network.wire import SECOND_NS, Limits, Link, Packet, TraceEvent, is_loopback
+from plcsim.network.wire import SECOND_NS, Link, Packet, TraceEvent, WireLimits, is_loopback
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,14 +49,14 @@ class VirtualNetwork:
         *,
         seed: int = 0,
         link: Link | None = None,
-        limits: Limits | None = None,
+        limits: WireLimits | None = None,
         call_ns: int = 1_000,
         trace_length: int = 10_000,
     ) -> None:
-        self.limits = limits or Limits()
+        self.limits = limits or WireLimits()
         self.random = Random(seed)  # noqa: S311  # repeatable on purpose
         self.trace: deque[TraceEvent] = deque(maxlen=trace_length)
-        self.faults = Faults(lambda: self.now_ns, self._plan_reset)
+        self.faults = NetworkFaults(lambda: self.now_ns, self._plan_reset)
         self._clock_ns = clock_ns
         self._call_ns = call_ns
         self._link = link or Link()
@@ -118,11 +118,11 @@ class VirtualNetwork:
             act()
         self._moment_ns = until_ns
 
-    def plan(self, delay_ns: int, act: Callable[[], None]) -> Event:
+    def plan(self, delay_ns: int, act: Callable[[], None]) -> NetworkEvent:
         """Plan an act for ``delay_ns`` from now."""
         return self._events.plan(self._moment_ns + delay_ns, act)
 
-    def cancel(self, event: Event) -> None:
+    def cancel(self, event: NetworkEvent) -> None:
         """Take a planned act back."""
         self._events.cancel(event)
 

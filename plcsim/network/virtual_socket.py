@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from plcsim.network.virtual_host import VirtualHost
 
 
-class State(Enum):
+class SocketState(Enum):
     """Where a socket is in its life."""
 
     OPENED = auto()
@@ -49,21 +49,21 @@ class Act(Enum):
     CLOSE = auto()
 
 
-TRANSITIONS: Final[dict[State, dict[Act, State]]] = {
-    State.OPENED: {
-        Act.LISTEN: State.LISTENING,
-        Act.CONNECT: State.CONNECTING,
-        Act.ESTABLISH: State.CONNECTED,
-        Act.CLOSE: State.CLOSED,
+TRANSITIONS: Final[dict[SocketState, dict[Act, SocketState]]] = {
+    SocketState.OPENED: {
+        Act.LISTEN: SocketState.LISTENING,
+        Act.CONNECT: SocketState.CONNECTING,
+        Act.ESTABLISH: SocketState.CONNECTED,
+        Act.CLOSE: SocketState.CLOSED,
     },
-    State.LISTENING: {Act.LISTEN: State.LISTENING, Act.CLOSE: State.CLOSED},
-    State.CONNECTING: {
-        Act.ESTABLISH: State.CONNECTED,
-        Act.FAIL: State.OPENED,
-        Act.CLOSE: State.CLOSED,
+    SocketState.LISTENING: {Act.LISTEN: SocketState.LISTENING, Act.CLOSE: SocketState.CLOSED},
+    SocketState.CONNECTING: {
+        Act.ESTABLISH: SocketState.CONNECTED,
+        Act.FAIL: SocketState.OPENED,
+        Act.CLOSE: SocketState.CLOSED,
     },
-    State.CONNECTED: {Act.CLOSE: State.CLOSED},
-    State.CLOSED: {},
+    SocketState.CONNECTED: {Act.CLOSE: SocketState.CLOSED},
+    SocketState.CLOSED: {},
 }
 """Every transition of a socket; one that a listening socket takes is established at once."""
 
@@ -82,7 +82,7 @@ class VirtualSocket:
         self.host = host
         self.bound = bound
         self.reuse_address = reuse_address
-        self.state = State.OPENED
+        self.state = SocketState.OPENED
         self._net = host.net
         self._local = bound
         self._options = SocketOptions(host.net.limits.send_buffer, host.net.limits.receive_buffer)
@@ -95,12 +95,12 @@ class VirtualSocket:
     @property
     def listening(self) -> bool:
         """True after a successful ``listen``."""
-        return self.state is State.LISTENING
+        return self.state is SocketState.LISTENING
 
     @property
     def local(self) -> Address:
         """The own address; ``NO_ADDRESS`` once closed."""
-        return NO_ADDRESS if self.state is State.CLOSED else self._local
+        return NO_ADDRESS if self.state is SocketState.CLOSED else self._local
 
     @property
     def peer(self) -> Address | None:
@@ -132,11 +132,11 @@ class VirtualSocket:
     def connect(self, peer: Address) -> Outcome:
         """See ``Socket.connect``."""
         self._net.settle()
-        if self.state is State.CONNECTED:
+        if self.state is SocketState.CONNECTED:
             return Outcome.ALREADY_CONNECTED
         if self._handshake is not None:
             return self._take_answer(self._handshake)
-        if self.state is not State.OPENED:
+        if self.state is not SocketState.OPENED:
             return Outcome.INVALID
         if not is_connectable(peer):
             return Outcome.INVALID_ADDRESS
@@ -185,7 +185,7 @@ class VirtualSocket:
     def close(self) -> None:
         """See ``Socket.close``."""
         self._net.settle()
-        if self.state is State.CLOSED:
+        if self.state is SocketState.CLOSED:
             return
         connection = self._connected() or self._cancel_handshake()
         self._step(Act.CLOSE)
@@ -200,7 +200,7 @@ class VirtualSocket:
     def set_option(self, option: Option, value: int) -> Outcome:
         """See ``Socket.set_option``."""
         self._net.settle()
-        if self.state is State.CLOSED:
+        if self.state is SocketState.CLOSED:
             return Outcome.INVALID
         outcome = self._options.set(option, value)
         connection = self._connected()
@@ -210,7 +210,7 @@ class VirtualSocket:
 
     def option(self, option: Option) -> OptionValue:
         """See ``Socket.option``."""
-        if self.state is State.CLOSED:
+        if self.state is SocketState.CLOSED:
             return OptionValue(Outcome.INVALID)
         if option not in self._options:
             return OptionValue(Outcome.INVALID)
@@ -218,13 +218,13 @@ class VirtualSocket:
 
     def set_linger(self, seconds: int | None) -> Outcome:
         """See ``Socket.set_linger``."""
-        if self.state is State.CLOSED:
+        if self.state is SocketState.CLOSED:
             return Outcome.INVALID
         return self._options.set_linger(seconds)
 
     def linger(self) -> int | None:
         """See ``Socket.linger``."""
-        return None if self.state is State.CLOSED else self._options.linger
+        return None if self.state is SocketState.CLOSED else self._options.linger
 
     def take(self, local: Address, peer: Address) -> Connection | None:
         """Queue a connection that arrives at a listening socket.
@@ -267,7 +267,7 @@ class VirtualSocket:
         self.state = TRANSITIONS[self.state][act]
 
     def _connected(self) -> Connection | None:
-        return self._connection if self.state is State.CONNECTED else None
+        return self._connection if self.state is SocketState.CONNECTED else None
 
     def _make_connection(self, local: Address, peer: Address) -> Connection:
         self._local = local

@@ -26,7 +26,7 @@ from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.process import printing
 from plcsim.process.operation import Operation
 from plcsim.process.report import report
-from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load
+from plcsim.project.assembly import VIRTUAL_IP, ImageFile, assemble, load
 from plcsim.project.project_file import FILE_NAME
 from plcsim.shared_image.status_page import StatusPage
 from st_types.errors import TypeSystemError
@@ -156,7 +156,7 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         clock=clock,
         network=network,
         heartbeat=page,
-        image=Image(order.image_fd, order.wake_fds),
+        image=ImageFile(order.image_fd, order.wake_fds),
         system_fd=order.system_fd,
     )
     _handle_signals(controller)

@@ -91,7 +91,7 @@ class Application:
 
 
 @dataclass(frozen=True)
-class Image:
+class ImageFile:
     """The shared image of a controller, as its parent gave it.
 
     Attributes:
@@ -296,7 +296,7 @@ def assemble(
     clock: Clock,
     network: Network,
     heartbeat: Heartbeat | None = None,
-    image: Image | None = None,
+    image: ImageFile | None = None,
     system_fd: int | None = None,
 ) -> Controller:
     """Return a controller with the extensions hooked in, ready for its boot.

@@ -10,7 +10,7 @@ from typing import Annotated, Final, Literal, NamedTuple
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.memory import DEFAULT_SIZE, MAX_SIZE, PAGE
 from plcsim.core.task import HIGHEST_CLASS, Policy
-from plcsim.settings import Converted, Duration, Key, Kind, PathTo, Size, Whole, settings
+from plcsim.settings import Converted, Duration, Key, PathTo, SettingKind, Size, Whole, settings
 from plcsim.settings.kinds import of_kind
 
 DEFAULT_CYCLES_MS: Final = {1: 10, 2: 20, 3: 50, 4: 100, 5: 200, 6: 500, 7: 1000, 8: 10}
@@ -39,7 +39,7 @@ class ProgramEntry(NamedTuple):
     source: str
 
 
-class ProgramKind(Kind):
+class ProgramKind(SettingKind):
     """A program: its name, which is its folder's, or ``{name = ..., source = ...}``."""
 
     def convert(self, value: object, _folder: Path) -> ProgramEntry:
@@ -73,7 +73,7 @@ def _cycle_ns(text: str) -> int:
     return cycle_ns
 
 
-class Date(Kind):
+class Date(SettingKind):
     """A date and time such as ``2026-03-31T06:00:00``, in nanoseconds since 1970."""
 
     def convert(self, value: object, _folder: Path) -> int:

@@ -14,7 +14,7 @@ from plcsim.recorder.journal.journal import Journal
 from plcsim.recorder.journal.network import RecordedNetwork
 from plcsim.recorder.journal.tape import Tape
 from plcsim.recorder.settings import RecordProject, read_settings
-from plcsim.shared_image.events import Kind
+from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -143,7 +143,7 @@ class _Sender:
     def send(self, record: Record) -> None:
         """Send a record; one that nobody reads in time is lost, and counted."""
         if self._stream is not None:
-            self._stream.write(Kind.RECORD.value, record.time_ns, record.to_bytes())
+            self._stream.write(EventKind.RECORD.value, record.time_ns, record.to_bytes())
 
 
 class _InScan:

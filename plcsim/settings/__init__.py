@@ -25,16 +25,16 @@ settings, ``tuple[X, ...]`` (a list), ``Mapping[str, X]`` (a table with free key
 """
 
 from plcsim.settings.declaration import is_settings, settings
-from plcsim.settings.kinds import Converted, Duration, Key, Kind, OneOf, PathTo, Size, Whole
+from plcsim.settings.kinds import Converted, Duration, Key, OneOf, PathTo, SettingKind, Size, Whole
 from plcsim.settings.table import Table
 
 __all__ = [
     "Converted",
     "Duration",
     "Key",
-    "Kind",
     "OneOf",
     "PathTo",
+    "SettingKind",
     "Size",
     "Table",
     "Whole",

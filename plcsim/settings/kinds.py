@@ -32,7 +32,7 @@ class Key:
     name: str
 
 
-class Kind(ABC):
+class SettingKind(ABC):
     """Base of all kinds; a package may have its own."""
 
     @abstractmethod
@@ -49,7 +49,7 @@ class Kind(ABC):
 
 
 @dataclass(frozen=True)
-class Whole(Kind):
+class Whole(SettingKind):
     """A whole number within bounds, both included."""
 
     minimum: int
@@ -86,7 +86,7 @@ def of_kind(kind: type[T], value: object, example: str = "") -> T:
 
 
 @dataclass(frozen=True)
-class Duration(Kind):
+class Duration(SettingKind):
     """A time such as ``"10ms"``, in nanoseconds; the attribute ``x_ns`` has the key ``x``."""
 
     minimum_ns: int = 0
@@ -106,7 +106,7 @@ class Duration(Kind):
 
 
 @dataclass(frozen=True)
-class Size(Kind):
+class Size(SettingKind):
     """A number of bytes such as ``"16MiB"``, within bounds and a multiple of a unit."""
 
     minimum: int
@@ -127,7 +127,7 @@ class Size(Kind):
         return size
 
 
-class OneOf(Kind):
+class OneOf(SettingKind):
     """One of some values, which are compared with their types: True is not 1.
 
     Args:
@@ -146,7 +146,7 @@ class OneOf(Kind):
 
 
 @dataclass(frozen=True)
-class Converted(Kind):
+class Converted(SettingKind):
     """A string that ``function`` converts; it raises ValueError for one that it cannot."""
 
     function: Callable[[str], object]
@@ -159,7 +159,7 @@ class Converted(Kind):
 
 
 @dataclass(frozen=True)
-class PathTo(Kind):
+class PathTo(SettingKind):
     """A path; a relative one begins at the folder of the file that holds the table.
 
     Attributes:

@@ -21,7 +21,7 @@ from typing import (
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.settings.declaration import beside, declared
-from plcsim.settings.kinds import Kind, OneOf, of_kind
+from plcsim.settings.kinds import OneOf, SettingKind, of_kind
 
 T = TypeVar("T")
 
@@ -125,7 +125,7 @@ class Table:
         """Return what a value of the file is in an object whose attribute has this type."""
         try:
             for kind in beside(hint):
-                if isinstance(kind, Kind):
+                if isinstance(kind, SettingKind):
                     return kind.convert(value, self._file.parent)
             return self._of_type(key, hint, value)
         except ValueError as err:

@@ -18,7 +18,7 @@ _ENTRY = struct.Struct("<BxH")
 _VIOLATION = struct.Struct("<BBHqqqqqqq")
 
 
-class Kind(Enum):
+class EventKind(Enum):
     """Kinds of records in streams."""
 
     ENTRY = 1
@@ -95,5 +95,5 @@ class LogbookReader:
         """Return the entries that are new, the oldest first."""
         entries: list[Entry] = []
         while records := self._events.read():
-            entries += (entry_of(r) for r in records if r.kind == Kind.ENTRY.value)
+            entries += (entry_of(r) for r in records if r.kind == EventKind.ENTRY.value)
         return entries

@@ -10,7 +10,7 @@ import struct
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import PageFault
-from plcsim.shared_image.events import Kind
+from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.core.memory import Memory
@@ -23,7 +23,7 @@ MOST: Final = 64
 """Of one service at a time."""
 
 _HEAD = struct.Struct("<IIq")
-_KIND: Final = Kind.SAMPLE.value
+_KIND: Final = EventKind.SAMPLE.value
 
 
 class Sample(NamedTuple):
@@ -43,7 +43,7 @@ class Sample(NamedTuple):
 
 
 def sample_of(data: bytes) -> Sample:
-    """Return the sample in a record of the kind `Kind.SAMPLE`."""
+    """Return the sample in a record of the kind `EventKind.SAMPLE`."""
     number, task_class, cycle = _HEAD.unpack_from(data)
     return Sample(number, task_class, cycle, data[_HEAD.size :])
 

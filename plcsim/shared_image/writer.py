@@ -15,7 +15,7 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.core.owners import bit_of
 from plcsim.shared_image import layout
 from plcsim.shared_image.directory import Directory, hash_of
-from plcsim.shared_image.events import Kind, encode_entry, encode_violation
+from plcsim.shared_image.events import EventKind, encode_entry, encode_violation
 from plcsim.shared_image.force_list import encode_forces, write_forces
 from plcsim.shared_image.hands import Hands
 from plcsim.shared_image.inbox import Inbox
@@ -194,11 +194,11 @@ class ImageWriter:
         self._publish(-1, 0)
 
     def _entered(self, entry: Entry) -> None:
-        self._events.write(Kind.ENTRY.value, entry.time_ns, encode_entry(entry))
+        self._events.write(EventKind.ENTRY.value, entry.time_ns, encode_entry(entry))
 
     def _violated(self, violation: Violation) -> None:
         time_ns = self._controller.clock.stamp_ns() - self._controller.origin_ns
-        self._events.write(Kind.VIOLATION.value, time_ns, encode_violation(violation))
+        self._events.write(EventKind.VIOLATION.value, time_ns, encode_violation(violation))
 
     def _show_forces(self) -> None:
         self._written = -1

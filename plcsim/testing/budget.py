@@ -53,7 +53,7 @@ class Breach(NamedTuple):
     limit_ns: int
 
 
-class Measurement:
+class CycleMeasurement:
     """Costs of all runs of one test.
 
     Attributes:
@@ -125,7 +125,7 @@ def quantile_of(ordered: Sequence[int], quantile: float) -> int:
     return ordered[max(0, ceil(quantile * len(ordered)) - 1)]
 
 
-def breaches(budget: Budget, measured: Measurement, reference_ns: int) -> list[Breach]:
+def breaches(budget: Budget, measured: CycleMeasurement, reference_ns: int) -> list[Breach]:
     """Return the limits that do not hold.
 
     Raises:
@@ -144,7 +144,7 @@ def breaches(budget: Budget, measured: Measurement, reference_ns: int) -> list[B
     return found
 
 
-def _programs(budget: Budget, measured: Measurement) -> list[str]:
+def _programs(budget: Budget, measured: CycleMeasurement) -> list[str]:
     names = [p for p in measured.costs_ns if budget.program.upper() in ("", p.upper())]
     if not names:
         known = ", ".join(measured.costs_ns)
@@ -159,7 +159,9 @@ def check_count(name: str, program: str, count: int, who: str = "cycle_budget") 
         raise PlcTestError(f"{who}: {name} needs {needed} cycles at least; {program} ran {count}")
 
 
-def describe_breaches(found: Sequence[Breach], measured: Measurement, reference_ns: int) -> str:
+def describe_breaches(
+    found: Sequence[Breach], measured: CycleMeasurement, reference_ns: int
+) -> str:
     """Return why a test is over its budget, in words."""
     factor = slowness(measured.calibration_ns, reference_ns)
     lines = [

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __tracebackhide__ = True
 
 
-class Forces:
+class TagForces:
     """The forced tags of the controller under test, by path."""
 
     def __init__(self, tags: Tags, forces: core.Forces) -> None:

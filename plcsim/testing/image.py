@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from plcsim.project.assembly import Image
+from plcsim.project.assembly import ImageFile
 from plcsim.project.extension import services_of
 from plcsim.shared_image import ImageReader
 from plcsim.shared_image.layout import make_file
@@ -32,9 +32,9 @@ class SharedImage:
         self._fd = make_file() if self._services else -1
 
     @property
-    def of_controller(self) -> Image | None:
+    def of_controller(self) -> ImageFile | None:
         """The image for the controller to lay out, None where nobody reads it."""
-        return Image(self._fd) if self._services else None
+        return ImageFile(self._fd) if self._services else None
 
     def reader(self, table: str) -> ImageReader:
         """Return the image as the service of a table has it.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from plcsim.core.task import TaskClass
 
 
-class Verdict(Enum):
+class RealtimeVerdict(Enum):
     """What a test on the wall clock says."""
 
     PASSED = "passed"
@@ -21,7 +21,7 @@ class Verdict(Enum):
     HOST = "host could not hold the tick"
 
 
-def judge(controller: Controller, *, failed: bool) -> Verdict:
+def judge(controller: Controller, *, failed: bool) -> RealtimeVerdict:
     """Return the verdict.
 
     A program that used more than cycle time plus tolerance fails whatever the host did, as CPU time
@@ -35,15 +35,15 @@ def judge(controller: Controller, *, failed: bool) -> Verdict:
     classes = controller.classes
     own = (Cause.PROGRAM, Cause.PREEMPTED)
     if any(c.violations[cause] for c in classes for cause in own):
-        return Verdict.FAILED
+        return RealtimeVerdict.FAILED
     foreign = (Cause.HOST, Cause.CONTROLLER)
     if any(c.violations[cause] for c in classes for cause in foreign):
-        return Verdict.HOST
+        return RealtimeVerdict.HOST
     if _missed_by_host(controller):
-        return Verdict.HOST
+        return RealtimeVerdict.HOST
     if isinstance(controller.fault, Violation) and controller.fault.cause in foreign:
-        return Verdict.HOST
-    return Verdict.FAILED if failed else Verdict.PASSED
+        return RealtimeVerdict.HOST
+    return RealtimeVerdict.FAILED if failed else RealtimeVerdict.PASSED
 
 
 def _missed_by_host(controller: Controller) -> bool:

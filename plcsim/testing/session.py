@@ -17,7 +17,7 @@ from plcsim.core.errors import PlcError
 from plcsim.host.realtime import sharpen_timers
 from plcsim.testing.budget import (
     MOST_RUNS,
-    Measurement,
+    CycleMeasurement,
     breaches,
     budget_of,
     describe_breaches,
@@ -28,7 +28,7 @@ from plcsim.testing.errors import ExpectationFailed, PlcTestError
 from plcsim.testing.html_report import ReportWriter
 from plcsim.testing.instructions import exceeded
 from plcsim.testing.plc import Plc
-from plcsim.testing.realtime import Verdict, figures, judge
+from plcsim.testing.realtime import RealtimeVerdict, figures, judge
 from plcsim.testing.result import EXPLANATION, properties_of, result_of
 from plcsim.testing.target import find_project, program_target, project_target
 from st_types.errors import TypeSystemError
@@ -43,7 +43,7 @@ __tracebackhide__ = True
 
 PLC: pytest.StashKey[Plc] = pytest.StashKey()
 CALIBRATION: pytest.StashKey[Calibration] = pytest.StashKey()
-MEASUREMENT: pytest.StashKey[Measurement] = pytest.StashKey()
+MEASUREMENT: pytest.StashKey[CycleMeasurement] = pytest.StashKey()
 
 AROUND = 20
 """Runs of the calibration loop before a test, so that a short one has some too."""
@@ -174,7 +174,7 @@ def _calibrate(item: pytest.Item, plc: Plc) -> None:
 def run_with_budget(item: pytest.Item, nextitem: pytest.Item | None) -> bool:
     """Run a test until its budget holds, at most `MOST_RUNS` times, and report it once."""
     item.ihook.pytest_runtest_logstart(nodeid=item.nodeid, location=item.location)
-    measured = item.stash[MEASUREMENT] = Measurement()
+    measured = item.stash[MEASUREMENT] = CycleMeasurement()
     verdict = ""
     properties = list(item.user_properties)
     for _ in range(MOST_RUNS):
@@ -215,7 +215,7 @@ def _judge_instructions(item: pytest.Item) -> str:
     return "\n".join(found)
 
 
-def _judge_budget(item: pytest.Item, measured: Measurement) -> str:
+def _judge_budget(item: pytest.Item, measured: CycleMeasurement) -> str:
     """Return why the budget does not hold, "" where it does."""
     plc, calibration = item.stash.get(PLC, None), item.stash.get(CALIBRATION, None)
     if plc is None or calibration is None:
@@ -346,7 +346,7 @@ def _trace_folder(config: pytest.Config) -> Path | None:
 def _apply_verdict(item: pytest.Item, report: pytest.TestReport, plc: Plc) -> None:
     verdict = judge(plc.controller, failed=report.failed)
     report.plc_verdict = verdict.value  # type: ignore[attr-defined]  # for result_of
-    if verdict is Verdict.HOST:
+    if verdict is RealtimeVerdict.HOST:
         text = f"host could not hold the tick: {figures(plc.controller)}"
         if item.config.getoption("--require-realtime"):
             report.outcome, report.longrepr = "failed", text
@@ -354,6 +354,6 @@ def _apply_verdict(item: pytest.Item, report: pytest.TestReport, plc: Plc) -> No
             path, line, _ = item.location
             report.outcome = "skipped"
             report.longrepr = (path, (line or 0) + 1, f"Skipped: {text}")
-    elif verdict is Verdict.FAILED and report.passed:
+    elif verdict is RealtimeVerdict.FAILED and report.passed:
         report.outcome = "failed"
         report.longrepr = f"failed by the program: {figures(plc.controller)}"

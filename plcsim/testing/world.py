@@ -11,7 +11,7 @@ from plcsim.network import Address, VirtualNetwork
 from plcsim.program.fault import describe, location_of
 from plcsim.testing.errors import PlantError, PlcTestError
 from plcsim.testing.faults import Faults
-from plcsim.testing.forces import Forces
+from plcsim.testing.forces import TagForces
 from plcsim.testing.peer import Peer
 from plcsim.testing.plant import Plant
 from plcsim.testing.schedule import Schedule
@@ -51,7 +51,7 @@ class World(ABC):
         self.ip = CONTROLLER_IP
         self.faults = Faults(self, seed)
         self._net = network
-        self._forces = Forces(tags, forces)
+        self._forces = TagForces(tags, forces)
         self._plants: list[Plant] = []
         self._peers: list[Peer] = []
         self._by_time, self._by_cycle = Schedule(), Schedule()

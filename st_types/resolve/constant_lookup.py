@@ -14,7 +14,7 @@ from st_types.types.elementary import ElementaryType
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from st_types.resolve.index import Entry, NameSpace
+    from st_types.resolve.index import IndexEntry, NameSpace
     from st_types.resolve.scope import Scope
 
 MAX_LEVEL: Final = 150
@@ -36,13 +36,13 @@ class ConstantLookup:
 
     def __init__(self, scope: Scope) -> None:
         self.scope = scope
-        self.entry: Entry | None = None
+        self.entry: IndexEntry | None = None
         self.level = 0
 
     def check_spelling(self, declared: str, name: str, at: int) -> None:
         """Look at a name that stands at the token ``at`` and is declared as ``declared``."""
 
-    def find(self, space: NameSpace, name: str, at: int) -> Entry | None:
+    def find(self, space: NameSpace, name: str, at: int) -> IndexEntry | None:
         """Return what ``name`` at the token ``at`` stands for, None if there is nothing."""
         hit = self.scope.lookup(space, name)
         if hit is None:
@@ -50,7 +50,7 @@ class ConstantLookup:
         self.check_spelling(hit.name, name, at)
         return hit.entry
 
-    def resolved(self, entry: Entry) -> Entry:
+    def resolved(self, entry: IndexEntry) -> IndexEntry:
         """Resolve ``entry`` if that is not done yet, and return it.
 
         An entry that is being resolved comes back as it is, ``state`` OPEN.
@@ -61,7 +61,7 @@ class ConstantLookup:
             self._resolve(entry)
         return entry
 
-    def _resolve(self, entry: Entry) -> None:
+    def _resolve(self, entry: IndexEntry) -> None:
         if entry.state == NEW:
             entry.state = OPEN
             entry.user = self.entry
@@ -87,7 +87,7 @@ class ConstantLookup:
             if waiting:
                 self._resolve(last)
 
-    def check_open(self, entry: Entry) -> None:
+    def check_open(self, entry: IndexEntry) -> None:
         """Refuse to go deeper than `MAX_LEVEL`.
 
         Raises:
@@ -114,7 +114,7 @@ class ConstantLookup:
         self.resolved(entry)
         return constant_of(entry)
 
-    def _enumeration_value(self, entry: Entry, name: str, at: int | None) -> Constant | None:
+    def _enumeration_value(self, entry: IndexEntry, name: str, at: int | None) -> Constant | None:
         if entry.state == OPEN:
             return None
         self.check_open(entry)

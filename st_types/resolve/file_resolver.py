@@ -8,7 +8,7 @@ from st_types.errors import DeclarationError
 from st_types.resolve.constant_lookup import MAX_LEVEL
 from st_types.resolve.constant_resolver import ConstantResolver
 from st_types.resolve.constants import UnknownValueError
-from st_types.resolve.index import DONE, NEW, OPEN, Entry, PouEntry, TypeEntry, VariableEntry
+from st_types.resolve.index import DONE, NEW, OPEN, IndexEntry, PouEntry, TypeEntry, VariableEntry
 from st_types.syntax.printer import print_specification
 from st_types.syntax.tree import (
     ArraySpecification,
@@ -80,7 +80,7 @@ class FileResolver(ConstantResolver):
     """
 
     def __init__(
-        self, scope: Scope, file: DeclarationFile, known: dict[str, Entry | None] | None = None
+        self, scope: Scope, file: DeclarationFile, known: dict[str, IndexEntry | None] | None = None
     ) -> None:
         super().__init__(scope, file)
         self._known = {} if known is None else known
@@ -88,7 +88,7 @@ class FileResolver(ConstantResolver):
         self._depth = 0
         self._references: list[ReferenceType] = []
 
-    def resolve(self, entry: Entry, level: int) -> None:
+    def resolve(self, entry: IndexEntry, level: int) -> None:
         """Give ``entry`` its data type, and its value if it is a variable; ``level`` are open."""
         outer = self.entry, self.level, self._depth
         self.entry, self.level, self._depth = entry, level, 0
@@ -163,7 +163,7 @@ class FileResolver(ConstantResolver):
         self._depth = max(self._depth, entry.depth)
         return entry.data_type
 
-    def _find_type(self, node: NamedType) -> Entry | None:
+    def _find_type(self, node: NamedType) -> IndexEntry | None:
         entry = self.find("types", node.name, node.at)
         key = node.name.upper()
         if entry is None and key in UNSUPPORTED_TYPES and not self.scope.dialect.case_sensitive:
@@ -173,7 +173,7 @@ class FileResolver(ConstantResolver):
             self.missing(node.at, f"no type is called {node.name}", hint)
         return entry
 
-    def _may_resolve(self, node: NamedType, entry: Entry) -> bool:
+    def _may_resolve(self, node: NamedType, entry: IndexEntry) -> bool:
         """Resolve the type of another declaration; False after an error."""
         if entry.state == OPEN:
             hint = "a REFERENCE TO it is possible"
@@ -188,7 +188,7 @@ class FileResolver(ConstantResolver):
         self.resolved(entry)
         return True
 
-    def _path_from(self, entry: Entry) -> list[str]:
+    def _path_from(self, entry: IndexEntry) -> list[str]:
         """Return the names of the types from ``entry``, which is OPEN, back to itself."""
         path = [entry.name]
         user = self.entry

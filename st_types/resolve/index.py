@@ -33,7 +33,7 @@ OPEN: Final = 1
 DONE: Final = 2
 
 
-class Entry:
+class IndexEntry:
     """One declaration and what became of it.
 
     Attributes:
@@ -47,7 +47,7 @@ class Entry:
 
     # Most entries are resolved once and asked for by nobody: what is not set stands here.
     state = NEW
-    user: Entry | None = None
+    user: IndexEntry | None = None
     data_type: DataType[object] | None = None
     depth = 0
 
@@ -62,13 +62,13 @@ class Entry:
         return name
 
 
-class TypeEntry(Entry):
+class TypeEntry(IndexEntry):
     """A type of a TYPE block; an enumeration is the entry of each of its values, too."""
 
     node: Declaration
 
 
-class PouEntry(Entry):
+class PouEntry(IndexEntry):
     """A function, whose ``data_type`` is its result, or a function block with its data block.
 
     Attributes:
@@ -81,7 +81,7 @@ class PouEntry(Entry):
     made: Function | FunctionBlock | None = None
 
 
-class VariableEntry(Entry):
+class VariableEntry(IndexEntry):
     """A variable or a constant.
 
     Attributes:
@@ -104,7 +104,7 @@ class VariableEntry(Entry):
         self.is_constant = is_constant
 
 
-class Index:
+class ScopeIndex:
     """All declarations of the files of a scope.
 
     Attributes:
@@ -117,7 +117,7 @@ class Index:
         self.types: list[TypeEntry | PouEntry] = []
         self.functions: list[PouEntry] = []
         self.variables: list[VariableEntry] = []
-        self._names: dict[NameSpace, dict[str, Entry]] = {}
+        self._names: dict[NameSpace, dict[str, IndexEntry]] = {}
         self._spellings: dict[NameSpace, Spellings] = {}
         for resolver in resolvers:
             self._add_file(resolver)
@@ -141,7 +141,7 @@ class Index:
             for node in block.declarations
         ]
 
-    def names(self, space: NameSpace) -> dict[str, Entry]:
+    def names(self, space: NameSpace) -> dict[str, IndexEntry]:
         """Return the entries of a name space by name; of equal names the first."""
         found = self._names.get(space)
         if found is None:
@@ -155,8 +155,8 @@ class Index:
             found = self._spellings[space] = Spellings(self.names(space))
         return found
 
-    def _named(self, space: NameSpace) -> dict[str, Entry]:
-        found: dict[str, Entry] = {}
+    def _named(self, space: NameSpace) -> dict[str, IndexEntry]:
+        found: dict[str, IndexEntry] = {}
         if space == "constants":
             self._add_constants(found)
             return found
@@ -164,7 +164,7 @@ class Index:
             found.setdefault(entry.node.name, entry)
         return found
 
-    def _add_constants(self, found: dict[str, Entry]) -> None:
+    def _add_constants(self, found: dict[str, IndexEntry]) -> None:
         for entry in self.variables:
             if entry.is_constant:
                 found.setdefault(entry.node.name, entry)
@@ -181,14 +181,14 @@ class Index:
         It is one in one file, except for constants that say the same, and a warning in two files.
         """
         has_errors = False
-        lists: tuple[Sequence[Entry], ...] = (self.types, self.functions, self.variables)
+        lists: tuple[Sequence[IndexEntry], ...] = (self.types, self.functions, self.variables)
         for entries in lists:
             names = [entry.node.name for entry in entries]
             if not dialect.case_sensitive:
                 names = [name.upper() for name in names]
             if len(set(names)) == len(names):
                 continue
-            first_of_name: dict[str, Entry] = {}
+            first_of_name: dict[str, IndexEntry] = {}
             for name, entry in zip(names, entries, strict=True):
                 first = first_of_name.setdefault(name, entry)
                 if first is not entry:
@@ -196,7 +196,7 @@ class Index:
         return has_errors
 
 
-def _report_duplicate(first: Entry, entry: Entry) -> bool:
+def _report_duplicate(first: IndexEntry, entry: IndexEntry) -> bool:
     file, other = entry.resolver.file, first.resolver.file
     message = f"{entry.node.name} is declared twice; first at {other.location(first.node)}"
     is_error = file is other and not _say_the_same(first, entry)
@@ -204,7 +204,7 @@ def _report_duplicate(first: Entry, entry: Entry) -> bool:
     return is_error
 
 
-def _say_the_same(one: Entry, other: Entry) -> bool:
+def _say_the_same(one: IndexEntry, other: IndexEntry) -> bool:
     entries = (one, other)
     are_constants = all(isinstance(e, VariableEntry) and e.is_constant for e in entries)
     return are_constants and one.node == other.node

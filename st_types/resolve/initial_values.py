@@ -38,7 +38,7 @@ MAX_ELEMENTS = 4_000_000
 """Most elements of ARRAYs that the initial values of one file may give."""
 
 
-class Context(Protocol):
+class InitialContext(Protocol):
     """What a value needs to know of the file it stands in.
 
     Attributes:
@@ -68,7 +68,7 @@ class Context(Protocol):
         """Record a warning at ``node``."""
 
 
-def initial_value(context: Context, node: Initial, declared: DataType[object]) -> object:
+def initial_value(context: InitialContext, node: Initial, declared: DataType[object]) -> object:
     """Return the value of ``node`` for a variable of type ``declared``.
 
     None means the initial value of the type: also after an error, which is recorded.
@@ -85,7 +85,7 @@ def initial_value(context: Context, node: Initial, declared: DataType[object]) -
 
 
 def _composite(
-    context: Context,
+    context: InitialContext,
     node: ArrayInitial | RepeatedInitial | StructInitial,
     data_type: DataType[object],
     declared: DataType[object],
@@ -102,7 +102,7 @@ def _composite(
 
 
 def _array(
-    context: Context, node: ArrayInitial | RepeatedInitial, data_type: ArrayType[object]
+    context: InitialContext, node: ArrayInitial | RepeatedInitial, data_type: ArrayType[object]
 ) -> list[object]:
     items = [node] if isinstance(node, RepeatedInitial) else node.items
     values: list[object] = []
@@ -116,7 +116,7 @@ def _array(
 
 
 def _extend(
-    context: Context,
+    context: InitialContext,
     values: list[object],
     items: Sequence[Initial],
     element: DataType[object],
@@ -142,7 +142,7 @@ def _extend(
 
 
 def _repeat(
-    context: Context,
+    context: InitialContext,
     values: list[object],
     node: RepeatedInitial,
     element: DataType[object],
@@ -161,7 +161,7 @@ def _repeat(
 
 
 def _struct(
-    context: Context, node: StructInitial, data_type: StructType[object]
+    context: InitialContext, node: StructInitial, data_type: StructType[object]
 ) -> dict[str, object]:
     values: dict[str, object] = {}
     for given in node.members:
@@ -178,7 +178,10 @@ def _struct(
 
 
 def _scalar(
-    context: Context, node: Expression, data_type: DataType[object], declared: DataType[object]
+    context: InitialContext,
+    node: Expression,
+    data_type: DataType[object],
+    declared: DataType[object],
 ) -> object:
     enumeration = data_type if isinstance(data_type, EnumerationType) else None
     constant = context.evaluate(node, enumeration)
@@ -216,7 +219,7 @@ def _shown(value: object) -> str:
 
 
 def _string(
-    context: Context, node: Expression, value: str, data_type: StringType | WStringType
+    context: InitialContext, node: Expression, value: str, data_type: StringType | WStringType
 ) -> str:
     if isinstance(data_type, StringType) and not value.isascii():
         try:
@@ -231,7 +234,7 @@ def _string(
 
 
 def _real(
-    context: Context, node: Expression, value: float, data_type: ElementaryType[float]
+    context: InitialContext, node: Expression, value: float, data_type: ElementaryType[float]
 ) -> float | None:
     try:
         struct.pack("<" + data_type.code, value)
@@ -242,7 +245,7 @@ def _real(
 
 
 def _integer(
-    context: Context, node: Expression, value: int, data_type: ElementaryType[int]
+    context: InitialContext, node: Expression, value: int, data_type: ElementaryType[int]
 ) -> int | None:
     if data_type.minimum <= value <= data_type.maximum:
         return value

@@ -23,7 +23,7 @@ from st_types.resolve.constants import evaluate
 from st_types.resolve.declared import DeclaredType, Function, FunctionBlock, Variable
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.resolve.file_resolver import FileResolver
-from st_types.resolve.index import DONE, Entry, Index, PouEntry, TypeEntry, VariableEntry
+from st_types.resolve.index import DONE, IndexEntry, PouEntry, ScopeIndex, TypeEntry, VariableEntry
 from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Hit(NamedTuple):
     """A declaration that was found, and how its name is spelled there."""
 
     name: str
-    entry: Entry
+    entry: IndexEntry
 
 
 class Scope:
@@ -75,7 +75,7 @@ class Scope:
         self.outer = outer
         self.dialect = dialect
         self.strict = strict
-        self._index: Index | None = None
+        self._index: ScopeIndex | None = None
 
     @cached_property
     def resolvers(self) -> tuple[FileResolver, ...]:
@@ -83,10 +83,10 @@ class Scope:
         return tuple(FileResolver(self, file) for file in self.files)
 
     @property
-    def index(self) -> Index:
+    def index(self) -> ScopeIndex:
         """The declarations of this very scope by name."""
         if self._index is None:
-            self._index = Index(self.resolvers)
+            self._index = ScopeIndex(self.resolvers)
         return self._index
 
     @cached_property
@@ -105,7 +105,7 @@ class Scope:
     def _names(self) -> ConstantLookup:
         return ConstantLookup(self)
 
-    def inner(self, name: str, file: DeclarationFile, known: dict[str, Entry | None]) -> Scope:
+    def inner(self, name: str, file: DeclarationFile, known: dict[str, IndexEntry | None]) -> Scope:
         """Return the scope of a function (block), ``file`` being its VAR blocks only.
 
         Args:
@@ -133,7 +133,7 @@ class Scope:
         near = {hit.name: hit for hit in reversed(list(self._near(space, name)))}
         return near.popitem()[1] if len(near) == 1 else None
 
-    def exact(self, space: NameSpace, name: str) -> Entry | None:
+    def exact(self, space: NameSpace, name: str) -> IndexEntry | None:
         """Return the declaration that is spelled exactly like this, None if there is none."""
         entry = self.index.names(space).get(name)
         if entry is not None or not self.outer:
@@ -152,7 +152,7 @@ class Scope:
         return len(self.outer) == 1 and self not in self.outer[0].chain
 
     @cached_property
-    def _around(self) -> dict[NameSpace, dict[str, Entry | None]]:
+    def _around(self) -> dict[NameSpace, dict[str, IndexEntry | None]]:
         """What names mean that were looked up in several scopes around this one."""
         return {}
 
@@ -294,7 +294,7 @@ class Scope:
             resolver.resolve_references()
 
 
-def _resolved(entry: Entry) -> Entry:
+def _resolved(entry: IndexEntry) -> IndexEntry:
     return entry.resolver.resolved(entry)
 
 

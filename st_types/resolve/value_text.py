@@ -86,7 +86,7 @@ def _require_members(node: Initial, data_type: DataType[object]) -> None:
 
 
 class _Value:
-    """`st_types.resolve.initial_values.Context` of one value; whatever is wrong is an error."""
+    """An `InitialContext` of one value; whatever is wrong is an error."""
 
     def __init__(self, text: str) -> None:
         self.level = 0

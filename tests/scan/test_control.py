@@ -10,7 +10,16 @@ from plcsim.core.control import Action
 from plcsim.process.run_file import find_run
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
-from plcsim.shared_image import Command, Control, Force, ImageReader, Outcome, Release, Store, Write
+from plcsim.shared_image import (
+    Command,
+    Control,
+    Force,
+    ImageReader,
+    Outcome,
+    Release,
+    Store,
+    Write,
+)
 from plcsim.shared_image.guest import guest
 
 PROGRAM = """

@@ -20,7 +20,7 @@ _IGNITION = {
 
 
 @dataclass(frozen=True)
-class Entry:
+class ExportEntry:
     """A tag as it is exported."""
 
     row: Row
@@ -86,16 +86,16 @@ class Export:
     project: str
     host: str
     port: int
-    entries: Sequence[Entry]
+    entries: Sequence[ExportEntry]
 
-    def of(self, area: Area) -> list[Entry]:
+    def of(self, area: Area) -> list[ExportEntry]:
         """Return the tags of an area in the order of their addresses."""
         found = [e for e in self.entries if e.area is area]
         return sorted(found, key=lambda e: (e.point.offset, e.point.bit))
 
-    def blocks(self, area: Area, longest: int = 120) -> list[list[Entry]]:
+    def blocks(self, area: Area, longest: int = 120) -> list[list[ExportEntry]]:
         """Return the tags of an area in groups that one request can read."""
-        blocks: list[list[Entry]] = []
+        blocks: list[list[ExportEntry]] = []
         for entry in self.of(area):
             end = entry.point.offset + entry.point.registers
             if blocks and end - blocks[-1][0].point.offset <= longest:
@@ -105,7 +105,7 @@ class Export:
         return blocks
 
 
-def extent(block: Sequence[Entry]) -> tuple[int, int]:
+def extent(block: Sequence[ExportEntry]) -> tuple[int, int]:
     """Return the first address of a block and how many follow from it."""
     first = block[0].point.offset
     return first, max(e.point.offset + e.point.registers for e in block) - first

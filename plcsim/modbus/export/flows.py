@@ -12,7 +12,7 @@ from plcsim.modbus.map.point import Area
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.modbus.export.entry import Entry, Export
+    from plcsim.modbus.export.entry import Export, ExportEntry
 
 _NODE_RED_TYPES = {
     Area.COILS: "Coil",
@@ -85,7 +85,7 @@ const bytes = (first, count, order) => {
 """
 
 
-def _names_function(block: Sequence[Entry], first: int) -> str:
+def _names_function(block: Sequence[ExportEntry], first: int) -> str:
     """Return JavaScript that turns the values of a block into an object of named values."""
     lines = [_HELPER, "msg.payload = {"]
     for entry in block:
@@ -93,7 +93,7 @@ def _names_function(block: Sequence[Entry], first: int) -> str:
     return "\n".join([*lines, "};", "return msg;"])
 
 
-def _expression(entry: Entry, first: int) -> str:
+def _expression(entry: ExportEntry, first: int) -> str:
     point = entry.point
     at = point.offset - first
     if not entry.area.has_registers:
@@ -151,7 +151,7 @@ def fuxa(export: Export) -> str:
     return json.dumps({device: value}, indent=2) + "\n"
 
 
-def _fuxa_type(entry: Entry) -> str:
+def _fuxa_type(entry: ExportEntry) -> str:
     point = entry.point
     if point.bit >= 0 or point.kind not in _FUXA_TYPES or point.order not in ("ABCD", "CDAB"):
         return ""
@@ -161,7 +161,7 @@ def _fuxa_type(entry: Entry) -> str:
     return _FUXA_TYPES[point.kind] + ("MLE" if swapped else "")
 
 
-def _fuxa_tag(device: str, entry: Entry) -> dict[str, Any]:
+def _fuxa_tag(device: str, entry: ExportEntry) -> dict[str, Any]:
     point = entry.point
     tag: dict[str, Any] = {
         "id": f"t_{_id(device, entry.unique_name)}",

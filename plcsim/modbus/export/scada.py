@@ -14,7 +14,7 @@ from plcsim.modbus.export.entry import extent
 from plcsim.modbus.map.point import Area
 
 if TYPE_CHECKING:
-    from plcsim.modbus.export.entry import Entry, Export
+    from plcsim.modbus.export.entry import Export, ExportEntry
 
 _MODPOLL_AREAS = {
     Area.COILS: "coil",
@@ -63,7 +63,7 @@ def _modpoll_bits(area: Area, first: int, count: int) -> list[list[Any]]:
     ]
 
 
-def _modpoll_ref(entry: Entry) -> list[Any]:
+def _modpoll_ref(entry: ExportEntry) -> list[Any]:
     point = entry.point
     kind = f"string{2 * point.registers}" if point.kind == "s" else entry.type
     if point.kind == "?":
@@ -105,7 +105,7 @@ def telegraf(export: Export) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _telegraf_field(entry: Entry) -> str:
+def _telegraf_field(entry: ExportEntry) -> str:
     point = entry.point
     parts = [f"address = {point.offset}", f"name = {json.dumps(entry.unique_name)}"]
     if entry.area.has_registers:

@@ -8,10 +8,10 @@ import json
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from plcsim.modbus.export.entry import Entry, Export
+    from plcsim.modbus.export.entry import Export, ExportEntry
 
 
-def _fields(entry: Entry) -> dict[str, Any]:
+def _fields(entry: ExportEntry) -> dict[str, Any]:
     row, point = entry.row, entry.point
     return {
         "tag": row.tag,

@@ -23,7 +23,7 @@ PLANS_KEPT = 256
 _DIGITS = bytes([0x30]) + bytes([0x31]) * 255
 
 
-class Snapshots(Protocol):
+class MappedSnapshots(Protocol):
     """Where snapshots come from (`plcsim.shared_image.ImageReader`)."""
 
     @property
@@ -121,7 +121,7 @@ class Reads:
         area: Area,
         address: int,
         count: int,
-        snapshots: Snapshots,
+        snapshots: MappedSnapshots,
         status: Callable[[], status_block.ControllerStatus],
     ) -> bytes:
         """Return registers as on the wire, or bits packed, the first in the lowest bit.

@@ -12,7 +12,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.modbus.service.handler import Handler, Waiting
 from plcsim.modbus.service.pdu import LONGEST_PDU, WRITE_FUNCTIONS, encode_exception
 from plcsim.shared_image import Outcome
@@ -31,7 +31,7 @@ FULL_BUFFER: Final = 4096
 
 
 @dataclass(frozen=True)
-class Limits:
+class ModbusLimits:
     """Settings of all connections."""
 
     unit_ids: frozenset[int] = frozenset()
@@ -53,7 +53,7 @@ class _Write(NamedTuple):
     until_ns: int
 
 
-class Connection:
+class ModbusConnection:
     """One connection.
 
     Args:
@@ -68,7 +68,7 @@ class Connection:
         requests: how many came.
     """
 
-    def __init__(self, handler: Handler, device: Device, limits: Limits, now_ns: int) -> None:
+    def __init__(self, handler: Handler, device: Device, limits: ModbusLimits, now_ns: int) -> None:
         self.fault = ""
         self.last_request_ns = now_ns
         self.requests = 0
@@ -145,7 +145,9 @@ class Connection:
     def _start(self, frame: _Frame, now_ns: int) -> bytes:
         result: bytes | Waiting
         if self._limits.unit_ids and frame.unit not in self._limits.unit_ids:
-            result = self._handler.refuse(frame.pdu, frame.unit, Code.GATEWAY_TARGET_FAILED)
+            result = self._handler.refuse(
+                frame.pdu, frame.unit, ExceptionCode.GATEWAY_TARGET_FAILED
+            )
         else:
             result = self._handler.handle(frame.pdu, frame.unit)
         if isinstance(result, Waiting):
@@ -173,14 +175,14 @@ class Connection:
     def _answer(self, one: _Write) -> bytes:
         """Return the answer of a write; one that was not taken in time may still be applied."""
         outcome = Outcome.APPLIED if one.write is None else one.write.outcome
-        code = Code.SERVER_DEVICE_FAILURE
+        code = ExceptionCode.SERVER_DEVICE_FAILURE
         if outcome is Outcome.APPLIED:
             try:
                 return one.answer()
             except ModbusException as err:
                 code = err.code
         elif outcome is Outcome.WAITING and self._device.is_alive:
-            code = Code.SERVER_DEVICE_BUSY
+            code = ExceptionCode.SERVER_DEVICE_BUSY
         return encode_exception(one.frame.pdu[0], code)
 
 

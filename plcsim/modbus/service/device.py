@@ -12,7 +12,7 @@ from plcsim.modbus.map.errors import IllegalAddress, IllegalValue
 from plcsim.modbus.map.reading import Reads
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.shared_image import (
     CommandRefused,
     ImageError,
@@ -86,7 +86,7 @@ class _NoAudit:
         pass
 
 
-class Image(Protocol):
+class DeviceImage(Protocol):
     """The shared image (`plcsim.shared_image.ImageReader`)."""
 
     directory: Directory
@@ -158,7 +158,7 @@ class Device:
         is_alive: the scan has published lately; kept up to date by `tick`.
     """
 
-    image: Image
+    image: DeviceImage
     points: Sequence[Point]
     strict_holes: bool = False
     identity: Identity = field(default_factory=Identity)
@@ -184,22 +184,22 @@ class Device:
             ModbusException: with the code for what is wrong.
         """
         if not self.is_alive and self.status().state != State.SERVICE.value:
-            raise ModbusException(Code.SERVER_DEVICE_FAILURE, STANDS_STILL)
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_FAILURE, STANDS_STILL)
         try:
             return self.reads.read(area, address, count, self.image, self.status)
         except IllegalAddress as err:
-            raise ModbusException(Code.ILLEGAL_DATA_ADDRESS, str(err)) from None
+            raise ModbusException(ExceptionCode.ILLEGAL_DATA_ADDRESS, str(err)) from None
         except ImageNotReady as err:
-            raise ModbusException(Code.SERVER_DEVICE_BUSY, str(err)) from None
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_BUSY, str(err)) from None
         except ImageError as err:
-            raise ModbusException(Code.SERVER_DEVICE_FAILURE, str(err)) from None
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_FAILURE, str(err)) from None
 
     def check_read(self, area: Area, address: int, count: int) -> None:
         """Raise ModbusException unless the range can be read."""
         try:
             self.reads.check(area, address, count)
         except IllegalAddress as err:
-            raise ModbusException(Code.ILLEGAL_DATA_ADDRESS, str(err)) from None
+            raise ModbusException(ExceptionCode.ILLEGAL_DATA_ADDRESS, str(err)) from None
 
     def write(self, make: Callable[[Writes], MapWrite], origin: Origin) -> PendingWrite:
         """Queue a write, whole.
@@ -212,18 +212,18 @@ class Device:
             ModbusException: with the code for what is wrong; nothing is written.
         """
         if not self.is_alive:
-            raise ModbusException(Code.SERVER_DEVICE_FAILURE, STANDS_STILL)
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_FAILURE, STANDS_STILL)
         try:
             write = make(self.writes)
             ticket = self.image.send(Write(write.operations))
         except IllegalAddress as err:
-            raise ModbusException(Code.ILLEGAL_DATA_ADDRESS, str(err)) from None
+            raise ModbusException(ExceptionCode.ILLEGAL_DATA_ADDRESS, str(err)) from None
         except IllegalValue as err:
-            raise ModbusException(Code.ILLEGAL_DATA_VALUE, str(err)) from None
+            raise ModbusException(ExceptionCode.ILLEGAL_DATA_VALUE, str(err)) from None
         except CommandRefused as err:
-            raise ModbusException(Code.SERVER_DEVICE_BUSY, str(err)) from None
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_BUSY, str(err)) from None
         except ImageError as err:
-            raise ModbusException(Code.SERVER_DEVICE_FAILURE, str(err)) from None
+            raise ModbusException(ExceptionCode.SERVER_DEVICE_FAILURE, str(err)) from None
         pending = PendingWrite(ticket, origin, write)
         self._pending.append(pending)
         return pending

@@ -13,7 +13,7 @@ from enum import IntEnum
 from plcsim.core.errors import PlcError
 
 
-class Code(IntEnum):
+class ExceptionCode(IntEnum):
     """Exception codes (MODBUS Application Protocol V1.1b3, chapter 7)."""
 
     ILLEGAL_FUNCTION = 1
@@ -31,6 +31,6 @@ class ModbusException(PlcError):  # noqa: N818  # the term of the specification
         code: goes into the exception response.
     """
 
-    def __init__(self, code: Code, text: str = "") -> None:
+    def __init__(self, code: ExceptionCode, text: str = "") -> None:
         super().__init__(text or code.name)
         self.code = code

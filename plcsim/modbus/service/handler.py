@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from plcsim.modbus.map.point import Area
 from plcsim.modbus.service import pdu as codec
 from plcsim.modbus.service.device import Origin
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,7 @@ class Waiting:
 
 
 @dataclass(frozen=True)
-class Rights:
+class AccessRights:
     """What a peer may do; a function it may not use is answered as one that is not there."""
 
     may_read: bool = True
@@ -50,7 +50,9 @@ class Handler:
         role: likewise.
     """
 
-    def __init__(self, device: Device, rights: Rights, peer: str = "", role: str = "") -> None:
+    def __init__(
+        self, device: Device, rights: AccessRights, peer: str = "", role: str = ""
+    ) -> None:
         self._device = device
         self._rights = rights
         self._peer = peer
@@ -59,13 +61,13 @@ class Handler:
     def handle(self, pdu: bytes, unit: int) -> bytes | Waiting:
         """Return the answer to a request, an exception response where it is refused."""
         if not self._rights.allow(pdu[0]):
-            return self.refuse(pdu, unit, Code.ILLEGAL_FUNCTION)
+            return self.refuse(pdu, unit, ExceptionCode.ILLEGAL_FUNCTION)
         try:
             return self._execute(codec.decode_request(pdu), pdu, unit)
         except ModbusException as err:
             return self.refuse(pdu, unit, err.code)
 
-    def refuse(self, pdu: bytes, unit: int, code: Code) -> bytes:
+    def refuse(self, pdu: bytes, unit: int, code: ExceptionCode) -> bytes:
         """Return an exception response; a write that is refused is noted."""
         if pdu[0] in codec.WRITE_FUNCTIONS:
             self._device.audit.refused(self._origin(pdu[0], unit), pdu, code)

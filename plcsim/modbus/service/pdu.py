@@ -20,7 +20,7 @@ from pymodbus.pdu import (
 )
 
 from plcsim.modbus.map.point import Area
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -125,16 +125,16 @@ def decode_request(pdu: bytes) -> Request:
     """
     decode = _DECODERS.get(pdu[0])
     if decode is None:
-        raise ModbusException(Code.ILLEGAL_FUNCTION)
+        raise ModbusException(ExceptionCode.ILLEGAL_FUNCTION)
     try:
         return decode(pdu[0], pdu[1:])
     except (ValueError, struct.error):  # pymodbus: a quantity, or too few bytes
-        raise ModbusException(Code.ILLEGAL_DATA_VALUE) from None
+        raise ModbusException(ExceptionCode.ILLEGAL_DATA_VALUE) from None
 
 
 def _require(condition: bool) -> None:
     if not condition:
-        raise ModbusException(Code.ILLEGAL_DATA_VALUE)
+        raise ModbusException(ExceptionCode.ILLEGAL_DATA_VALUE)
 
 
 _READ_REQUESTS: Final = {
@@ -203,7 +203,7 @@ def _read_write(function: int, data: bytes) -> Request:
 def _diagnostics(function: int, data: bytes) -> Request:
     _require(len(data) >= 2)
     if data[:2] != b"\0\0":
-        raise ModbusException(Code.ILLEGAL_FUNCTION)
+        raise ModbusException(ExceptionCode.ILLEGAL_FUNCTION)
     return ReturnQueryData(function)
 
 
@@ -215,7 +215,7 @@ def _report_server_id(function: int, data: bytes) -> Request:
 def _identify(function: int, data: bytes) -> Request:
     _require(len(data) >= 1)
     if data[0] != _MEI_IDENTIFICATION:
-        raise ModbusException(Code.ILLEGAL_FUNCTION)
+        raise ModbusException(ExceptionCode.ILLEGAL_FUNCTION)
     _require(len(data) == 3 and 1 <= data[1] <= 4)
     request = mei_message.ReadDeviceInformationRequest()
     request.decode(data)
@@ -236,7 +236,7 @@ _DECODERS: Final[Mapping[int, Callable[[int, bytes], Request]]] = {
 }
 
 
-def encode_exception(function: int, code: Code) -> bytes:
+def encode_exception(function: int, code: ExceptionCode) -> bytes:
     """Return an exception response; its function code is the request's with the high bit set."""
     response = ExceptionResponse(function & 0x7F, code)
     return bytes([response.function_code]) + response.encode()
@@ -290,7 +290,7 @@ def encode_identification(request: Identify, objects: Mapping[int, bytes]) -> by
     """
     if request.read_code == 4:
         if request.object_id not in objects:
-            raise ModbusException(Code.ILLEGAL_DATA_ADDRESS)
+            raise ModbusException(ExceptionCode.ILLEGAL_DATA_ADDRESS)
         chosen = {request.object_id: objects[request.object_id]}
     else:
         last = 2 if request.read_code == 1 else 0xFF

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, Final, cast
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.ports import remedy
-from plcsim.modbus.service.connection import Connection, Limits
-from plcsim.modbus.service.handler import Handler, Rights
+from plcsim.modbus.service.connection import ModbusConnection, ModbusLimits
+from plcsim.modbus.service.handler import AccessRights, Handler
 from plcsim.modbus.service.listener import Listener, place
 from plcsim.modbus.service.tls import rights_of, role_of
 
@@ -60,7 +60,7 @@ class Server:
         self.now_ns = now_ns
         # a slow project needs longer: a write waits for its next LATCH
         timeout_ns = max(settings.write_timeout_ns, 3 * device.image.directory.cycle_ns)
-        self.limits = Limits(frozenset(settings.unit_ids), timeout_ns)
+        self.limits = ModbusLimits(frozenset(settings.unit_ids), timeout_ns)
         self.peers: set[_Peer] = set()
         self._networks = [ipaddress.ip_network(network) for network in settings.allow]
         self._listener: Listener | None = None
@@ -143,7 +143,7 @@ class Server:
     def _admit(self, host: str, port: int) -> _Peer | None:
         return _Peer(self, place(host, port)) if self.admits(host) else None
 
-    def rights_of(self, role: str) -> Rights:
+    def rights_of(self, role: str) -> AccessRights:
         """Return what a peer may do."""
         roles = self.settings.tls.roles if self.settings.tls else {}
         rights = rights_of(role, roles)
@@ -164,7 +164,7 @@ class Server:
 class _Peer(asyncio.Protocol):
     """One connection and its socket."""
 
-    connection: Connection
+    connection: ModbusConnection
     _transport: asyncio.Transport
 
     def __init__(self, server: Server, name: str) -> None:
@@ -182,7 +182,7 @@ class _Peer(asyncio.Protocol):
         server = self._server
         role = _role(transport) if server.settings.tls and server.settings.tls.roles else ""
         handler = Handler(server.device, server.rights_of(role), self.name, role)
-        self.connection = Connection(handler, server.device, server.limits, server.now_ns())
+        self.connection = ModbusConnection(handler, server.device, server.limits, server.now_ns())
         server.peers.add(self)
 
     def connection_lost(self, _exc: Exception | None) -> None:

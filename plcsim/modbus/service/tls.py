@@ -10,7 +10,7 @@ import ssl
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.modbus.service.handler import Rights
+from plcsim.modbus.service.handler import AccessRights
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 ROLE_OID: Final = "1.3.6.1.4.1.50316.802.1"
 _UTF8_STRING: Final = 0x0C
 
-RIGHTS: Final[Mapping[str, Rights]] = {
-    "rw": Rights(),
-    "ro": Rights(may_write=False),
-    "none": Rights(may_read=False, may_write=False),
+RIGHTS: Final[Mapping[str, AccessRights]] = {
+    "rw": AccessRights(),
+    "ro": AccessRights(may_write=False),
+    "none": AccessRights(may_read=False, may_write=False),
 }
 
 
@@ -100,7 +100,7 @@ def _utf8(der: bytes) -> str:
     return der[2:].decode("utf-8", "replace")
 
 
-def rights_of(role: str, roles: Mapping[str, str]) -> Rights:
+def rights_of(role: str, roles: Mapping[str, str]) -> AccessRights:
     """Return what a role may do: everything where no roles are configured, nothing if unknown."""
     if not roles:
         return RIGHTS["rw"]

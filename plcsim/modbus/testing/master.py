@@ -15,10 +15,10 @@ from plcsim.core.system import State
 from plcsim.modbus.map.load import load_map
 from plcsim.modbus.map.point import Area
 from plcsim.modbus.map.status_block import ControllerStatus
-from plcsim.modbus.service.connection import Connection, Limits
+from plcsim.modbus.service.connection import ModbusConnection, ModbusLimits
 from plcsim.modbus.service.device import Device, Identity
-from plcsim.modbus.service.errors import Code, ModbusException
-from plcsim.modbus.service.handler import Handler, Rights
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
+from plcsim.modbus.service.handler import AccessRights, Handler
 from plcsim.modbus.testing.registers import from_registers, to_registers
 from plcsim.testing.errors import PlcTestError
 
@@ -70,9 +70,9 @@ class Modbus:
         timeout_ns = max(settings.write_timeout_ns, 3 * image.directory.cycle_ns)
         self._plc = plc
         self._image = image
-        self._limits = Limits(frozenset(settings.unit_ids), timeout_ns)
+        self._limits = ModbusLimits(frozenset(settings.unit_ids), timeout_ns)
         self._unit = min(settings.unit_ids, default=1)
-        self._rights = Rights(may_write=not settings.read_only)
+        self._rights = AccessRights(may_write=not settings.read_only)
         self._device = Device(
             image, points, settings.strict_holes, Identity(project=plc.name), self._status
         )
@@ -165,7 +165,7 @@ class Modbus:
         device.is_alive = plc.controller.state is State.RUN
         # a connection of its own: an answer that never came cannot be taken for another one
         handler = Handler(device, self._rights)
-        connection = Connection(handler, device, self._limits, plc.clock.now_ns())
+        connection = ModbusConnection(handler, device, self._limits, plc.clock.now_ns())
         unit = self._unit if unit is None else unit
         connection.receive(HEADER.pack(1, 0, len(pdu) + 1, unit) + pdu)
         answer = bytearray()
@@ -202,7 +202,7 @@ class Modbus:
         answer = self.request(pdu)
         if not answer[0] & EXCEPTION:
             return answer
-        code = Code(answer[1])
+        code = ExceptionCode(answer[1])
         what = what or f"function {pdu[0]} at {int.from_bytes(pdu[1:3])}"
         why = "" if self._image.latest else " (no cycle has run yet)"
         raise ModbusException(code, f"{what}: {code.name}{why}")

@@ -19,7 +19,7 @@ from plcsim.program.python.blocks import give_views
 from plcsim.program.python.check import check_program
 from plcsim.program.python.modules import add_package, load_module, own_names
 from plcsim.program.python.program import Program
-from plcsim.program.python.shared import Constant, GlobalVariable
+from plcsim.program.python.shared import ConstantAttribute, GlobalVariable
 from plcsim.program.variables import Variables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.types.derived import StructType, resolve_alias
@@ -159,7 +159,7 @@ class _Loader:
                 at = f"{variable.file.location(variable.node)}: error: "
                 findings.add(ConfigurationError(f"{at}{_taken(program, variable.name)}"))
         findings.check()
-        constants = {m.name: Constant(*m[:3]) for m in self._declared.constants.members}
+        constants = {m.name: ConstantAttribute(*m[:3]) for m in self._declared.constants.members}
         if not self._declared.variables.members:
             return constants
         if program._plc_type.members:
@@ -179,7 +179,7 @@ class _Loader:
         names: dict[str, Any] = {
             m.name: GlobalVariable(m.name, m.data_type) for m in shared.variables.members
         }
-        names |= {m.name: Constant(*m[:3]) for m in shared.constants.members}
+        names |= {m.name: ConstantAttribute(*m[:3]) for m in shared.constants.members}
         return {name: value for name, value in names.items() if name not in local}
 
     def _check_external(self, program: type[Program]) -> None:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.function_block import FunctionBlock
 from plcsim.core.suggestion import did_you_mean
-from plcsim.program.python.shared import Constant
+from plcsim.program.python.shared import ConstantAttribute
 from plcsim.program.python.value_check import ValueCheck
 from st_types.types.derived import DataBlockType, Section, StructType
 from st_types.types.views import view_class
@@ -107,7 +107,7 @@ class _Method:
 
 def _not_assigned(name: str, value: object) -> Iterator[str]:
     """Tell why an attribute of a class takes no value."""
-    if isinstance(value, Constant):
+    if isinstance(value, ConstantAttribute):
         yield f"{name} is CONSTANT"
         return
     if hasattr(type(value), "__set__"):

@@ -57,7 +57,7 @@ def var_external(data_type: Any) -> Any:
     return GlobalVariable("", type_of(data_type))
 
 
-class Constant:
+class ConstantAttribute:
     """A CONSTANT as an attribute of a program.
 
     A STRUCT or an ARRAY is a copy each time, so that nothing can change the constant.

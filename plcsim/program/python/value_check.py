@@ -10,7 +10,7 @@ import ast
 import builtins
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim.program.python.shared import Constant, GlobalVariable
+from plcsim.program.python.shared import ConstantAttribute, GlobalVariable
 from st_types.types.derived import (
     ArrayType,
     EnumerationType,
@@ -127,7 +127,7 @@ class ValueCheck:
     def _own(self, name: str) -> DataType[Any] | None:
         """Return the type of ``self.name``."""
         found = vars(self._view).get(name) or getattr(self._view, name, None)
-        if isinstance(found, GlobalVariable | Constant) and found.data_type is not None:
+        if isinstance(found, GlobalVariable | ConstantAttribute) and found.data_type is not None:
             return resolve_alias(found.data_type)
         return _member(self._view._plc_type, name)
 

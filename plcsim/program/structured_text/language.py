@@ -37,6 +37,8 @@ class StructuredText:
 
     def declarations(self, files: Sequence[Path]) -> Sequence[DeclarationFile]:
         """Parse the files; return what they declare in VAR and TYPE blocks of their own."""
+        if not files:
+            return ()
         from plcsim.program.structured_text.sources import read_files  # noqa: PLC0415  # as in `load`
 
         return [file.declarations() for file in read_files(files)]

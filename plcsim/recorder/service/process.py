@@ -16,7 +16,7 @@ from plcsim.recorder.bag.head import head_from
 from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import record_of
-from plcsim.shared_image.events import Kind
+from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.process.service_main import Service
@@ -88,7 +88,7 @@ class Recorder:
         return len(records)
 
     def _write(self, streamed: Streamed) -> None:
-        if streamed.kind != Kind.RECORD.value or self._is_closed:
+        if streamed.kind != EventKind.RECORD.value or self._is_closed:
             return
         record = record_of(streamed.data)
         self._writing.record(streamed.number, record)

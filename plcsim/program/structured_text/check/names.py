@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.findings import Findings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Storage, Value
-    from st_types.resolve.index import Entry, NameSpace
+    from st_types.resolve.index import IndexEntry, NameSpace
     from st_types.resolve.scope import Scope
     from st_types.syntax.expressions import Name
 
@@ -186,7 +186,7 @@ class Names:
         symbol = self.symbols.of(hit.entry)
         return None if symbol is None else named(symbol)
 
-    def _enumeration_value(self, name: str, entry: Entry) -> Value:
+    def _enumeration_value(self, name: str, entry: IndexEntry) -> Value:
         value = entry.resolver.scope.constant(name)
         data_type = entry.data_type
         assert value is not None

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.cli.declaration_scopes import (
-    Declarations,
+    FoundDeclarations,
     NamedScope,
     library_scopes,
     read_declarations,
@@ -30,7 +30,7 @@ def write(tmp_path: Path) -> Write:
     return call
 
 
-def checked(found: Declarations) -> list[str]:
+def checked(found: FoundDeclarations) -> list[str]:
     """Check all scopes and return what is told."""
     for each in found.scopes:
         each.scope.check()
@@ -39,7 +39,7 @@ def checked(found: Declarations) -> list[str]:
     return lines
 
 
-def named(found: Declarations, *path: str) -> NamedScope:
+def named(found: FoundDeclarations, *path: str) -> NamedScope:
     return next(each for each in found.scopes if each.path == path)
 
 

@@ -11,9 +11,9 @@ from plcsim.core.system import State
 from plcsim.modbus.map.changes import Change
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
-from plcsim.modbus.service.connection import Connection, Limits
+from plcsim.modbus.service.connection import ModbusConnection, ModbusLimits
 from plcsim.modbus.service.device import Audit, Device, Origin
-from plcsim.modbus.service.handler import Handler, Rights
+from plcsim.modbus.service.handler import AccessRights, Handler
 from plcsim.network import VirtualNetwork
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
@@ -77,7 +77,7 @@ class World:
         self,
         *,
         strict_holes: bool = False,
-        limits: Limits | None = None,
+        limits: ModbusLimits | None = None,
         audit: Audit | None = None,
     ) -> None:
         self.clock = VirtualClock()
@@ -86,7 +86,7 @@ class World:
         self.plc = make_controller(setup, network=network, clock=self.clock)
         more = "".join(f"p.words[{i}],hr,{i + 100},,,,,\n" for i in range(4, 150))
         points = resolve(read_rows(MAP + more, FILE), self.plc.tags.find, FILE, "ABCD")
-        self._limits = limits or Limits()
+        self._limits = limits or ModbusLimits()
         fd = make_file()
         ImageWriter(fd, self.plc, project="virtual", services={"modbus": None})
         self.device = Device(ImageReader(fd, "modbus"), points, strict_holes, audit=audit or Log())
@@ -99,11 +99,11 @@ class World:
         self.plc.run(cycles=1)
         self.device.collect()
 
-    def connect(self, rights: Rights | None = None) -> Connection:
-        handler = Handler(self.device, rights or Rights())
-        return Connection(handler, self.device, self._limits, self.clock.now_ns())
+    def connect(self, rights: AccessRights | None = None) -> ModbusConnection:
+        handler = Handler(self.device, rights or AccessRights())
+        return ModbusConnection(handler, self.device, self._limits, self.clock.now_ns())
 
-    def exchange(self, connection: Connection, data: bytes) -> bytes:
+    def exchange(self, connection: ModbusConnection, data: bytes) -> bytes:
         """Hand requests over and return the answers; the scan runs while writes wait for it."""
         connection.receive(data)
         answers = [connection.step(self.clock.now_ns())]
@@ -114,7 +114,9 @@ class World:
             answers.append(connection.step(self.clock.now_ns()))
         return b"".join(answers)
 
-    def ask(self, pdu: str | bytes, connection: Connection | None = None, unit: int = 1) -> str:
+    def ask(
+        self, pdu: str | bytes, connection: ModbusConnection | None = None, unit: int = 1
+    ) -> str:
         """Return the PDU of the answer as hexadecimal."""
         data = bytes.fromhex(pdu) if isinstance(pdu, str) else pdu
         answer = self.exchange(connection or self.connect(), frame(data, 7, unit))

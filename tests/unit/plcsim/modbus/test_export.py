@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 from plcsim.modbus.export import FORMATS
-from plcsim.modbus.export.entry import Entry, Export, extent
+from plcsim.modbus.export.entry import Export, ExportEntry, extent
 from plcsim.modbus.map import Row
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.point import Area
@@ -30,7 +30,7 @@ p.vast,hr,200,,,,,ro,,,,
 """
 ROWS: list[Row] = read_rows(TEXT, FILE)
 POINTS = resolve(ROWS, PLC.tags.find, FILE, "ABCD")
-EXPORT = Export("cell", "127.0.0.1", 1502, list(map(Entry, ROWS, POINTS)))
+EXPORT = Export("cell", "127.0.0.1", 1502, list(map(ExportEntry, ROWS, POINTS)))
 
 
 @pytest.mark.parametrize("name", FORMATS)

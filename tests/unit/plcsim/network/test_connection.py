@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from plcsim.network import Limits, Link, Option, Outcome
+from plcsim.network import Link, Option, Outcome, WireLimits
 
 from .world import CLIENT, MS, SECOND, SERVER, World
 
@@ -63,7 +63,7 @@ def test_a_closed_socket_sends_its_rest() -> None:
 
 
 def test_a_rest_that_nobody_takes_is_dropped_in_time() -> None:
-    world = World(limits=Limits(receive_buffer=4))
+    world = World(limits=WireLimits(receive_buffer=4))
     client, server = world.pair()
     client.send(b"too much")
     client.close()
@@ -108,7 +108,7 @@ def test_both_ends_closed_free_everything() -> None:
 
 
 def test_reading_the_last_bytes_frees_the_sender() -> None:
-    world = World(limits=Limits(receive_buffer=4))
+    world = World(limits=WireLimits(receive_buffer=4))
     client, server = world.pair()
     client.send(b"too much")
     client.close()

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from plcsim.network import Address, Limits, Outcome
+from plcsim.network import Address, Outcome, WireLimits
 from plcsim.network.virtual_host import FIRST_FREE_PORT, LAST_PORT
 
 from .world import SERVER, World
@@ -23,7 +23,7 @@ def test_free_ports_skip_what_is_taken_and_begin_again() -> None:
 
 
 def test_a_host_has_only_so_many_sockets() -> None:
-    world = World(limits=Limits(sockets=2))
+    world = World(limits=WireLimits(sockets=2))
     one = world.server.open("", 0).socket
     world.server.open("", 0)
     assert world.server.open("", 0).outcome is Outcome.NO_RESOURCES
@@ -32,7 +32,7 @@ def test_a_host_has_only_so_many_sockets() -> None:
 
 
 def test_queued_connections_count_as_sockets() -> None:
-    world = World(limits=Limits(sockets=2))
+    world = World(limits=WireLimits(sockets=2))
     world.listen()
     first, target = world.dial()
     second, _ = world.dial()

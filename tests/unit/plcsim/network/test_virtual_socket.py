@@ -3,16 +3,16 @@ from __future__ import annotations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plcsim.network import Address, Limits, Link, Option, Outcome
-from plcsim.network.virtual_socket import TRANSITIONS, Act, State
+from plcsim.network import Address, Link, Option, Outcome, WireLimits
+from plcsim.network.virtual_socket import TRANSITIONS, Act, SocketState
 
 from .world import SERVER, World
 
 
 def test_every_state_has_its_row_and_ends_closed() -> None:
-    assert set(TRANSITIONS) == set(State)
+    assert set(TRANSITIONS) == set(SocketState)
     for state, row in TRANSITIONS.items():
-        assert (row.get(Act.CLOSE) is State.CLOSED) is (state is not State.CLOSED)
+        assert (row.get(Act.CLOSE) is SocketState.CLOSED) is (state is not SocketState.CLOSED)
 
 
 def test_the_backlog_grows_by_a_second_listen() -> None:
@@ -45,7 +45,7 @@ def test_any_split_of_the_bytes_arrives_in_order(
     link = Link(
         latency_ns=500, jitter_ns=jitter_ns, smallest_packet=smallest, largest_packet=smallest + 20
     )
-    world = World(seed=seed, link=link, limits=Limits(send_buffer=300, receive_buffer=200))
+    world = World(seed=seed, link=link, limits=WireLimits(send_buffer=300, receive_buffer=200))
     client, server = world.pair()
     sent, got, turn = 0, b"", 0
     while len(got) < len(data):
@@ -84,7 +84,7 @@ CALLS = {
     )
 )
 def test_no_order_of_calls_raises_or_leaks(calls: list[tuple[str, int, int]]) -> None:
-    world = World(limits=Limits(sockets=8))
+    world = World(limits=WireLimits(sockets=8))
     sockets = []
     for call, which, number in calls:
         if call == "open":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from plcsim.network import Address, Limits, Link, Outcome, Socket, VirtualNetwork
+from plcsim.network import Address, Link, Outcome, Socket, VirtualNetwork, WireLimits
 
 SERVER = "192.168.0.10"
 CLIENT = "192.168.0.20"
@@ -12,7 +12,7 @@ SECOND = 1_000_000_000
 
 class World:
     def __init__(
-        self, *, seed: int = 0, link: Link | None = None, limits: Limits | None = None
+        self, *, seed: int = 0, link: Link | None = None, limits: WireLimits | None = None
     ) -> None:
         self.now_ns = 0
         self.net = VirtualNetwork(

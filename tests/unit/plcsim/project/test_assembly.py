@@ -10,7 +10,7 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
 from plcsim.network import network_of
 from plcsim.project import assembly, extension
-from plcsim.project.assembly import VIRTUAL_IP, Image, assemble, load, still_controller
+from plcsim.project.assembly import VIRTUAL_IP, ImageFile, assemble, load, still_controller
 from plcsim.project.extension import Attachment, Extension
 from plcsim.project.plc_toml import read_project
 from plcsim.shared_image import ImageReader
@@ -131,7 +131,7 @@ def test_an_extension_is_attached_alike_in_a_run_and_in_one_process(web, in_proc
     loaded = web.in_process(VIRTUAL_IP) if in_process else web
     fd = make_file()
     try:
-        controller = assemble(loaded, network=None, clock=VirtualClock(), image=Image(fd))
+        controller = assemble(loaded, network=None, clock=VirtualClock(), image=ImageFile(fd))
         directory = ImageReader(fd, "web").directory
     finally:
         os.close(fd)

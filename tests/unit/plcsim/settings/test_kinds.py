@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.settings.kinds import Converted, Duration, Kind, OneOf, PathTo, Size, Whole
+from plcsim.settings.kinds import Converted, Duration, OneOf, PathTo, SettingKind, Size, Whole
 
 FOLDER = Path()
 
@@ -24,7 +24,7 @@ FOLDER = Path()
         (PathTo(), "a/b", Path("a/b")),
     ],
 )
-def test_what_is_right_is_converted(kind: Kind, value: object, result: object) -> None:
+def test_what_is_right_is_converted(kind: SettingKind, value: object, result: object) -> None:
     assert kind.convert(value, FOLDER) == result
 
 
@@ -47,7 +47,7 @@ def test_what_is_right_is_converted(kind: Kind, value: object, result: object) -
         (PathTo("file"), "nowhere", "there is no such file, 'nowhere'"),
     ],
 )
-def test_what_is_wrong_is_told(kind: Kind, value: object, text: str) -> None:
+def test_what_is_wrong_is_told(kind: SettingKind, value: object, text: str) -> None:
     with pytest.raises(ValueError) as raised:  # noqa: PT011  # the whole text is compared
         kind.convert(value, FOLDER)
     assert str(raised.value) == text

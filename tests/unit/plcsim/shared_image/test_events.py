@@ -11,7 +11,7 @@ from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, TaskClassSetup
 from plcsim.shared_image import ImageReader
 from plcsim.shared_image.events import (
-    Kind,
+    EventKind,
     encode_entry,
     encode_violation,
     entry_of,
@@ -27,7 +27,7 @@ texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=40)
 
 @given(st.builds(Entry, times, st.sampled_from(Severity), texts, texts))
 def test_an_entry_survives_its_record(entry: Entry) -> None:
-    assert entry_of(Record(Kind.ENTRY.value, 0, entry.time_ns, encode_entry(entry))) == entry
+    assert entry_of(Record(EventKind.ENTRY.value, 0, entry.time_ns, encode_entry(entry))) == entry
 
 
 @given(
@@ -37,7 +37,7 @@ def test_an_entry_survives_its_record(entry: Entry) -> None:
     )
 )  # fmt: skip
 def test_a_violation_survives_its_record(violation: Violation) -> None:
-    record = Record(Kind.VIOLATION.value, 0, 1, encode_violation(violation))
+    record = Record(EventKind.VIOLATION.value, 0, 1, encode_violation(violation))
     assert violation_of(record) == violation
 
 
@@ -64,12 +64,12 @@ def test_everything_since_the_boot_can_be_read_and_what_is_new(late: World) -> N
     late.controller.shutdown()
     everything = ImageReader(late.fd).events(from_oldest=True).read()
     assert everything[-3:] == live.read()
-    entries = [entry_of(r) for r in everything if r.kind == Kind.ENTRY.value]
+    entries = [entry_of(r) for r in everything if r.kind == EventKind.ENTRY.value]
     assert entries == list(late.controller.logbook)
-    violations = [violation_of(r) for r in everything if r.kind == Kind.VIOLATION.value]
+    violations = [violation_of(r) for r in everything if r.kind == EventKind.VIOLATION.value]
     assert violations == late.controller.violations
     assert [r.kind for r in everything[-3:]] == [
-        Kind.VIOLATION.value, Kind.ENTRY.value, Kind.ENTRY.value,
+        EventKind.VIOLATION.value, EventKind.ENTRY.value, EventKind.ENTRY.value,
     ]  # fmt: skip
     assert live.lost == 0
 

@@ -5,8 +5,15 @@ import pytest
 from plcsim import Program
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, TaskClassSetup
-from plcsim.shared_image import Cancel, ImageError, ImageReader, Outcome, Sample, samples
-from plcsim.shared_image.events import Kind
+from plcsim.shared_image import (
+    Cancel,
+    ImageError,
+    ImageReader,
+    Outcome,
+    Sample,
+    samples,
+)
+from plcsim.shared_image.events import EventKind
 from plcsim.shared_image.samples import sample_of
 from plcsim.shared_image.stream import StreamReader
 from st_types import UINT, var
@@ -28,7 +35,7 @@ def ask(world: World, number: int, *paths: str, task_class: int = 0, period_ns: 
 
 def taken(reader: StreamReader) -> list[samples.Sample]:
     records = reader.read()
-    assert {record.kind for record in records} <= {Kind.SAMPLE.value}
+    assert {record.kind for record in records} <= {EventKind.SAMPLE.value}
     return [sample_of(record.data) for record in records]
 
 

@@ -9,7 +9,14 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
-from plcsim.shared_image import CommandRefused, Mask, Outcome, Store, Write, layout
+from plcsim.shared_image import (
+    CommandRefused,
+    Mask,
+    Outcome,
+    Store,
+    Write,
+    layout,
+)
 from plcsim.shared_image.command import HEAD, encode_command
 from plcsim.shared_image.inbox import STEPS_PER_COMMAND
 from plcsim.shared_image.writer import COMMANDS_PER_LATCH

@@ -6,7 +6,7 @@ from plcsim.testing import PlcTestError
 from plcsim.testing.budget import (
     Breach,
     Budget,
-    Measurement,
+    CycleMeasurement,
     breaches,
     budget_of,
     describe_breaches,
@@ -19,7 +19,7 @@ REFERENCE_NS = 10_000
 
 
 def measured(*runs, calibration_ns=REFERENCE_NS):
-    measurement = Measurement()
+    measurement = CycleMeasurement()
     for run in runs:
         measurement.add({"cell": run}, [calibration_ns] * 10)
     return measurement
@@ -80,7 +80,7 @@ def test_a_slow_machine_neither_fails_a_good_program_nor_a_fast_one_passes_a_bad
 
 
 def test_disturbed_runs_of_the_loop_do_not_make_the_machine_slow():
-    measurement = Measurement()
+    measurement = CycleMeasurement()
     measurement.add({"cell": [3_000] * 20}, [REFERENCE_NS] * 10 + [9 * REFERENCE_NS] * 30)
     assert breaches(Budget({"p50": 2_000}), measurement, REFERENCE_NS) != []
 

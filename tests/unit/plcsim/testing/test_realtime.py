@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.core.task import Cause, Policy
-from plcsim.testing.realtime import Verdict, figures, judge
+from plcsim.testing.realtime import RealtimeVerdict, figures, judge
 
 pytest_plugins = ["pytester"]
 
@@ -16,11 +16,11 @@ def controller(new_plc):
 
 
 def test_all_well(controller):
-    assert judge(controller, failed=False) is Verdict.PASSED
+    assert judge(controller, failed=False) is RealtimeVerdict.PASSED
 
 
 def test_a_failed_assertion_is_the_programs_fault_where_the_host_held(controller):
-    assert judge(controller, failed=True) is Verdict.FAILED
+    assert judge(controller, failed=True) is RealtimeVerdict.FAILED
 
 
 @pytest.mark.parametrize("cause", [Cause.PROGRAM, Cause.PREEMPTED])
@@ -28,21 +28,21 @@ def test_a_failed_assertion_is_the_programs_fault_where_the_host_held(controller
 def test_a_violation_by_programs_is_their_fault_whatever_else(controller, cause, failed):
     controller.classes[0].violations[cause] = 1
     controller.classes[0].violations[Cause.HOST] = 1
-    assert judge(controller, failed=failed) is Verdict.FAILED
+    assert judge(controller, failed=failed) is RealtimeVerdict.FAILED
 
 
 @pytest.mark.parametrize("failed", [True, False])
 def test_a_violation_by_the_host_takes_the_meaning_from_both(controller, failed):
     controller.classes[0].violations[Cause.HOST] = 1
-    assert judge(controller, failed=failed) is Verdict.HOST
+    assert judge(controller, failed=failed) is RealtimeVerdict.HOST
 
 
 def test_missed_grid_points_are_the_hosts_where_the_programs_fit_into_a_cycle(controller):
     controller.classes[0].missed = 1
     controller.classes[0].execution.record(9 * MS)
-    assert judge(controller, failed=False) is Verdict.HOST
+    assert judge(controller, failed=False) is RealtimeVerdict.HOST
     controller.classes[0].execution.record(11 * MS)
-    assert judge(controller, failed=False) is Verdict.PASSED
+    assert judge(controller, failed=False) is RealtimeVerdict.PASSED
 
 
 def test_the_figures_say_what_the_host_did(controller):

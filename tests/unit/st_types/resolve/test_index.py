@@ -1,5 +1,5 @@
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
-from st_types.resolve.index import Index
+from st_types.resolve.index import ScopeIndex
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
 
@@ -8,7 +8,7 @@ def scope_of(**texts: str) -> Scope:
     return Scope("test", [parse_text(text, path) for path, text in texts.items()])
 
 
-def index_of(**texts: str) -> Index:
+def index_of(**texts: str) -> ScopeIndex:
     return scope_of(**texts).index
 
 

@@ -20,7 +20,7 @@ from plcsim.library.astcp import (
 )
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.settings import AsTcpSettings
-from plcsim.network import Limits, Link, VirtualNetwork
+from plcsim.network import Link, VirtualNetwork, WireLimits
 from plcsim.settings import Table
 
 if TYPE_CHECKING:
@@ -108,7 +108,7 @@ class World:
     """A server's and a client's controller."""
 
     def __init__(
-        self, *, limits: Limits | None = None, link: Link | None = None, **options: object
+        self, *, limits: WireLimits | None = None, link: Link | None = None, **options: object
     ) -> None:
         self.now_ns = 0
         self.net = VirtualNetwork(lambda: self.now_ns, limits=limits, link=link, call_ns=0)

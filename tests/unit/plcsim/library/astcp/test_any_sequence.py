@@ -20,7 +20,7 @@ from plcsim.library.astcp import (
     TcpSend,
     TcpServer,
 )
-from plcsim.network import Limits
+from plcsim.network import WireLimits
 from st_types.types.derived import Section
 from st_types.types.views import type_of
 
@@ -97,7 +97,7 @@ class Station:
 def test_every_sequence_of_calls_ends_in_documented_statuses(
     draw: st.DataObject, steps: list[tuple[int, object]]
 ) -> None:
-    world = World(limits=Limits(sockets=8, send_buffer=300, receive_buffer=300), idents=6)
+    world = World(limits=WireLimits(sockets=8, send_buffer=300, receive_buffer=300), idents=6)
     world.pair()
     stations = [Station(world.server), Station(world.client)]
     for which, step in steps:

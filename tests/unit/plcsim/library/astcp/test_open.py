@@ -18,7 +18,7 @@ from plcsim.library.astcp import (
     tcpERR_SYSTEM,
     tcpOPT_REUSEADDR,
 )
-from plcsim.network import Limits, Opened, Outcome
+from plcsim.network import Opened, Outcome, WireLimits
 
 from .plc import PORT, SERVER, WILD, Plc, World
 
@@ -81,7 +81,7 @@ def test_idents_run_out(world: World) -> None:
 
 
 def test_the_system_runs_out_of_sockets() -> None:
-    world = World(limits=Limits(sockets=1))
+    world = World(limits=WireLimits(sockets=1))
     assert world.server.open().status == ERR_OK
     assert world.server.open().status == tcpERR_SOCKET_CREATE
 

@@ -21,7 +21,7 @@ from plcsim.library.astcp import (
     tcpMSG_PEEK,
     tcpSO_SNDBUF_SET,
 )
-from plcsim.network import Limits, Link, Outcome, Received, Sent
+from plcsim.network import Link, Outcome, Received, Sent, WireLimits
 
 from .plc import CLIENT, MS, SERVER, WILD, World
 
@@ -177,7 +177,7 @@ def test_failures_of_the_system(world: World) -> None:
 
 
 def test_more_than_a_send_buffer_can_hold_is_sent_in_parts() -> None:
-    world = World(limits=Limits(send_buffer=10))
+    world = World(limits=WireLimits(send_buffer=10))
     client, _ = world.pair()
     plc = world.client
     size = 1_000_000
@@ -194,7 +194,7 @@ def test_more_than_a_send_buffer_can_hold_is_sent_in_parts() -> None:
 def test_a_program_that_follows_the_statuses_loses_nothing(
     data: bytes, sizes: list[int], buffer: int
 ) -> None:
-    world = World(limits=Limits(send_buffer=buffer, receive_buffer=buffer))
+    world = World(limits=WireLimits(send_buffer=buffer, receive_buffer=buffer))
     client, server = world.pair()
     world.client.memory.write(world.client.buffer, data)
     send, recv = world.client.new(TcpSend), world.server.new(TcpRecv)

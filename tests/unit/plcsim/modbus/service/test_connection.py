@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from plcsim.modbus.service.connection import (
     FULL_BUFFER,
     WRITES_IN_FLIGHT,
-    Limits,
+    ModbusLimits,
 )
 
 from ..site import MS, Log, World, frame, frames
@@ -156,7 +156,7 @@ def test_a_refused_write_is_answered_behind_those_before_it() -> None:
 
 
 def test_a_write_that_the_scan_does_not_show_is_answered_busy_in_the_end() -> None:
-    world = World(limits=Limits(write_timeout_ns=100 * MS))
+    world = World(limits=ModbusLimits(write_timeout_ns=100 * MS))
     peer = world.connect()
     peer.receive(frame(write(1)))
     assert peer.step(0) == b""
@@ -190,7 +190,7 @@ def test_a_full_ring_is_busy() -> None:
 
 
 def test_units_that_are_not_served_get_the_gateway_code() -> None:
-    world = World(limits=Limits(unit_ids=frozenset({1, 17})))
+    world = World(limits=ModbusLimits(unit_ids=frozenset({1, 17})))
     assert world.ask(READ, unit=17) == "03020000"
     assert world.ask(READ, unit=2) == "830b"
     assert WORLD.ask(READ, unit=99)[:4] == "0302"
@@ -218,7 +218,7 @@ def test_a_write_whose_peer_has_gone_is_audited_all_the_same() -> None:
 
 def test_a_write_that_was_answered_busy_is_audited_when_it_is_applied() -> None:
     log = Log()
-    world = World(audit=log, limits=Limits(write_timeout_ns=MS))
+    world = World(audit=log, limits=ModbusLimits(write_timeout_ns=MS))
     peer = world.connect()
     peer.receive(frame(write(5)))
     assert peer.step(0) == b""
@@ -239,7 +239,7 @@ def test_the_last_request_is_remembered_but_not_half_of_one() -> None:
 
 def test_a_write_to_a_unit_that_is_not_served_is_audited_and_answered_in_its_turn() -> None:
     log = Log()
-    world = World(audit=log, limits=Limits(unit_ids=frozenset({1})))
+    world = World(audit=log, limits=ModbusLimits(unit_ids=frozenset({1})))
     peer = world.connect()
     peer.receive(frame(write(1), 1) + frame(write(2), 2, unit=9) + frame(write(3), 3))
     assert peer.step(0) == b""

@@ -6,7 +6,7 @@ from plcsim.modbus.map import Area, IllegalAddress, IllegalValue, Point
 from plcsim.modbus.map.changes import Change
 from plcsim.modbus.map.status_block import FIRST, ControllerStatus
 from plcsim.modbus.service.device import Device, Identity, Origin, no_status
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.shared_image import (
     Answer,
     CommandRefused,
@@ -50,7 +50,7 @@ class Image:
         return self.answers.pop(ticket, None)
 
 
-def code_of(device: Device, *, write: bool = False, address: int = 0) -> Code:
+def code_of(device: Device, *, write: bool = False, address: int = 0) -> ExceptionCode:
     def ask() -> object:
         if write:
             return device.write(lambda writes: writes.registers(address, b"\0\1"), ORIGIN)
@@ -104,24 +104,24 @@ def test_a_register_is_read() -> None:
 @pytest.mark.parametrize(
     ("error", "code"),
     [
-        (ImageNotReady("x"), Code.SERVER_DEVICE_BUSY),
-        (ImageError("x"), Code.SERVER_DEVICE_FAILURE),
+        (ImageNotReady("x"), ExceptionCode.SERVER_DEVICE_BUSY),
+        (ImageError("x"), ExceptionCode.SERVER_DEVICE_FAILURE),
     ],
 )
-def test_an_image_that_cannot_be_read_has_a_code(error: Exception, code: Code) -> None:
+def test_an_image_that_cannot_be_read_has_a_code(error: Exception, code: ExceptionCode) -> None:
     assert code_of(Device(Image(error), [POINT])) == code
 
 
 @pytest.mark.parametrize(
     ("error", "code"),
     [
-        (CommandRefused("x"), Code.SERVER_DEVICE_BUSY),
-        (ImageError("x"), Code.SERVER_DEVICE_FAILURE),
-        (IllegalAddress("x"), Code.ILLEGAL_DATA_ADDRESS),
-        (IllegalValue("x"), Code.ILLEGAL_DATA_VALUE),
+        (CommandRefused("x"), ExceptionCode.SERVER_DEVICE_BUSY),
+        (ImageError("x"), ExceptionCode.SERVER_DEVICE_FAILURE),
+        (IllegalAddress("x"), ExceptionCode.ILLEGAL_DATA_ADDRESS),
+        (IllegalValue("x"), ExceptionCode.ILLEGAL_DATA_VALUE),
     ],
 )
-def test_a_command_that_is_refused_has_a_code(error: Exception, code: Code) -> None:
+def test_a_command_that_is_refused_has_a_code(error: Exception, code: ExceptionCode) -> None:
     assert code_of(Device(Image(error), [POINT]), write=True) == code
 
 
@@ -140,12 +140,12 @@ def test_in_service_the_last_cycle_can_be_read_but_not_written(
     device.tick(0)
     device.tick(10_000_000_000)
     assert not device.is_alive
-    assert code_of(device, write=True) == Code.SERVER_DEVICE_FAILURE
+    assert code_of(device, write=True) == ExceptionCode.SERVER_DEVICE_FAILURE
     if readable:
         assert device.read(HR, 0, 1) == b"\x12\x34"
         assert device.read(Area.INPUT_REGISTERS, FIRST + 10, 1) == b"\0\3"
     else:
-        assert code_of(device) == Code.SERVER_DEVICE_FAILURE
+        assert code_of(device) == ExceptionCode.SERVER_DEVICE_FAILURE
 
 
 def test_without_a_status_page_the_status_is_empty() -> None:

@@ -1,7 +1,7 @@
 import pytest
 
 from plcsim.core.memory import FIRST
-from plcsim.modbus.service.handler import Rights
+from plcsim.modbus.service.handler import AccessRights
 
 from ..site import World
 
@@ -102,13 +102,13 @@ def test_function_23_reads_what_it_has_written(world: World) -> None:
                                    "10 0000 0001 02 0001", "16 0000 0000 0000",
                                    "17 0000 0001 0000 0001 02 0009"])  # fmt: skip
 def test_a_peer_that_may_not_write_finds_no_function_that_writes(world: World, asked: str) -> None:
-    peer = world.connect(Rights(may_write=False))
+    peer = world.connect(AccessRights(may_write=False))
     assert world.ask(asked, peer) == f"{int(asked[:2], 16) | 0x80:02x}01"
     assert world.ask("03 0000 0001", peer) == "03020000"
 
 
 def test_a_peer_without_rights_can_only_ask_nothing(world: World) -> None:
-    peer = world.connect(Rights(may_read=False, may_write=False))
+    peer = world.connect(AccessRights(may_read=False, may_write=False))
     assert world.ask("03 0000 0001", peer) == "8301"
     assert world.ask("2b 0e 01 00", peer) == "ab01"
 

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 from pymodbus.pdu import DecodePDU, ModbusPDU
 
 from plcsim.modbus.map import Area
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.modbus.service.pdu import (
     Identify,
     MaskWrite,
@@ -88,7 +88,7 @@ def test_any_pdu_is_a_request_or_one_of_two_codes(pdu: bytes) -> None:
     else:
         assert decoded.function == pdu[0]
         return
-    assert code in (Code.ILLEGAL_FUNCTION, Code.ILLEGAL_DATA_VALUE)
+    assert code in (ExceptionCode.ILLEGAL_FUNCTION, ExceptionCode.ILLEGAL_DATA_VALUE)
 
 
 def decoded(pdu: bytes) -> ModbusPDU:
@@ -131,7 +131,7 @@ def test_a_write_is_answered_by_what_was_asked_for(text: str, answer: str) -> No
 
 @pytest.mark.parametrize(("function", "answer"), [(3, "8302"), (0x63, "e302"), (0x83, "8302")])
 def test_an_exception_has_the_function_of_its_request(function: int, answer: str) -> None:
-    assert encode_exception(function, Code.ILLEGAL_DATA_ADDRESS).hex() == answer
+    assert encode_exception(function, ExceptionCode.ILLEGAL_DATA_ADDRESS).hex() == answer
 
 
 def test_the_server_id_ends_with_the_run_indicator() -> None:
@@ -160,4 +160,4 @@ def test_identification_by_stream_and_by_object(code: int, first: int, answer: s
 def test_an_object_that_is_not_there_is_an_illegal_address() -> None:
     with pytest.raises(ModbusException) as caught:
         encode_identification(Identify(43, 4, 9), OBJECTS)
-    assert caught.value.code == Code.ILLEGAL_DATA_ADDRESS
+    assert caught.value.code == ExceptionCode.ILLEGAL_DATA_ADDRESS

@@ -12,7 +12,7 @@ import pytest
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.service.audit import AuditLog
-from plcsim.modbus.service.connection import Connection
+from plcsim.modbus.service.connection import ModbusConnection
 from plcsim.modbus.service.server import Server
 from plcsim.modbus.settings import ModbusSettings
 
@@ -288,15 +288,15 @@ def test_a_peer_that_floods_does_not_hold_up_the_others(
     world: World, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     steps: list[int] = []
-    original = Connection.step
+    original = ModbusConnection.step
 
-    def counted(self: Connection, now_ns: int, requests: int = 64) -> bytes:
+    def counted(self: ModbusConnection, now_ns: int, requests: int = 64) -> bytes:
         before = self.requests
         answers = original(self, now_ns, requests)
         steps.append(self.requests - before)
         return answers
 
-    monkeypatch.setattr(Connection, "step", counted)
+    monkeypatch.setattr(ModbusConnection, "step", counted)
 
     async def client(server: Server) -> None:
         flood = asyncio.create_task(exchange(server, READ * 3000, 3000 * len(ANSWER)))

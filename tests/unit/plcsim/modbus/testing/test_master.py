@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.modbus.service.errors import Code, ModbusException
+from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.modbus.testing.master import Modbus
 from plcsim.testing.errors import ControllerFault, PlcTestError
 from plcsim.testing.target import open_plc
@@ -91,7 +91,7 @@ def test_registers_and_bits_by_address(plc, modbus):
 def test_what_the_server_refuses_raises_with_its_code(modbus):
     with pytest.raises(ModbusException, match=r"level = 11: ILLEGAL_DATA_VALUE") as refused:
         modbus.write("cell.level", 11)
-    assert refused.value.code is Code.ILLEGAL_DATA_VALUE
+    assert refused.value.code is ExceptionCode.ILLEGAL_DATA_VALUE
     with pytest.raises(ModbusException, match=r"initial = 1: ILLEGAL_DATA_ADDRESS"):
         modbus.write("cell.initial", 1)
     with pytest.raises(ModbusException, match=r"function 3 at 500: ILLEGAL_DATA_ADDRESS"):

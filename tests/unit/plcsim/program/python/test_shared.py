@@ -4,7 +4,7 @@ import pytest
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
-from plcsim.program.python.shared import Constant
+from plcsim.program.python.shared import ConstantAttribute
 from st_types import UDINT, Struct, var
 from st_types.types.derived import StructType
 
@@ -149,13 +149,13 @@ def test_a_constant_struct_is_a_copy_each_time():
         speed = var(UDINT, 3)
 
     class Holder:
-        axis = Constant("axis", Axis._plc_type, {"speed": 7})
-        plain = Constant("plain", UDINT, 4)
+        axis = ConstantAttribute("axis", Axis._plc_type, {"speed": 7})
+        plain = ConstantAttribute("plain", UDINT, 4)
 
     holder = Holder()
     holder.axis.speed = 1
     assert (holder.axis.speed, holder.plain) == (7, 4)
-    assert isinstance(Holder.axis, Constant)
+    assert isinstance(Holder.axis, ConstantAttribute)
     with pytest.raises(AttributeError, match="plain is CONSTANT"):
         holder.plain = 5
     assert isinstance(Axis._plc_type, StructType)
