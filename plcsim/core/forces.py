@@ -40,13 +40,16 @@ class Forces:
     Args:
         memory: where the variables lie.
         owners: of the variables.
+
+    Attributes:
+        stores: what `apply` does: owner, variable and bytes of each.
     """
 
     def __init__(self, memory: Memory, owners: Owners) -> None:
         self._memory = memory
         self._owners = owners
         self._forces: dict[tuple[int, int], Force] = {}
-        self._stores: list[tuple[int, memoryview, bytes]] = []
+        self.stores: list[tuple[int, memoryview, bytes]] = []
         self._followers: list[Callable[[], None]] = []
 
     def follow(self, changed: Callable[[], None]) -> None:
@@ -100,12 +103,12 @@ class Forces:
         Args:
             held: owners of what must be left alone, as bits.
         """
-        for owner, variable, data in self._stores:
+        for owner, variable, data in self.stores:
             if not owner & held:
                 variable[:] = data
 
     def _changed(self) -> None:
-        self._stores = [
+        self.stores = [
             (self._owners.of(f.tag.address), self._memory.view(f.tag.address, len(f.data)), f.data)
             for f in self._forces.values()
         ]

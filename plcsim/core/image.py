@@ -47,10 +47,6 @@ class ProcessImage:
         """Tell the image whose phases it must keep to."""
         self._scan = scan
 
-    def _require(self, phase: Phase) -> None:
-        if self._scan is not None:
-            self._scan.require(phase)
-
     def held(self) -> int:
         """Return the classes that are preempted in the middle of a cycle, as bits of owners."""
         in_cycle = self._scan.in_cycle if self._scan is not None else []
@@ -62,10 +58,12 @@ class ProcessImage:
         Raises:
             PhaseError: the scan is not in LATCH.
         """
-        self._require(Phase.LATCH)
+        scan = self._scan
+        if scan is not None and scan.phase is not Phase.LATCH:
+            scan.require(Phase.LATCH)
         for bring_in in self.inputs:
             bring_in(task_class)
-        if self._forces:
+        if self._forces.stores:
             self._forces.apply(self.held())
 
     def publish(self, task_class: TaskClass) -> None:
@@ -74,8 +72,10 @@ class ProcessImage:
         Raises:
             PhaseError: the scan is not in PUBLISH.
         """
-        self._require(Phase.PUBLISH)
-        if self._forces:
+        scan = self._scan
+        if scan is not None and scan.phase is not Phase.PUBLISH:
+            scan.require(Phase.PUBLISH)
+        if self._forces.stores:
             self._forces.apply(self.held())
         for watch in self.watchers:
             watch(task_class)

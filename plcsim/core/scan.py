@@ -13,6 +13,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.errors import CycleTimeViolation, PhaseError
+from plcsim.core.system_area import RELEASE
 from plcsim.core.task import Cause, Policy, TaskClass, Violation
 
 if TYPE_CHECKING:
@@ -104,6 +105,7 @@ class Scan:
         self.origin_ns = 0
         self._clock = clock
         self._context = context
+        self._cells = context.memory.system.cells  # what `Context.release_ns` reads and sets
         self._image = image
         self._supervisor = supervisor
         self._idle = idle
@@ -163,11 +165,14 @@ class Scan:
         self._end_ns = _NEVER if until_ns is None else until_ns
         self._last_cycle = _NEVER if cycles is None else self.classes[0].cycles + cycles
         while self._goes_on():
-            due = self._due(len(self.classes))
+            due = self._due(self.classes)
             if due is not None:
                 self._run_class(due)
                 continue
-            wake_ns = min(self._end_ns, *(c.release_ns for c in self.classes))
+            wake_ns = self._end_ns
+            for task_class in self.classes:
+                if task_class.release_ns < wake_ns:  # noqa: PLR1730  # as in `Histogram.record`
+                    wake_ns = task_class.release_ns
             if wake_ns == self._end_ns and self._clock.now_ns() >= wake_ns:
                 return
             self._sleep(wake_ns)
@@ -176,24 +181,24 @@ class Scan:
         """Return whether another cycle may start."""
         return self.running and not self.paused and self.classes[0].cycles < self._last_cycle
 
-    def _due(self, below: int) -> TaskClass | None:
-        """Return the first released class among the first ``below`` in order."""
+    def _due(self, classes: Sequence[TaskClass]) -> TaskClass | None:
+        """Return the first released class among some in order."""
         now_ns = self._clock.now_ns()
-        for task_class in self.classes[:below]:
+        for task_class in classes:
             if task_class.release_ns <= now_ns and task_class.release_ns < self._end_ns:
                 return task_class
         return None
 
     def _sleep(self, until_ns: int) -> None:
-        self.require(Phase.SLEEP)
         self._idle(until_ns - self._clock.now_ns())
         self._clock.sleep_until_ns(until_ns)
 
     def _run_class(self, task_class: TaskClass) -> None:
         """Run one cycle of a class; what it interrupts goes on as it was."""
-        outer = self.phase, self._context.release_ns, self._own_ns, self._aborted
+        cells = self._cells
+        outer = self.phase, cells[RELEASE], self._own_ns, self._aborted
         elsewhere_ns = self._elsewhere_ns
-        self._context.release_ns = task_class.release_ns
+        cells[RELEASE] = task_class.release_ns
         self._own_ns = self._elsewhere_ns = 0
         self._aborted = None
         start_ns = self._clock.now_ns()
@@ -208,7 +213,7 @@ class Scan:
             elsewhere_ns += used_ns
         finally:
             self.in_cycle.pop()
-            self.phase, self._context.release_ns, self._own_ns, self._aborted = outer
+            self.phase, cells[RELEASE], self._own_ns, self._aborted = outer
             self._elsewhere_ns = elsewhere_ns
 
     def _run_phases(self, task_class: TaskClass) -> None:
@@ -233,7 +238,7 @@ class Scan:
     def _run_higher(self, below: int) -> None:
         """Run the first ``below`` classes in order that have been released meanwhile."""
         while self._goes_on():
-            due = self._due(below)
+            due = self._due(self.classes[:below])
             if due is None:
                 return
             self._run_class(due)

@@ -228,9 +228,11 @@ class TaskClass:
             end_ns: until when.
             used_ns: CPU time used between the two.
         """
-        overlap_ns = end_ns - max(start_ns, self.release_ns)
+        release_ns = self.release_ns
+        overlap_ns = end_ns - (start_ns if start_ns > release_ns else release_ns)
         if overlap_ns > 0:
-            self._used_ns[task] = self._used_ns.get(task, 0) + min(used_ns, overlap_ns)
+            noted_ns = used_ns if used_ns < overlap_ns else overlap_ns
+            self._used_ns[task] = self._used_ns.get(task, 0) + noted_ns
 
     def used_by_own_and_others(self) -> tuple[dict[Task, int], dict[Task, int], int]:
         """Return what the class' own programs, those of others and LATCH and PUBLISH have used."""
@@ -253,7 +255,10 @@ class TaskClass:
 
         The points in between are missed.
         """
-        passed = max(1, -(-(end_ns - self.release_ns) // self.cycle_ns))
+        self._used_ns.clear()
+        if end_ns <= self.release_ns + self.cycle_ns:
+            self.release_ns += self.cycle_ns
+            return
+        passed = -(-(end_ns - self.release_ns) // self.cycle_ns)
         self.release_ns += passed * self.cycle_ns
         self.missed += passed - 1
-        self._used_ns.clear()

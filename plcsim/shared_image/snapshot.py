@@ -132,22 +132,19 @@ class _Part:
 
     Attributes:
         owner: bit of the class, or `SHARED`.
+        into: copies the variables as they are now into a bank.
         number: of the snapshot they were last copied for.
     """
 
-    __slots__ = ("_copy", "_regions", "number", "owner")
+    __slots__ = ("_regions", "into", "number", "owner")
 
     def __init__(self, memory: Memory, spans: Sequence[Span], regions: Regions) -> None:
         self.owner = spans[0].owner
         self.number = 0
         self._regions = regions
         kind = _Words if len(spans) > MOST_PIECES else _Pieces
-        self._copy: _Copy = kind(memory, spans, regions)
-
-    def copy(self, number: int) -> None:
-        """Copy the variables as they are now."""
-        self._copy.into(number & 1)
-        self.number = number
+        copy: _Copy = kind(memory, spans, regions)
+        self.into = copy.into
 
     def carry(self, number: int) -> None:
         """Take the variables over from the snapshot before, unless the bank has them already."""
@@ -194,16 +191,18 @@ class Snapshots:
             now_ns: the present time.
         """
         number = self._number + 1
+        bank = number & 1
         changed |= SHARED
         if self._is_small or now_ns - self._refreshed_ns >= REFRESH_NS:
             changed, self._refreshed_ns = -1, now_ns
         cells = self._cells
-        cells[layout.CELL_BEGIN[number & 1]] = number
+        cells[layout.CELL_BEGIN[bank]] = number
         changed &= ~held
         for part in self._parts:
             if part.owner & changed:
-                part.copy(number)
+                part.into(bank)
+                part.number = number
             else:
                 part.carry(number)
-        cells[layout.CELL_END[number & 1]] = number
+        cells[layout.CELL_END[bank]] = number
         cells[layout.CELL_LATEST] = self._number = number

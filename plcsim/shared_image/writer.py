@@ -171,16 +171,16 @@ class ImageWriter:
     def publish(self, task_class: TaskClass) -> None:
         """Write the next snapshot and the samples, then answer the commands that they show."""
         held, now_ns = self._controller.image.held(), self._context.release_ns
-        self._publish(bit_of(task_class), held)
+        self._publish(bit_of(task_class), held, now_ns)
         for sampler in self._sampling:
             time_ns = now_ns - self._controller.origin_ns
             sampler.publish(task_class, held, now_ns, time_ns)
 
-    def _publish(self, changed: int, held: int) -> None:
+    def _publish(self, changed: int, held: int, now_ns: int) -> None:
         origin_ns = self._controller.scan.origin_ns
         if origin_ns != self._origin_ns:  # after a boot everything has another value
             self._origin_ns, changed = origin_ns, -1
-        self._snapshots.publish(changed | self._written, held, self._context.release_ns)
+        self._snapshots.publish(changed | self._written, held, now_ns)
         self._written &= held
         if self._open:
             for inbox in self._open:
@@ -191,7 +191,7 @@ class ImageWriter:
         """Apply commands and publish between two cycles, while the controller is paused."""
         self._drain(0)
         self._controller.forces.apply(0)
-        self._publish(-1, 0)
+        self._publish(-1, 0, self._context.release_ns)
 
     def _entered(self, entry: Entry) -> None:
         self._events.write(EventKind.ENTRY.value, entry.time_ns, encode_entry(entry))
