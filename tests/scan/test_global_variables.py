@@ -1,13 +1,16 @@
 """Two programs in two task classes share a global variable, seen and written over Modbus."""
 
-import json
+import signal
+import socket
+import subprocess
+import sys
+import time
 
 import pytest
+from pymodbus.client import ModbusTcpClient
 
 from plcsim.modbus.service.errors import ModbusException
 from plcsim.modbus.testing import Modbus
-from plcsim.process.supervisor import Supervisor
-from plcsim.project.plc_toml import read_project
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.target import open_plc
 
@@ -39,6 +42,7 @@ FILES = {
         gStep,hr,0
         LIMIT,hr,1
         ::gStep,hr,3
+        slow.seen,ir,2
     """,
     "fast/cyclic.py": """
         def cyclic(self):
@@ -80,8 +84,46 @@ def test_in_virtual_time(folder):
         assert (plc["gCount"], plc["gStep"]) == (0, 1)
 
 
-def test_on_the_real_clock(folder):
-    with Supervisor(read_project(folder), for_ns=300_000_000) as supervisor:
-        result = supervisor.wait()
-    assert result["state"] == "STOPPED", json.dumps(result)
-    assert result["task_classes"][0]["cycles"] > 3
+@pytest.fixture
+def served(folder):
+    """The project as it runs with its service: a client, and the process."""
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        port = probe.getsockname()[1]
+    plc_toml = folder / "plc.toml"
+    plc_toml.write_text(plc_toml.read_text().replace("port = 0", f"port = {port}"))
+    command = [sys.executable, "-m", "plcsim", "run", "--quiet", str(folder)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        client = ModbusTcpClient("127.0.0.1", port=port, timeout=20, retries=0)
+        try:
+            deadline = time.monotonic() + 60
+            while not client.connect():
+                assert process.poll() is None, process.stderr.read()
+                assert time.monotonic() < deadline
+            yield client
+        finally:
+            client.close()
+            process.send_signal(signal.SIGINT)
+            assert process.wait(60) == 0
+
+
+def udint(registers):
+    return registers[0] << 16 | registers[1]
+
+
+def test_over_modbus_on_the_real_clock(served):
+    def count():
+        return udint(served.read_input_registers(0, count=2).registers)
+
+    def wait(condition):
+        deadline = time.monotonic() + 60
+        while not condition():
+            assert time.monotonic() < deadline
+
+    wait(lambda: count() >= 2)  # the program of task class 1 counts
+    assert served.read_holding_registers(0, count=1).registers == [1]
+    assert not served.write_register(0, 500).isError()
+    assert served.read_holding_registers(3, count=1).registers == [500]
+    wait(lambda: count() == 1000)  # in larger steps, up to the constant
+    wait(lambda: udint(served.read_input_registers(2, count=2).registers) == 1000)
+    assert served.write_registers(1, [0, 7]).isError()  # a CONSTANT
+    assert udint(served.read_holding_registers(1, count=2).registers) == 1000
