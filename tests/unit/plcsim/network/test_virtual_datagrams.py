@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.network import Address, Limits, Link, Option, Outcome, VirtualNetwork
+from plcsim.network import Address, Link, Option, Outcome, VirtualNetwork, WireLimits
 
 A, B, C = "192.168.0.10", "192.168.0.20", "192.168.0.30"
 MS = 1_000_000
@@ -57,7 +57,7 @@ def test_a_broadcast_reaches_all_hosts():
 
 
 def test_a_full_buffer_loses_what_comes():
-    world = World(limits=Limits(receive_buffer=10))
+    world = World(limits=WireLimits(receive_buffer=10))
     sender, receiver = world.opened(world.a), world.opened(world.b, 700)
     for text in (b"123456", b"7890", b"x"):
         sender.send(text, Address(B, 700))
@@ -77,7 +77,7 @@ def test_loopback_stays_on_the_host():
 
 
 def test_sockets_have_an_end_and_count_with_those_of_tcp():
-    world = World(limits=Limits(sockets=2))
+    world = World(limits=WireLimits(sockets=2))
     first = world.opened(world.a)
     assert world.a.open("", 0).outcome is Outcome.OK
     assert world.a.open_datagrams("", 0).outcome is Outcome.NO_RESOURCES
