@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from plcsim.core.errors import ConfigurationError
 from plcsim.core.tag import Tag
+from st_types.errors import DeclarationError
 from st_types.types.derived import Member, StructType
 from st_types.types.values import initial_image
 
@@ -60,12 +62,18 @@ def variables_of(name: str, declared: Iterable[Variable]) -> Variables:
     Args:
         name: of the STRUCTs.
         declared: of one scope, names of their own.
+
+    Raises:
+        ConfigurationError: they are larger together than an address space.
     """
     members: dict[bool, list[Member]] = {True: [], False: []}
     for variable in declared:
         if variable.data_type is not None:
             member = Member(variable.name, variable.data_type, variable.initial)
             members[variable.is_constant].append(member)
-    return Variables(
-        StructType(name, members[False]), StructType(f"{name} CONSTANT", members[True])
-    )
+    try:
+        return Variables(
+            StructType(name, members[False]), StructType(f"{name} CONSTANT", members[True])
+        )
+    except DeclarationError as err:
+        raise ConfigurationError(f"the variables of {err}") from None

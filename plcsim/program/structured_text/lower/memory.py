@@ -6,6 +6,7 @@ import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.kinds import ANY_REAL, Kind, kind_of
 from st_types.types.elementary import (
@@ -39,6 +40,9 @@ _WIDTHS: Final[Mapping[Type, ir.Width]] = {
     REAL: "f32",
     **dict.fromkeys((LREAL, ANY_REAL), "f64"),
 }
+MAX_HIDDEN: Final = 1 << 24
+"""Bytes of a variable that lives for one call, or of a constant that is no single value."""
+
 SCALARS: Final = frozenset(
     [Kind.BOOL, Kind.INTEGER, Kind.REAL, Kind.TIME, Kind.DATE, Kind.REFERENCE]
 )
@@ -145,6 +149,9 @@ class Variables:
             spot = self._areas[scope].get(symbol.name)
         is_own = symbol.storage != "global" and not symbol.has_address
         if spot is None:
+            if symbol.type.size > MAX_HIDDEN:
+                message = f"{symbol.name} has {symbol.type.size} bytes"
+                raise ConfigurationError(f"{message}: too many for a variable of a FUNCTION")
             image = self.image(symbol)
             offset = self._hidden.place(symbol.type.size, symbol.type.alignment, image)
             spot = Spot(self._hidden.segment, offset)

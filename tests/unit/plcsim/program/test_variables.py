@@ -1,3 +1,6 @@
+import pytest
+
+from plcsim.core.errors import ConfigurationError
 from plcsim.core.memory import PAGE, Memory
 from plcsim.core.tag import Tag
 from plcsim.program.variables import variables_of
@@ -43,3 +46,9 @@ def test_without_constants_there_is_no_tag_of_them():
     tag, constants = found.allocate(Memory(4 * PAGE), "")
     assert isinstance(tag, Tag)
     assert constants is None
+
+
+def test_variables_larger_than_an_address_space_are_told():
+    arrays = "".join(f"a{n} : ARRAY[0..400000000] OF DINT; " for n in range(3))
+    with pytest.raises(ConfigurationError, match="the variables of p: 4800000012 bytes"):
+        variables_of("p", declared(f"VAR {arrays} END_VAR"))

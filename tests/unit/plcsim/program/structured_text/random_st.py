@@ -388,8 +388,14 @@ class Body:
         return f"{target.st} := {value.st};", f"{target.c}={value.c};"
 
     def chained(self, _depth):
+        """A chain; its second target has no index, which might read what is assigned."""
         first, second = self.random.choice([("DINT", "INT"), ("INT", "SINT"), ("UDINT", "USINT")])
-        a, b, value = self.place(first), self.place(second), self.typed(second)
+        plain = [each for each in self.places[second] if not callable(each)]
+        a, b, value = (
+            self.place(first),
+            Term(second, *self.random.choice(plain)),
+            self.typed(second),
+        )
         return f"{a.st} := {b.st} := {value.st};", f"{a.c}=({b.c}={value.c});"
 
     def bit_assignment(self, _depth):

@@ -290,3 +290,12 @@ def test_indices_and_divisors_go_through_the_library_iec_check(run, value):
     assert controller.fault is None
     assert [value(controller, f"main.list[{n}]") for n in (1, 2, 3)] == [0, 0, 5]
     assert [value(controller, f"main.{name}") for name in ("j", "k", "r", "next")] == [7, 4, 1.5, 0]
+
+
+def test_a_variable_of_a_function_has_a_limit(run):
+    files = program("i := f(i);", "i : INT;") | {
+        "main/f.st": "FUNCTION f : INT VAR_INPUT x : INT; END_VAR "
+        "VAR a : ARRAY[0..9999999] OF INT; END_VAR a[x] := 1; f := a[0]; END_FUNCTION"
+    }
+    with pytest.raises(ConfigurationError, match="a has 20000000 bytes: too many for a variable"):
+        run(files)
