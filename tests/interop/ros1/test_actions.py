@@ -1,12 +1,14 @@
 """Actions with actionlib of rospy and roscpp, in both directions."""
 
+import sys
 from pathlib import Path
 
 from crosnode.action.client import ActionClient
 from crosnode.action.goal_states import GoalState
 from crosnode.action.server import ActionServer, Goal
+from crosnode.messages import MessageTypes
 
-from .rig import HERE, PYTHON, Process, Ros
+from .rig import HERE, PROGRAMS, PYTHON, Process, Ros
 
 FOLLOW = "control_msgs/FollowJointTrajectory"
 
@@ -108,3 +110,27 @@ def test_a_roscpp_client_drives_our_server(ros: Ros, roscpp: Path) -> None:
         "goal 30000 PREEMPTED -1",
         "goal 10 SUCCEEDED 20",
     ]
+
+
+def test_a_rospy_client_drives_the_cell(ros: Ros, tmp_path: Path) -> None:
+    cell = ros.program("robot_cell")
+    text = tmp_path / "action.txt"
+    text.write_text(MessageTypes().message(f"{FOLLOW}Action").full_text)
+    ros.until(lambda: "/follow_joint_trajectory/goal" in ros.tool("rostopic", "list"), 30)
+    ros.start([sys.executable, "-m", "plcsim.cli.main", "set", str(PROGRAMS / "robot_cell"),
+               "cell.enable", "TRUE"])  # fmt: skip
+    ros.until(lambda: "data: 1" in ros.tool("rostopic", "echo", "-n", "1", "/cell/state"), 30)
+    joints = ",".join(f"joint_{number}" for number in range(1, 7))
+    client = peer(ros, "client", str(text), "/follow_joint_trajectory", joints, "0.5,2.0!,1.0,9.0")
+    ros.until(lambda: not client.is_running, 60)
+    told = [line for line in client.text.splitlines() if "not tracking" not in line]
+    assert told == [
+        "connected True",
+        "goal 0.5 SUCCEEDED 0 feedback",
+        "goal 2.0 PREEMPTED 0 feedback",
+        "goal 1.0 SUCCEEDED 0 feedback",
+        "goal 9.0 REJECTED -1 none",
+    ]
+    said = ros.tool("rostopic", "echo", "-n", "1", "/joint_states")
+    assert "position: [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]" in said
+    assert cell.is_running

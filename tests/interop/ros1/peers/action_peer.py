@@ -1,6 +1,8 @@
 """An actionlib client of rospy: sends goals of FollowJointTrajectory, says what becomes of them.
 
-    action_peer.py client FULL_TEXT_FILE NAME | server NAME
+    action_peer.py client FULL_TEXT_FILE NAME [JOINTS [TARGETS]] | server NAME
+
+A target with ! behind it is cancelled after 0.3 s.
 
 The types are made of their full text, for Debian has no control_msgs.
 """
@@ -17,7 +19,8 @@ from genpy.dynamic import generate_dynamic
 NAMES = {value: name for name, value in vars(GoalStatus).items() if name.isupper()}
 
 
-def client(text_file, name):
+def client(text_file, name, joints="a,b", targets="0.5,50.0!,1.0"):
+    names = joints.split(",")
     kinds = generate_dynamic(
         "control_msgs/FollowJointTrajectoryAction", Path(text_file).read_text()
     )
@@ -26,11 +29,12 @@ def client(text_file, name):
     point_type = kinds["trajectory_msgs/JointTrajectoryPoint"]
     made = actionlib.SimpleActionClient(name, action)
     print("connected", made.wait_for_server(rospy.Duration(10)), flush=True)
-    for target, stop in ((0.5, False), (50.0, True), (1.0, False)):
+    for word in targets.split(","):
+        target, stop = float(word.rstrip("!")), word.endswith("!")
         goal = goal_type()
-        goal.trajectory.joint_names = ["a", "b"]
+        goal.trajectory.joint_names = names
         goal.trajectory.points = [
-            point_type(positions=[target, -target], time_from_start=rospy.Duration(0.5))
+            point_type(positions=[target] * len(names), time_from_start=rospy.Duration(1))
         ]
         heard = []
         made.send_goal(goal, feedback_cb=heard.append)
