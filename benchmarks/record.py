@@ -169,18 +169,21 @@ class Hears(Program):
     heard = var(UDINT)
 
     def init(self) -> None:
+        """Make the node."""
         self.node = create_node(self.context, "hears")
         self.topics = [
             self.node.register_subscriber(f"/out_{n}", "std_msgs/Float64") for n in range(TOPICS)
         ]
 
     def cyclic(self) -> None:
+        """Count what has come."""
         self.node.do_events_loop()
         for topic in self.topics:
             while topic.pop() is not None:
                 self.heard += 1
 
     def exit(self) -> None:
+        """Take the registrations back."""
         self.node.destroy()
 
 

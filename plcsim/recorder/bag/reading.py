@@ -134,7 +134,6 @@ class BagReader:
             cycle = cycle_from(message.as_ros1)
             if cycle.step == CYCLE:
                 before = cycle.variables if cycle.whole else changed(before, cycle.variables)
-            numbers = struct.unpack(f"<{len(cycle.clock) // 8}q", cycle.clock)
             yield (
                 cycle.number,
                 Record(
@@ -142,7 +141,7 @@ class BagReader:
                     cycle.task_class,
                     cycle.cycle,
                     cycle.time_ns,
-                    numbers,
+                    cycle.clock,
                     cycle.network,
                     cycle.writes,
                     b"",

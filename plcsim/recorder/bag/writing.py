@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import struct
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -120,12 +119,13 @@ class Writing:
         self._latest_ns = max(self._latest_ns, self._head.epoch_ns + time_ns)
         return self._latest_ns
 
-    def record(self, number: int, record: Record) -> None:
+    def record(self, number: int, record: Record, *, with_tags: bool = True) -> None:
         """Write a record, and what has changed of the chosen tags.
 
         Args:
             number: of the record, from 0; those left out are lost.
             record: the record.
+            with_tags: write the chosen tags that have changed as messages of their own.
         """
         self._turn_over()
         if number > self._next:
@@ -147,7 +147,7 @@ class Writing:
             number,
             record.cycle,
             record.time_ns,
-            struct.pack(f"<{len(record.clock)}q", *record.clock),
+            record.clock,
             record.network,
             record.writes,
             whole,
@@ -158,7 +158,8 @@ class Writing:
             self._write_packet(bag_ns, packet)
         if is_cycle and record.variables:
             self._before = record.variables
-            self._write_tags(bag_ns, record.variables)
+            if with_tags:
+                self._write_tags(bag_ns, record.variables)
 
     def _write_packet(self, bag_ns: int, packet: Packet) -> None:
         """Write a message of a topic, or note what comes over it."""

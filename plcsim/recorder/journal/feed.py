@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.recorder.journal.record import CYCLE, ENDINGS, Record, entries
+from plcsim.recorder.journal.record import CYCLE, ENDINGS, Record, entries, numbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -42,6 +42,7 @@ class Feed:
         self.reason = ""
         self.end_run: Callable[[Ending], None] = lambda _ending: None
         self._endings: dict[int, Ending] = {}
+        self._clock: tuple[int, ...] = ()
         self._number = self._byte = self._latch = 0
         self.advance()
 
@@ -49,6 +50,7 @@ class Feed:
         """Go to the next record."""
         record = self.current = next(self._records, None)
         self._number = self._byte = self._latch = 0
+        self._clock = numbers_of(record.clock) if record is not None else ()
         self._endings = {}
         if record is not None and record.writes:
             asked = [each for each in entries(record.writes) if each.address in ENDINGS]
@@ -66,8 +68,8 @@ class Feed:
         record = self.current
         if record is None:
             return ""
-        if self._number < len(record.clock):
-            return f"{len(record.clock) - self._number} times the clock was asked more often"
+        if self._number < len(self._clock):
+            return f"{len(self._clock) - self._number} times the clock was asked more often"
         if self._byte < len(record.network):
             return "the network was asked more often"
         return ""
@@ -80,11 +82,11 @@ class Feed:
             Diverged: the cycle had no more.
         """
         record, at = self.current, self._number
-        if record is not None and at < len(record.clock):
+        if at < len(self._clock):
             self._number = at + 1
             if self._endings:
                 self._end_run()
-            return record.clock[at]
+            return self._clock[at]
         if record is None or record.step != CYCLE:
             raise EndOfRecord
         raise self.differs("the clock was asked less often")

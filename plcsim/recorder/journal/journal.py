@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from typing import TYPE_CHECKING, Final
 
 from plcsim.recorder.journal.record import Entry, Record, packet
@@ -81,7 +82,7 @@ class Journal:
             task_class,
             cycle,
             time_ns,
-            tuple(self.clock),
+            struct.pack(f"<{len(self.clock)}q", *self.clock),
             bytes(self.network),
             bytes(self._writes),
             bytes(self._messages),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from plcsim.core.control import Ending
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
 CYCLE: Final = 0
 """`Record.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
@@ -29,7 +29,8 @@ class Record(NamedTuple):
         task_class: number of the class whose cycle ends, 0 where none does.
         cycle: of that class, from 1.
         time_ns: release of the cycle on the controller's clock; of a step, the time.
-        clock: answers of the clock, in nanoseconds and counts, in order.
+        clock: answers of the clock, in nanoseconds and counts, in order: 64-bit numbers, see
+            `numbers_of`.
         network: answers of the network, as `plcsim.recorder.journal.network` writes them.
         writes: what was written and forced from outside, see `entries`.
         messages: that programs sent and received, see `packets`.
@@ -40,7 +41,7 @@ class Record(NamedTuple):
     task_class: int
     cycle: int
     time_ns: int
-    clock: Sequence[int]
+    clock: bytes
     network: bytes
     writes: bytes
     messages: bytes
@@ -59,23 +60,25 @@ class Record(NamedTuple):
             self.cycle,
             self.time_ns,
         )
-        numbers = struct.pack(f"<{len(clock)}q", *clock)
-        parts = (head, numbers, self.network, self.writes, self.messages, self.variables)
+        parts = (head, clock, self.network, self.writes, self.messages, self.variables)
         return b"".join(parts)
 
 
 def record_of(data: bytes) -> Record:
     """Return the record of `Record.to_bytes`."""
-    step, task_class, numbers, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
+    step, task_class, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
     at = _HEAD.size
-    clock = struct.unpack_from(f"<{numbers}q", data, at)
-    at += 8 * numbers
     parts = []
     for size in sizes:
         parts.append(data[at : at + size])
         at += size
-    network, writes, messages = parts
+    clock, network, writes, messages = parts
     return Record(step, task_class, cycle, time_ns, clock, network, writes, messages, data[at:])
+
+
+def numbers_of(clock: bytes) -> tuple[int, ...]:
+    """Return `Record.clock` as numbers."""
+    return struct.unpack(f"<{len(clock) // 8}q", clock)
 
 
 class Packet(NamedTuple):

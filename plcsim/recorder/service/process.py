@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from plcsim.shared_image.stream import Record as Streamed
 
 POLL_S: Final = 0.01
+MOST: Final = 200
+"""Records that are taken at once. Where there are more the recorder is behind: then tags become
+messages once for so many cycles. Every cycle has the variables all the same."""
+
 FLUSH_S: Final = 1.0
 """What was recorded is in the file after so long, should this process be killed."""
 
@@ -82,16 +86,17 @@ class Recorder:
             return 0
         for entry in self._logbook.read():
             self._writing.entry(entry)
-        records = self._records.read()
+        records = self._records.read(MOST)
+        is_behind = len(records) == MOST
         for record in records:
-            self._write(record)
+            self._write(record, with_tags=not is_behind or record is records[-1])
         return len(records)
 
-    def _write(self, streamed: Streamed) -> None:
+    def _write(self, streamed: Streamed, *, with_tags: bool) -> None:
         if streamed.kind != EventKind.RECORD.value or self._is_closed:
             return
         record = record_of(streamed.data)
-        self._writing.record(streamed.number, record)
+        self._writing.record(streamed.number, record, with_tags=with_tags)
         if record.step == Step.CLOSE.value:
             self._close()
 

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ from plcsim.core.errors import TagError
 from plcsim.core.logbook import Severity
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.bag.types import LOGBOOK
+from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 
 from ..conftest import Fast, Recordings, Slow, application_of
@@ -71,3 +73,16 @@ def test_a_file_that_is_there_is_left_alone(recordings: Recordings) -> None:
     with pytest.raises(RecordingError, match="exists already"):
         recordings("a.bag", application_of(Fast))
     assert (recordings.folder / "a.bag").read_bytes() == before
+
+
+def test_tags_can_be_left_out_of_a_cycle_and_its_variables_not(recordings: Recordings) -> None:
+    with open_bag(recordings("a.bag", application_of(Fast))) as reader:
+        head, records = reader.head(), list(reader.records())
+    writing = Writing(recordings.folder / "b.bag", replace(head, tags=("Fast.count",)), Limits())
+    for number, record in records:
+        writing.record(number, record, with_tags=record.cycle == 40)
+    writing.close()
+
+    with open_bag(recordings.folder / "b.bag") as reader:
+        assert [m.data for m in reader.messages(["/Fast/count"])] == [b"\x28\0\0\0"]
+        assert [r.variables for _, r in reader.records()] == [r.variables for _, r in records]

@@ -1,3 +1,5 @@
+import struct
+
 import pytest
 
 from plcsim.core.control import Ending, Step
@@ -7,7 +9,8 @@ from plcsim.recorder.journal.record import CYCLE, Entry, Record
 
 def record(step: int = CYCLE, clock: tuple[int, ...] = (), network: bytes = b"") -> Record:
     writes = Entry(0, 100, b"a").to_bytes() + Entry(1, 200, b"b").to_bytes()
-    return Record(step, 1, 1, 1, clock, network, writes, b"", b"")
+    numbers = struct.pack(f"<{len(clock)}q", *clock)
+    return Record(step, 1, 1, 1, numbers, network, writes, b"", b"")
 
 
 def test_answers_come_in_their_order() -> None:
@@ -62,7 +65,7 @@ def test_programs_cannot_catch_a_difference() -> None:
 
 def test_a_run_is_asked_to_end_after_as_many_answers_as_then() -> None:
     writes = Entry(2, Ending.PAUSE.value, b"").to_bytes()
-    feed = Feed([Record(CYCLE, 1, 1, 1, (7, 8, 9), b"", writes, b"", b"")])
+    feed = Feed([Record(CYCLE, 1, 1, 1, struct.pack("<3q", 7, 8, 9), b"", writes, b"", b"")])
     asked: list[tuple[Ending, int]] = []
     answers: list[int] = []
     feed.end_run = lambda ending: asked.append((ending, len(answers)))
