@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from plcsim.core.errors import TagError
-from plcsim.core.tag import find_tag
+from plcsim.core.tag import find_tag, leaves
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE
 from st_types.types.values import decode
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.core.tag import Tag
     from plcsim.recorder.bag.head import Head
@@ -62,18 +62,64 @@ def series_of(
     return made
 
 
-def _place(head: Head, path: str) -> tuple[Tag, int]:
-    """Return a tag and where it begins in the variables of a record."""
+def rows_of(
+    head: Head, records: Iterable[tuple[int, Record]], paths: Sequence[str]
+) -> Iterator[list[object]]:
+    """Return a row for every cycle: seconds since the first, task class, cycle, then the values.
+
+    Args:
+        head: of the recording.
+        records: of the recording.
+        paths: of the tags; STRUCTs and ARRAYs are as many columns as they have leaves.
+
+    Yields:
+        the names of the columns first.
+
+    Raises:
+        RecordingError: there is no such tag, or the variables were not recorded.
+    """
+    found = [leaf for path in paths for leaf in leaves(_find(head, path))]
+    places = [(leaf, _start(head, leaf)) for leaf in found]
+    yield ["time_s", "task_class", "cycle", *(leaf.path for leaf in found)]
+    first_ns: int | None = None
+    for _, record in records:
+        if record.step != CYCLE:
+            continue
+        if not record.variables:
+            raise RecordingError("no variables were recorded")
+        first_ns = record.time_ns if first_ns is None else first_ns
+        yield [
+            (record.time_ns - first_ns) / 1e9,
+            record.task_class,
+            record.cycle,
+            *(
+                decode(leaf.data_type, record.variables[at : at + leaf.data_type.size])
+                for leaf, at in places
+            ),
+        ]
+
+
+def _find(head: Head, path: str) -> Tag:
     try:
-        tag = find_tag(path, head.areas)
+        return find_tag(path, head.areas)
     except TagError as err:
         raise RecordingError(str(err)) from None
+
+
+def _start(head: Head, tag: Tag) -> int:
+    """Return where a tag begins in the variables of a record."""
     for area, start in head.starts().items():
         place = tag.address - area.address
         if 0 <= place < area.data_type.size:
-            _number(tag, bytes(tag.data_type.size))
-            return tag, start + place
-    raise RecordingError(f"{path} was not recorded")
+            return start + place
+    raise RecordingError(f"{tag.path} was not recorded")
+
+
+def _place(head: Head, path: str) -> tuple[Tag, int]:
+    """Return a tag and where it begins in the variables of a record."""
+    tag = _find(head, path)
+    _number(tag, bytes(tag.data_type.size))
+    return tag, _start(head, tag)
 
 
 def _number(tag: Tag, data: bytes) -> bool | float:

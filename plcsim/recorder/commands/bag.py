@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from typing import TYPE_CHECKING
 
 from rich.table import Table
@@ -13,7 +15,7 @@ from plcsim.core.duration import format_duration
 from plcsim.recorder.bag.difference import difference
 from plcsim.recorder.bag.plot import draw, page
 from plcsim.recorder.bag.reading import open_bag
-from plcsim.recorder.bag.series import series_of
+from plcsim.recorder.bag.series import rows_of, series_of
 from plcsim.recorder.bag.types import CYCLES, HEAD
 from plcsim.recorder.errors import RecordingError
 
@@ -68,6 +70,22 @@ def plot(options: argparse.Namespace) -> int:
     picture = draw(found, title)
     is_page = options.output.suffix == ".html"
     write_output("--output", options.output, page(picture, title) if is_page else picture)
+    return ExitCode.DONE
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write tags of every cycle as CSV."""
+    if options.output is not None:
+        check_output("--output", options.output)
+    text = io.StringIO()
+    with open_bag(options.bag) as bag:
+        csv.writer(text, lineterminator="\n").writerows(
+            rows_of(bag.head(), bag.records(), options.tags)
+        )
+    if options.output is None:
+        print(text.getvalue(), end="")
+    else:
+        write_output("--output", options.output, text.getvalue())
     return ExitCode.DONE
 
 

@@ -31,6 +31,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     _add_info(commands)
     _add_diff(commands)
     _add_plot(commands)
+    _add_export(commands)
 
 
 def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -129,6 +130,20 @@ def _add_plot(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
         "-o", "--output", type=Path, required=True, metavar="FILE", help=".svg or .html"
     )
     parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "plot"))
+
+
+def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "export",
+        help="write tags of every cycle as CSV",
+        description="Write tags of a recording as a table, a row for every cycle.",
+        examples=(("plcsim bag export run.bag tank.level tank.valve -o level.csv", ""),),
+        epilog=epilog(DONE="", FAILED="the bag is wrong, or has no such tag"),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
+    parser.add_argument("tags", nargs="+", metavar="TAG", help="such as tank.level")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="instead of stdout")
+    parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "export"))
 
 
 def _later(module: str, name: str) -> Callable[[argparse.Namespace], int]:

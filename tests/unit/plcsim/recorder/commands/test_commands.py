@@ -109,6 +109,19 @@ def test_plot_draws(bag: str, tmp_path: Path, name: str) -> None:
     assert "cell.count" in (tmp_path / name).read_text()
 
 
+def test_export_writes_a_row_for_every_cycle(bag: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bag", "export", bag, "cell.even", "cell.count"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:3] == [
+        "time_s,task_class,cycle,cell.even,cell.count",
+        "0.0,1,1,False,1",
+        "0.01,1,2,True,2",
+    ]
+    assert len(lines) == 21
+    assert main(["bag", "export", bag, "cell.cuont"]) == 1
+    assert "did you mean cell.count" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     "words", [["replay"], ["bag", "info"], ["bag", "plot", "cell.count", "-o", "x.svg"]]
 )
