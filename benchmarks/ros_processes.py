@@ -148,7 +148,7 @@ class Project(Process):
     def tag(self, path: str) -> int:
         """Return a whole number's tag of the latest snapshot."""
         found = self._reader.directory.find(path)
-        place = self._reader.directory.place_of(found.address, found.data_type.size)
+        place = self._reader.directory.offset_of(found.address, found.data_type.size)
         _, data = self._reader.copy(place, place + found.data_type.size)
         value: int = decode(found.data_type, data)
         return value

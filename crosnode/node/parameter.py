@@ -109,13 +109,13 @@ class ParameterSubscription:
         if value == UNSET and not isinstance(self.value, dict):
             return  # there is nothing below it
         *path, last = name[len(self.name) :].strip(SEPARATOR).split(SEPARATOR)
-        place = self.value = dict(self.value) if isinstance(self.value, dict) else {}
+        branch = self.value = dict(self.value) if isinstance(self.value, dict) else {}
         for step in path:
-            inner = place.get(step)
-            place[step] = dict(inner) if isinstance(inner, dict) else {}
-            place = place[step]
+            inner = branch.get(step)
+            branch[step] = dict(inner) if isinstance(inner, dict) else {}
+            branch = branch[step]
         if value == UNSET:
-            place.pop(last, None)
+            branch.pop(last, None)
         else:
-            place[last] = value
+            branch[last] = value
         self.updates.push(ParameterUpdate(name, value))

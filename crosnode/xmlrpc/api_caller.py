@@ -138,9 +138,9 @@ class ApiCaller:
         channel.keep = channel.keep or keep
         channel.calls.append(call)
         if len(channel.calls) > MAX_WAITING:
-            place = 1 if channel.link else 0
-            oldest = channel.calls[place]
-            del channel.calls[place]
+            index = 1 if channel.link else 0
+            oldest = channel.calls[index]
+            del channel.calls[index]
             oldest.fail("too many calls wait for this node")
         return call
 

@@ -85,11 +85,11 @@ class ValueParser:
         Raises:
             XmlRpcError: the document is not XML-RPC, or over a limit.
         """
-        place, most = 0, self._elements + AT_ONCE
-        while place < len(data) and self._elements < most:
-            self.feed(data[place : place + SLICE])
-            place += SLICE
-        return data[place:]
+        offset, most = 0, self._elements + AT_ONCE
+        while offset < len(data) and self._elements < most:
+            self.feed(data[offset : offset + SLICE])
+            offset += SLICE
+        return data[offset:]
 
     def feed(self, data: bytes) -> None:
         """Parse the next piece.

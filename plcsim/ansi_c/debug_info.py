@@ -69,11 +69,11 @@ class DebugInfo:
         self.units: list[Entry] = []
         reader = Reader(self._info)
         while reader.more:
-            start = reader.place
-            end = _number(reader, 4) + reader.place
+            start = reader.offset
+            end = _number(reader, 4) + reader.offset
             if _number(reader, 2) == _VERSION:
                 self._read_unit(reader, start, end)
-            reader.place = end
+            reader.offset = end
 
     def variables(self) -> Iterator[tuple[str, int, Entry]]:
         """Yield name, offset in the module's data and type of each variable that has a place."""
@@ -101,8 +101,8 @@ class DebugInfo:
         abbreviations = self._read_abbreviations(_number(reader, 4))
         reader.bytes(1)  # the size of an address
         path: list[Entry] = []
-        while reader.place < end:
-            place = reader.place
+        while reader.offset < end:
+            place = reader.offset
             code = reader.uleb()
             if code == 0:
                 if path:
@@ -139,8 +139,8 @@ class DebugInfo:
         if form == _STRING_REFERENCE:
             return _text(self._strings, _number(reader, 4))
         if form == _STRING:
-            text = _text(self._info, reader.place)
-            reader.place = self._info.index(0, reader.place) + 1
+            text = _text(self._info, reader.offset)
+            reader.offset = self._info.index(0, reader.offset) + 1
             return text
         if form == _SIGNED:
             return reader.sleb()

@@ -56,10 +56,10 @@ def read_line_table(section: bytes) -> LineTable:
     reader = Reader(section)
     while reader.more:
         length = _u32(reader)
-        end = reader.place + length
+        end = reader.offset + length
         if _u16(reader) == _VERSION:
-            rows += _Program(section, reader.place, end).rows()
-        reader.place = end
+            rows += _Program(section, reader.offset, end).rows()
+        reader.offset = end
     return LineTable(rows)
 
 
@@ -77,7 +77,7 @@ class _Program:
     def __init__(self, section: bytes, place: int, end: int) -> None:
         reader = self._reader = Reader(section, place, end)
         header = _u32(reader)
-        start = reader.place + header
+        start = reader.offset + header
         self._minimum = reader.byte()
         reader.byte()  # operations per instruction: one
         reader.byte()  # whether lines are statements by default: all count here
@@ -88,7 +88,7 @@ class _Program:
         self._lengths = [reader.byte() for _ in range(self._opcode_base - 1)]
         self._files = self._read_files()
         self._address, self._file, self._line = 0, 1, 1
-        reader.place = start
+        reader.offset = start
 
     def _read_files(self) -> list[str]:
         reader = self._reader
@@ -119,14 +119,14 @@ class _Program:
 
     def _extended(self) -> Iterator[Row]:
         reader = self._reader
-        end = reader.uleb() + reader.place
+        end = reader.uleb() + reader.offset
         kind = reader.byte()
         if kind == _SET_ADDRESS:
-            self._address = int.from_bytes(reader.bytes(end - reader.place), "little")
+            self._address = int.from_bytes(reader.bytes(end - reader.offset), "little")
         elif kind == _END_SEQUENCE:
             yield Row(self._address, "", 0)
             self._address, self._file, self._line = 0, 1, 1
-        reader.place = end
+        reader.offset = end
 
     def _standard(self, code: int) -> None:
         reader = self._reader

@@ -23,22 +23,22 @@ def executed_blocks(scopes: Iterable[Scope]) -> Mapping[DataType[object], tuple[
 
     A class executes a block of its name if both data blocks have the same members.
     """
-    classes = {made.__name__: (place, made) for place, made in _classes()}
+    classes = {made.__name__: (module, made) for module, made in _classes()}
     found: dict[DataType[object], tuple[str, str]] = {}
     for block in (block for scope in scopes for block in scope.function_blocks):
-        place, made = classes.get(block.name, ("", None))
+        module, made = classes.get(block.name, ("", None))
         if made is not None and block.data_type is not None and _is_same(block.data_type, made):
-            found[block.data_type] = (place, block.name)
+            found[block.data_type] = (module, block.name)
     return found
 
 
 def _classes() -> Iterator[tuple[str, type[FunctionBlock]]]:
     for info in pkgutil.iter_modules(plcsim.library.__path__):
         if info.ispkg:
-            place = f"{plcsim.library.__name__}.{info.name}"
-            for made in vars(import_module(place)).values():
+            module = f"{plcsim.library.__name__}.{info.name}"
+            for made in vars(import_module(module)).values():
                 if isinstance(made, type) and issubclass(made, FunctionBlock):
-                    yield place, made
+                    yield module, made
 
 
 def _is_same(data_type: DataBlockType[object], made: type[FunctionBlock]) -> bool:

@@ -61,10 +61,10 @@ class TagValues:
         missing = [i for i, tag in enumerate(tags) if not reader.directory.holds(tag)]
         if missing:
             self._stream = reader.samples()
-        self._places = dict(self._ask(missing))
+        self._offsets = dict(self._ask(missing))
 
     def _ask(self, missing: Sequence[int]) -> Iterator[tuple[int, tuple[int, int]]]:
-        """Ask for samples; give for each tag the number of its sample and its place in it."""
+        """Ask for samples; give for each tag the number of its sample and its offset in it."""
         spans: list[tuple[int, int]] = []
         size = 0
         for index in sorted(missing, key=lambda index: self._tags[index].address):
@@ -114,13 +114,13 @@ class TagValues:
         for index, tag in enumerate(self._tags):
             size = tag.data_type.size
             data: bytes | None
-            if index in self._places:
-                request, place = self._places[index]
+            if index in self._offsets:
+                request, offset = self._offsets[index]
                 sample = self._samples.get(request)
-                data = None if sample is None else sample[place : place + size]
+                data = None if sample is None else sample[offset : offset + size]
             else:
-                place = directory.place_of(tag.address, size)
-                data = snapshot[place : place + size]
+                offset = directory.offset_of(tag.address, size)
+                data = snapshot[offset : offset + size]
             is_forced = any(a < tag.address + size and tag.address < b for a, b in forces)
             rows.append(TagValue(tag, data, is_forced))
         return number, rows

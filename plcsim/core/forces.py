@@ -69,17 +69,17 @@ class Forces:
                 or it is constant.
             PageFault: the tag does not lie in PLC memory.
         """
-        place = tag.address, tag.data_type.size
+        span = tag.address, tag.data_type.size
         if tag.is_constant:
             raise TagError(f"tag {tag.path} is CONSTANT")
         if len(data) != tag.data_type.size:
             raise TagError(f"tag {tag.path}: {len(data)} bytes are not a {tag.data_type}")
-        self._memory.check(*place)
-        if place not in self._forces:
+        self._memory.check(*span)
+        if span not in self._forces:
             for other in self._forces.values():
                 if _overlap(tag, other.tag):
                     raise TagError(f"tag {tag.path} overlaps {other.tag.path}, which is forced")
-        self._forces[place] = Force(tag, bytes(data), source)
+        self._forces[span] = Force(tag, bytes(data), source)
         self._changed()
 
     def release(self, tag: Tag) -> bool:

@@ -74,9 +74,9 @@ def prepare(
 
     if not params and not results:
         return run
-    places = [CTYPES[code].from_buffer(slots, SLOT * i) for i, code in enumerate(params)]
+    holders = [CTYPES[code].from_buffer(slots, SLOT * i) for i, code in enumerate(params)]
     result = CTYPES[results].from_buffer(slots) if results else None
-    return _with_values(run, places, result)
+    return _with_values(run, holders, result)
 
 
 def _argument(number: int) -> Any:
@@ -84,25 +84,25 @@ def _argument(number: int) -> Any:
     return byref(ctypes.c_char.from_address(number))  # never looked at: only the address is taken
 
 
-def _with_values(run: Callable[[], None], places: list[Any], result: Any) -> Callable[..., Any]:
+def _with_values(run: Callable[[], None], holders: list[Any], result: Any) -> Callable[..., Any]:
     """Return ``run`` with values put into its slots before, and one taken out after."""
 
     def call(*values: Any) -> Any:
-        if len(values) != len(places):
-            raise TypeError(f"{len(places)} arguments are needed, not {len(values)}")
-        for place, value in zip(places, values):  # noqa: B905  # equally many, and strict costs
-            place.value = value
+        if len(values) != len(holders):
+            raise TypeError(f"{len(holders)} arguments are needed, not {len(values)}")
+        for holder, value in zip(holders, values):  # noqa: B905  # equally many, and strict costs
+            holder.value = value
         run()
         return result.value if result is not None else None
 
     def call_with_one(value: Any) -> Any:
-        place.value = value
+        holder.value = value
         run()
         return result.value if result is not None else None
 
-    if len(places) != 1:
+    if len(holders) != 1:
         return call
-    (place,) = places
+    (holder,) = holders
     return call_with_one
 
 

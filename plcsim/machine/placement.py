@@ -236,10 +236,10 @@ class _Placer:
             if reader.uleb() != 0:
                 raise MachineError("a module fills the table of functions in an unknown way")
             out += b"\0" + _i32_const(constant(reader, self._constants)) + op.END
-            start = reader.place
+            start = reader.offset
             for _ in range(reader.uleb()):
                 reader.uleb()
-            out += wasm[start : reader.place]
+            out += wasm[start : reader.offset]
         return bytes(out)
 
     def _code(self, section: Section) -> tuple[bytes, list[tuple[int, int]]]:
@@ -250,7 +250,7 @@ class _Placer:
         anchors: list[tuple[int, int]] = []
         for _ in range(count):
             size = reader.uleb()
-            start = reader.place
+            start = reader.offset
             reader.bytes(size)
             body = _Body(self._module.wasm, start, start + size, self)
             out += uleb(len(body.out))
@@ -314,12 +314,12 @@ class _Body:
         for _ in range(reader.uleb()):
             reader.uleb()
             reader.byte()
-        self.out = bytearray(wasm[start : reader.place])
+        self.out = bytearray(wasm[start : reader.offset])
         self.anchors: list[tuple[int, int]] = []
-        changes, calls = _changes(wasm, reader.place, end, placer)
+        changes, calls = _changes(wasm, reader.offset, end, placer)
         if calls:
-            changes.insert(0, (reader.place, reader.place, POLL))
-        copied = reader.place
+            changes.insert(0, (reader.offset, reader.offset, POLL))
+        copied = reader.offset
         self.anchors.append((len(self.out), copied))
         for place_, behind, by in changes:
             self.out += wasm[copied:place_]
@@ -381,4 +381,4 @@ def _behind(wasm: bytes, place_: int, kind: int) -> int:
         reader.bytes(4 if kind == _F32 else 8)
     elif kind != _MORE or reader.uleb() >= _TRUNCATIONS:
         raise MachineError(f"instruction {wasm[place_ - 1]:#04x} is none that PLC programs may use")
-    return reader.place
+    return reader.offset

@@ -21,37 +21,37 @@ START, ELEMENTS, CODE, DATA, DATA_COUNT = range(8, 13)
 
 
 class Reader:
-    """Reads values from a place in bytes on; the place moves on with each.
+    """Reads values from an offset in bytes on; the offset moves on with each.
 
     Raises:
         MachineError: from any method, where the bytes end too early or make no sense.
     """
 
-    __slots__ = ("_data", "end", "place")
+    __slots__ = ("_data", "end", "offset")
 
-    def __init__(self, data: bytes, place: int = 0, end: int | None = None) -> None:
+    def __init__(self, data: bytes, offset: int = 0, end: int | None = None) -> None:
         self._data = data
-        self.place = place
+        self.offset = offset
         self.end = len(data) if end is None else min(end, len(data))
 
     @property
     def more(self) -> bool:
         """Whether there is something left."""
-        return self.place < self.end
+        return self.offset < self.end
 
     def byte(self) -> int:
         """Read one byte."""
-        if self.place >= self.end:
+        if self.offset >= self.end:
             raise MachineError("the module ends in the middle of something")
-        self.place += 1
-        return self._data[self.place - 1]
+        self.offset += 1
+        return self._data[self.offset - 1]
 
     def bytes(self, count: int) -> bytes:
         """Read some bytes."""
-        if count > self.end - self.place:
+        if count > self.end - self.offset:
             raise MachineError("the module ends in the middle of something")
-        self.place += count
-        return self._data[self.place - count : self.place]
+        self.offset += count
+        return self._data[self.offset - count : self.offset]
 
     def uleb(self) -> int:
         """Read an unsigned LEB128 number of at most 64 bits."""
@@ -65,9 +65,9 @@ class Reader:
 
     def sleb(self) -> int:
         """Read a signed LEB128 number of at most 64 bits."""
-        start = self.place
+        start = self.offset
         value = self.uleb()
-        bits = 7 * (self.place - start)
+        bits = 7 * (self.offset - start)
         return value - (1 << bits) if value >> (bits - 1) else value
 
     def name(self) -> str:
@@ -81,8 +81,8 @@ class Section(NamedTuple):
     Attributes:
         number: `CUSTOM` and so on.
         name: of a custom section, "" of others.
-        start: place of its content in the module.
-        end: place behind it.
+        start: offset of its content in the module.
+        end: offset behind it.
     """
 
     number: int
@@ -102,11 +102,11 @@ def sections(wasm: bytes) -> Iterator[Section]:
     reader = Reader(wasm, len(HEADER))
     while reader.more:
         number, size = reader.byte(), reader.uleb()
-        start = reader.place
+        start = reader.offset
         reader.bytes(size)
         inner = Reader(wasm, start, start + size)
         name = inner.name() if number == CUSTOM else ""
-        yield Section(number, name, inner.place, start + size)
+        yield Section(number, name, inner.offset, start + size)
 
 
 class Import(NamedTuple):
@@ -118,8 +118,8 @@ class Import(NamedTuple):
         kind: 0 a function, 1 a table, 2 a memory, 3 a global variable.
         type: index of the type of a function, value type of a variable.
         mutable: of a variable.
-        start: place of the entry in the module.
-        end: place behind it.
+        start: offset of the entry in the module.
+        end: offset behind it.
     """
 
     module: str
@@ -139,7 +139,7 @@ def imports(wasm: bytes, section: Section) -> Iterator[Import]:
     """Yield the entries of an import section."""
     reader = Reader(wasm, section.start, section.end)
     for _ in range(reader.uleb()):
-        start = reader.place
+        start = reader.offset
         module, name, kind = reader.name(), reader.name(), reader.byte()
         type_, mutable = 0, False
         if kind == FUNCTION:
@@ -150,7 +150,7 @@ def imports(wasm: bytes, section: Section) -> Iterator[Import]:
             _skip_limits(reader, kind)
         else:
             raise MachineError(f"import {module}.{name} is of the unknown kind {kind}")
-        yield Import(module, name, kind, type_, mutable, start, reader.place)
+        yield Import(module, name, kind, type_, mutable, start, reader.offset)
 
 
 def _skip_limits(reader: Reader, kind: int) -> None:

@@ -127,14 +127,14 @@ def _read_memory_info(module: SharedModule, section: Section) -> None:
     reader = Reader(module.wasm, section.start, section.end)
     while reader.more:
         kind, size = reader.byte(), reader.uleb()
-        end = reader.place + size
+        end = reader.offset + size
         if kind == _MEMORY_INFO:
             module.memory_size, power = reader.uleb(), reader.uleb()
             module.table_size = reader.uleb()
             if power > _LARGEST_ALIGNMENT:
                 raise MachineError(f"the module wants its data aligned to 2**{power} bytes")
             module.memory_alignment = 1 << power
-        reader.place = end
+        reader.offset = end
 
 
 def _own_variables(module: SharedModule, section: Section) -> Iterator[int]:

@@ -118,10 +118,10 @@ def list_tags(options: argparse.Namespace) -> int:
         table.add_column(column, no_wrap=column == "tag")
     for entry in _entries(tag_map):
         point = entry.point
-        place = f"{point.offset}.{point.bit}" if point.bit >= 0 else str(point.offset)
+        offset = f"{point.offset}.{point.bit}" if point.bit >= 0 else str(point.offset)
         order = point.order if point.registers > 1 else ""
         table.add_row(
-            point.tag, point.area, place, entry.modicon6, entry.type, order, point.access,
+            point.tag, point.area, offset, entry.modicon6, entry.type, order, point.access,
             entry.row.unit,
         )  # fmt: skip
     CommandConsole().print(table)

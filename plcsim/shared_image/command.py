@@ -284,9 +284,9 @@ def _operations(operations: Iterable[Operation]) -> bytes:
                 masks = MASKS.pack(and_mask, or_mask)
                 parts += OPERATION.pack(address, len(masks), MASK), masks
             case Scatter(addresses, data):
-                places = struct.pack(f"<{len(addresses)}I", *addresses)
-                size = len(places) + len(data)
-                parts += OPERATION.pack(0, size, SCATTER), places, data
+                offsets = struct.pack(f"<{len(addresses)}I", *addresses)
+                size = len(offsets) + len(data)
+                parts += OPERATION.pack(0, size, SCATTER), offsets, data
     return b"".join(parts)
 
 

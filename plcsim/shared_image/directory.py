@@ -71,30 +71,30 @@ class Directory:
     def holds(self, tag: Tag) -> bool:
         """Return True for a tag that every snapshot holds."""
         try:
-            self.place_of(tag.address, tag.data_type.size)
+            self.offset_of(tag.address, tag.data_type.size)
         except ImageError:
             return False
         return True
 
-    def place_of(self, address: int, size: int) -> int:
+    def offset_of(self, address: int, size: int) -> int:
         """Return where the bytes of a variable lie in a snapshot.
 
         Raises:
             ImageError: the snapshot does not hold them.
         """
-        firsts, places = self._index
+        firsts, offsets = self._index
         found = bisect_right(firsts, address) - 1
         if found >= 0:
-            first, length, place = places[found]
+            first, length, offset = offsets[found]
             if address + size <= first + length:
-                return place + address - first
+                return offset + address - first
         raise ImageError(f"the image does not hold address 16#{address:08X}")
 
     @cached_property
     def _index(self) -> tuple[list[int], list[tuple[int, int, int]]]:
-        """The spans by address, each with its place in a snapshot."""
-        places = accumulate((size for _, size in self.spans), initial=0)
-        rows = sorted((*span, place) for span, place in zip(self.spans, places, strict=False))
+        """The spans by address, each with its offset in a snapshot."""
+        offsets = accumulate((size for _, size in self.spans), initial=0)
+        rows = sorted((*span, offset) for span, offset in zip(self.spans, offsets, strict=False))
         return [first for first, _, _ in rows], rows
 
     def to_bytes(self) -> bytes:

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 _FLOCK = struct.Struct("@hhqqi")
 
 
-def _lock(fd: int, kind: int, place: int) -> bool:
+def _lock(fd: int, kind: int, offset: int) -> bool:
     """Lock or unlock one byte for this open file; return False where another has it."""
     try:
-        fcntl.fcntl(fd, fcntl.F_OFD_SETLK, _FLOCK.pack(kind, os.SEEK_SET, place, 1, 0))
+        fcntl.fcntl(fd, fcntl.F_OFD_SETLK, _FLOCK.pack(kind, os.SEEK_SET, offset, 1, 0))
     except OSError:
         return False
     return True

@@ -130,10 +130,10 @@ class Inbox:
         """Note what a record asks for; one that makes no sense is answered: False."""
         try:
             if taken.kind == WRITE:
-                taken.plan = self._hands.stores.plan(taken.place, taken.count)
+                taken.plan = self._hands.stores.plan(taken.record, taken.count)
                 taken.owners = taken.plan.owners
                 return True
-            command = taken.command = decode_command(bytes(taken.place))
+            command = taken.command = decode_command(bytes(taken.record))
         except ValueError:
             taken.answer(Outcome.NO_COMMAND)
             return False
@@ -149,9 +149,9 @@ class Inbox:
 
     def _apply(self, taken: Taken) -> int:
         """Do what a record asks for; return as how many commands it counts."""
-        note_time(taken.place, self._hands.time_ns)
+        note_time(taken.record, self._hands.time_ns)
         if taken.plan is not None:
-            self._hands.stores.apply(taken.place, taken.plan)
+            self._hands.stores.apply(taken.record, taken.plan)
             self._applied.append(taken)
             return 1 + taken.plan.work // STEPS_PER_COMMAND
         if taken.command is not None:

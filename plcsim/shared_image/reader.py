@@ -72,8 +72,8 @@ class ImageReader:
         self._producer: Producer | None = None
         if ring is not None:
             at = self._regions.rings[ring]
-            place = view[at : at + layout.RING_SIZE]
-            self._producer = Producer(self._cells, place, layout.ring_cells(ring))
+            area = view[at : at + layout.RING_SIZE]
+            self._producer = Producer(self._cells, area, layout.ring_cells(ring))
 
     def _check_layout(self) -> None:
         if self._cells[layout.CELL_HASH] != self._hash:

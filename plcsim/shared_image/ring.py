@@ -118,7 +118,7 @@ class Taken:
     Attributes:
         kind: of the command, 0 for filling.
         count: of its operations.
-        place: the record in the ring, where its answer goes to.
+        record: the record in the ring, where its answer goes to.
         end: position behind it.
         is_answered: its place may be used again.
         owners: of what it writes, as bits; noted by whoever took it, like the next two.
@@ -126,12 +126,12 @@ class Taken:
         command: another command.
     """
 
-    __slots__ = ("command", "count", "end", "is_answered", "kind", "owners", "place", "plan")
+    __slots__ = ("command", "count", "end", "is_answered", "kind", "owners", "plan", "record")
 
-    def __init__(self, kind: int, count: int, place: memoryview[int], end: int) -> None:
+    def __init__(self, kind: int, count: int, record: memoryview[int], end: int) -> None:
         self.kind = kind
         self.count = count
-        self.place = place
+        self.record = record
         self.end = end
         self.is_answered = not kind
         self.owners = 0
@@ -140,12 +140,12 @@ class Taken:
 
     def answer(self, outcome: Outcome) -> None:
         """Answer the record; what else is noted in it must be there already."""
-        self.place[OUTCOME_AT] = outcome.value
+        self.record[OUTCOME_AT] = outcome.value
         self.is_answered = True
 
     def applied(self) -> None:
         """Answer the record by `Outcome.APPLIED`."""
-        self.place[OUTCOME_AT] = _APPLIED
+        self.record[OUTCOME_AT] = _APPLIED
         self.is_answered = True
 
 

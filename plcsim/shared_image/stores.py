@@ -28,7 +28,7 @@ class _Scatter(NamedTuple):
     """Single bytes from the record at ``at`` to places among the variables."""
 
     at: int
-    places: Sequence[int]
+    offsets: Sequence[int]
 
 
 class _Mask(NamedTuple):
@@ -138,17 +138,17 @@ class Stores:
 def _ranges(step: Store | _Scatter | _Mask) -> list[tuple[int, int]]:
     """Return where a step has stored something, as places among the variables."""
     if isinstance(step, _Scatter):
-        return [(place, place + 1) for place in step.places]
+        return [(offset, offset + 1) for offset in step.offsets]
     return [(step.start, step.start + 2)] if isinstance(step, _Mask) else [step[1:]]
 
 
 def _scatter(variables: memoryview[int], record: memoryview[int], step: _Scatter) -> None:
-    at, places = step
-    behind = at + len(places)
+    at, offsets = step
+    behind = at + len(offsets)
     data = bytes(record[at:behind])
-    record[at:behind] = bytes([variables[place] for place in places])
-    for place, value in zip(places, data, strict=True):
-        variables[place] = value
+    record[at:behind] = bytes([variables[offset] for offset in offsets])
+    for offset, value in zip(offsets, data, strict=True):
+        variables[offset] = value
 
 
 def _other(

@@ -82,8 +82,8 @@ class StreamWriter:
         oldest = self._head + filling + size - self._size
         if self._tail < oldest:
             while self._tail < oldest:
-                place = self._tail % self._size
-                self._tail += _SIZE.unpack_from(self._ring, place)[0] or self._size - place
+                offset = self._tail % self._size
+                self._tail += _SIZE.unpack_from(self._ring, offset)[0] or self._size - offset
             self._cells[self._at.tail] = self._tail
         if filling:
             _SIZE.pack_into(self._ring, start, 0)

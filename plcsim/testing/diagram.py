@@ -61,8 +61,8 @@ def step_for(tags: Sequence[Tag], cycles: int) -> int:
 def foot_of(cycles: Sequence[int], step: int) -> str:
     """Return the line that numbers every tenth cycle."""
     line = ""
-    for place, cycle in enumerate(cycles):
-        column = place * step
+    for index, cycle in enumerate(cycles):
+        column = index * step
         if cycle % 10 in (0, 5) and column >= len(line):
             line = line.ljust(column) + f"|{cycle} "
     return line
@@ -83,5 +83,5 @@ def _curve(values: Sequence[object], step: int) -> str:
     numbers = [value for value in values if isinstance(value, int | float)]
     low, high = min(numbers), max(numbers)
     span = (high - low) or 1
-    places = (int((number - low) / span * (len(LEVELS) - 1) + 0.5) for number in numbers)
-    return "".join(LEVELS[place] * step for place in places) + f"  {low:.6g} to {high:.6g}"
+    heights = (int((number - low) / span * (len(LEVELS) - 1) + 0.5) for number in numbers)
+    return "".join(LEVELS[index] * step for index in heights) + f"  {low:.6g} to {high:.6g}"

@@ -278,32 +278,32 @@ class Sequencer:
         if self._present() != self._steps[0]:
             self._fail(0, f"it is {self._text(self._present())} at the start")
         begin_ns = since_ns = plc.time_ns
-        for place, wanted in enumerate(self._steps[1:], 1):
-            before = self._steps[place - 1]
+        for index, wanted in enumerate(self._steps[1:], 1):
+            before = self._steps[index - 1]
             rest_ns = begin_ns + limit_ns - plc.time_ns
             if not plc.advance(max(1, rest_ns), partial(self._has_left, before)):
-                self._fail(place, f"it was still {self._text(before)} at the end of the time")
+                self._fail(index, f"it was still {self._text(before)} at the end of the time")
             if self._present() != wanted:
-                self._fail(place, f"{self._text(self._present())} came")
-            self._check_duration(place - 1, plc.last_release_ns - since_ns)
+                self._fail(index, f"{self._text(self._present())} came")
+            self._check_duration(index - 1, plc.last_release_ns - since_ns)
             since_ns = plc.last_release_ns
 
     def _has_left(self, raw: tuple[bytes, ...]) -> bool:
         return self._present() != raw
 
-    def _check_duration(self, place: int, seen_ns: int) -> None:
-        wanted_ns = self._durations_ns[place]
+    def _check_duration(self, index: int, seen_ns: int) -> None:
+        wanted_ns = self._durations_ns[index]
         # the first step has begun before we looked, so it can only be too long
-        too_short = place > 0 and wanted_ns is not None and seen_ns < wanted_ns - self._tolerance_ns
+        too_short = index > 0 and wanted_ns is not None and seen_ns < wanted_ns - self._tolerance_ns
         if wanted_ns is None or not (too_short or seen_ns > wanted_ns + self._tolerance_ns):
             return
         self._fail(
-            place,
+            index,
             f"it stayed for {format_duration(seen_ns)} instead of {format_duration(wanted_ns)} "
             f"(tolerance {format_duration(self._tolerance_ns)})",
         )
 
-    def _fail(self, place: int, what: str) -> NoReturn:
+    def _fail(self, index: int, what: str) -> NoReturn:
         whole = " → ".join(self._text(raw) for raw in self._steps)
-        step = f"step {place + 1}, {self._text(self._steps[place])}"
+        step = f"step {index + 1}, {self._text(self._steps[index])}"
         self._plc.fail(f"expected {self._name} to go {whole}; at {step}: {what}", self._paths)

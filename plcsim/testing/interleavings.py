@@ -86,11 +86,11 @@ def interleavings(
     numbers = [c.number for c in chosen]
 
     def one(index: int) -> Interleaving:
-        place: dict[int, int] = {}
+        chosen: dict[int, int] = {}
         for number, choices in zip(reversed(numbers), reversed(offsets), strict=True):
             index, digit = divmod(index, len(choices))
-            place[number] = choices[digit]
-        return Interleaving(dict(sorted(place.items())), overruns[index])
+            chosen[number] = choices[digit]
+        return Interleaving(dict(sorted(chosen.items())), overruns[index])
 
     if count <= most:
         return map(one, range(count))

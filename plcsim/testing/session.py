@@ -315,8 +315,8 @@ def _saved(item: pytest.Item, traces: list[Trace], failure: str) -> list[str]:
         return []
     name = re.sub(r"[^\w.+-]+", "_", item.nodeid.rpartition("/")[2])
     lines = []
-    for place, trace in enumerate(traces):
-        suffix = f"-{place + 1}" if len(traces) > 1 else ""
+    for index, trace in enumerate(traces):
+        suffix = f"-{index + 1}" if len(traces) > 1 else ""
         try:
             files = trace.save(folder, name + suffix, item.name, failure)
         except OSError as err:

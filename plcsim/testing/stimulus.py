@@ -74,13 +74,13 @@ def _check_head(file: Path, head: Sequence[str], tags: Tags) -> None:
             raise StimulusError(f"{file}:1: {err}") from None
 
 
-def _stimulus(place: str, head: Sequence[str], row: Sequence[str], tags: Tags) -> Stimulus:
+def _stimulus(location: str, head: Sequence[str], row: Sequence[str], tags: Tags) -> Stimulus:
     if len(row) != len(head):
-        raise StimulusError(f"{place}: {len(row)} cells under {len(head)} column names")
+        raise StimulusError(f"{location}: {len(row)} cells under {len(head)} column names")
     try:
         time_ns = _time_ns(head[0], row[0].strip())
     except ValueError as err:
-        raise StimulusError(f"{place}: {head[0]}: {err}") from None
+        raise StimulusError(f"{location}: {head[0]}: {err}") from None
     values: dict[str, object] = {}
     for name, cell in zip(head[1:], row[1:], strict=True):
         if name in PASSED_OVER or not cell.strip():
@@ -89,7 +89,7 @@ def _stimulus(place: str, head: Sequence[str], row: Sequence[str], tags: Tags) -
             values[name] = value_of(tags.find(name).data_type, cell.strip())
             tags.encode(name, values[name])
         except (ValueError, TagError) as err:
-            raise StimulusError(f"{place}: {name}: {err}") from None
+            raise StimulusError(f"{location}: {name}: {err}") from None
     return Stimulus(time_ns, values)
 
 

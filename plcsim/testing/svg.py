@@ -92,8 +92,8 @@ def timing_diagram(
         shown = failure if len(failure) <= room else failure[: room - 1] + "…"
         parts.append(label(12, top - 12, shown, "alarm"))
         parts.append(f'<line class="limit" x1="{x}" y1="{top}" x2="{x}" y2="{bottom}"/>')
-    for place, (tag, changes) in enumerate(lanes):
-        y = top + place * (LANE + GAP)
+    for bucket, (tag, changes) in enumerate(lanes):
+        y = top + bucket * (LANE + GAP)
         parts.append(label(12, y + LANE / 2 + 4, tag.path))
         parts += _lane(tag, changes, scale, y)
     return document(WIDTH, bottom + 26, "\n".join(parts))
@@ -212,16 +212,16 @@ def histogram(
     step = (width - 2 * left) / max(count, 8)
     most = max(bars.values(), default=1)
     parts: list[str] = []
-    for place, amount in sorted(bars.items()):
+    for bucket, amount in sorted(bars.items()):
         size = max(1.5, amount / most * 58)
-        x = left + (place - low) * step
+        x = left + (bucket - low) * step
         parts.append(
             f'<rect class="bar" x="{x:.1f}" y="{bottom - size:.1f}" '
             f'width="{max(1.0, step - 1):.1f}" height="{size:.1f}"/>'
         )
     parts += _number_axis(low, max(count, 8), (left, width - left, bottom + 14), text_of)
     if limit_ns:
-        x = left + (_place(limit_ns) - low) * step
+        x = left + (_bucket(limit_ns) - low) * step
         if left <= x <= width - left:
             parts.append(f'<line class="limit" x1="{x:.1f}" y1="8" x2="{x:.1f}" y2="{bottom}"/>')
     parts.append(
@@ -231,10 +231,10 @@ def histogram(
 
 
 def _number_axis(
-    low: int, bars: int, place: tuple[float, float, float], text_of: Callable[[int], str]
+    low: int, bars: int, bucket: tuple[float, float, float], text_of: Callable[[int], str]
 ) -> list[str]:
     """Return the labels below the bars: at both ends and between."""
-    left, right, y = place
+    left, right, y = bucket
     anchors = ("start", "middle", "middle", "middle", "end")
     parts = []
     for quarter, anchor in enumerate(anchors):
@@ -244,19 +244,19 @@ def _number_axis(
     return parts
 
 
-def _place(duration_ns: int) -> int:
+def _bucket(duration_ns: int) -> int:
     """Return the bar of a duration: four bars double it."""
-    place = 0
-    while 2 ** ((place + 1) / 4) <= max(1, duration_ns):
-        place += 1
-    return place
+    bucket = 0
+    while 2 ** ((bucket + 1) / 4) <= max(1, duration_ns):
+        bucket += 1
+    return bucket
 
 
 def _log_bars(buckets: Sequence[tuple[int, int]]) -> dict[int, int]:
     bars: dict[int, int] = {}
     for end_ns, count in buckets:
-        place = _place(end_ns)
-        bars[place] = bars.get(place, 0) + count
+        bucket = _bucket(end_ns)
+        bars[bucket] = bars.get(bucket, 0) + count
     return bars
 
 

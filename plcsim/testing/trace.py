@@ -56,7 +56,7 @@ class Trace:
         self.tags = tuple(tags)
         self.rows: list[Row] = []
         self.end_ns = 0
-        self._places = {tag.path.upper(): place for place, tag in enumerate(self.tags)}
+        self._indices = {tag.path.upper(): index for index, tag in enumerate(self.tags)}
 
     def add(self, row: Row) -> None:
         """Add the values after a cycle; rows come in the order of cycles."""
@@ -72,12 +72,12 @@ class Trace:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def _place(self, path: str) -> int:
-        place = self._places.get(path.upper())
-        if place is None:
+    def _index(self, path: str) -> int:
+        index = self._indices.get(path.upper())
+        if index is None:
             known = ", ".join(tag.path for tag in self.tags)
             raise PlcTestError(f"the trace has no tag {path!r}; it has {known}")
-        return place
+        return index
 
     def __getitem__(self, path: str) -> list[tuple[int, object]]:
         """Return the changes of a tag as (time_ns, value), its first value included.
@@ -85,13 +85,13 @@ class Trace:
         Raises:
             PlcTestError: the tag was not recorded.
         """
-        place = self._place(path)
+        index = self._index(path)
         changes: list[tuple[int, object]] = []
         last = None
         for row in self.rows:
-            if row.raw[place] != last:
-                last = row.raw[place]
-                changes.append((row.time_ns, decode(self.tags[place].data_type, last)))
+            if row.raw[index] != last:
+                last = row.raw[index]
+                changes.append((row.time_ns, decode(self.tags[index].data_type, last)))
         return changes
 
     def values(self, path: str) -> list[object]:
@@ -105,10 +105,10 @@ class Trace:
             PlcTestError: the tag was not recorded, or not yet at that time.
         """
         changes = self[path]
-        place = bisect_right(changes, parse_duration_ns(time), key=lambda change: change[0])
-        if not place:
+        index = bisect_right(changes, parse_duration_ns(time), key=lambda change: change[0])
+        if not index:
             raise PlcTestError(f"{path} was not recorded yet at {time}")
-        return changes[place - 1][1]
+        return changes[index - 1][1]
 
     def to_csv(self) -> str:
         """Return the trace as CSV: time_ns, task_class, cycle, and a column for each tag.
@@ -142,11 +142,11 @@ class Trace:
         lanes = []
         for tag in self.tags:
             changes = self[tag.path]
-            places = [(t - start_ns) * (columns - 1) // span_ns for t, _ in changes]
-            ends = [*places[1:], columns]
+            starts = [(t - start_ns) * (columns - 1) // span_ns for t, _ in changes]
+            ends = [*starts[1:], columns]
             values = [
                 value
-                for (_, value), start, end in zip(changes, places, ends, strict=True)
+                for (_, value), start, end in zip(changes, starts, ends, strict=True)
                 for _ in range(end - start)
             ]
             lanes.append((tag, values))

@@ -170,8 +170,8 @@ class World(ABC):
                 peer.step()
             self.faults.apply()
         except Exception as error:  # whatever a test's own code raises
-            place = location_of(error)
+            location = location_of(error)
             raise PlantError(
                 f"{actor} raised in cycle {task_class.cycles} at {time_ns / 1e6:g} ms: "
-                f"{describe(error)}" + (f" ({place})" if place else "")
+                f"{describe(error)}" + (f" ({location})" if location else "")
             ) from None

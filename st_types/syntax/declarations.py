@@ -95,8 +95,8 @@ class DeclarationParser(SpecificationParser):
 
     def _check_end(self) -> None:
         trivia = self.trivia[self.index]
-        if (place := open_comment(trivia)) is not None:
-            start = self.tokens.offset(self.index) - len(trivia) + place
+        if (opened := open_comment(trivia)) is not None:
+            start = self.tokens.offset(self.index) - len(trivia) + opened
             self.diagnostics.error(start, "the comment that starts here is never closed")
         if self.tokens.truncated:
             message = f"the file has more than {MAX_TOKENS} tokens; the rest is not read"

@@ -260,9 +260,9 @@ def unnest_comments(text: str) -> str | None:
     not meant so, as in ``(* see (* below *)``.
     """
     inner: list[int] = []
-    depth = place = 0
-    while match := (_INSIDE if depth else _OUTSIDE).search(text, place):
-        place = match.end()
+    depth = offset = 0
+    while match := (_INSIDE if depth else _OUTSIDE).search(text, offset):
+        offset = match.end()
         opens = match.group() == "(*"
         if depth > (0 if opens else 1):
             inner.append(match.start())

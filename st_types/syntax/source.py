@@ -25,7 +25,7 @@ _UTF16 = {BOM_UTF16_LE: "utf-16-le", BOM_UTF16_BE: "utf-16-be"}
 
 
 class Location(NamedTuple):
-    """A place in a file; line and column count from 1, columns count characters."""
+    """A location in a file; line and column count from 1, columns count characters."""
 
     path: str
     line: int

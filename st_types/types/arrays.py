@@ -47,35 +47,35 @@ class Array(Generic[V]):
         self._low = data_type.bounds[0][0]
         self._count = data_type.count if len(data_type.bounds) == 1 else 0
 
-    def _place(self, index: Index) -> int:
+    def _position(self, index: Index) -> int:
         if isinstance(index, int):
-            place = index - self._low
-            if 0 <= place < self._count:
-                return place
+            position = index - self._low
+            if 0 <= position < self._count:
+                return position
             return self.data_type.index_of(index)
         return self.data_type.index_of(*index)
 
-    def _load(self, place: int) -> V:
-        value: V = self._raw[place]
+    def _load(self, position: int) -> V:
+        value: V = self._raw[position]
         return value
 
-    def _store(self, place: int, value: V) -> None:
+    def _store(self, position: int, value: V) -> None:
         try:
-            self._raw[place] = value
+            self._raw[position] = value
         except TypeError:
             raise ValueRangeError(f"{value!r} is not a {self.data_type.element}.") from None
 
     def __getitem__(self, index: Index) -> V:
-        return self._load(self._place(index))
+        return self._load(self._position(index))
 
     def __setitem__(self, index: Index, value: V) -> None:
-        self._store(self._place(index), value)
+        self._store(self._position(index), value)
 
     def __len__(self) -> int:
         return self.data_type.count
 
     def __iter__(self) -> Iterator[V]:
-        return (self._load(place) for place in range(self.data_type.count))
+        return (self._load(position) for position in range(self.data_type.count))
 
     def __bytes__(self) -> bytes:
         return bytes(self._raw)
@@ -123,10 +123,10 @@ class BoolArray(Array[bool]):
 
     __slots__ = ()
 
-    def _store(self, place: int, value: bool) -> None:
+    def _store(self, position: int, value: bool) -> None:
         if value not in (False, True):
             raise ValueRangeError(f"{value!r} is not a BOOL.")
-        self._raw[place] = value
+        self._raw[position] = value
 
 
 class ConvertedArray(Array[V]):
@@ -140,16 +140,16 @@ class ConvertedArray(Array[V]):
         super().__init__(data_type, raw, address)
         self._load_raw = load
 
-    def _load(self, place: int) -> V:
-        raw = self._raw[place]
+    def _load(self, position: int) -> V:
+        raw = self._raw[position]
         return self._load_raw(getattr(raw, "value", raw))
 
-    def _store(self, place: int, value: V) -> None:
+    def _store(self, position: int, value: V) -> None:
         element = self.data_type.element
         data = encode(element, value)
         if isinstance(resolve_alias(element), StringType):
             data = data[: data.index(0) + 1]  # an assignment does not fill up with zeros
-        ctypes.memmove(ctypes.addressof(self._raw) + place * element.size, data, len(data))
+        ctypes.memmove(ctypes.addressof(self._raw) + position * element.size, data, len(data))
 
 
 class ViewArray(Array[V]):
@@ -170,11 +170,11 @@ class ViewArray(Array[V]):
         self._set = store
         self._made: dict[int, V] = {}
 
-    def _load(self, place: int) -> V:
-        view = self._made.get(place)
+    def _load(self, position: int) -> V:
+        view = self._made.get(position)
         if view is None:
-            view = self._made[place] = self._make(place)
+            view = self._made[position] = self._make(position)
         return view
 
-    def _store(self, place: int, value: V) -> None:
-        self._set(self._load(place), value)
+    def _store(self, position: int, value: V) -> None:
+        self._set(self._load(position), value)

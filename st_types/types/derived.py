@@ -95,19 +95,19 @@ class ArrayType(DataType[V_co]):
         super().__init__(name, self.count * element.size, element.alignment)
 
     def index_of(self, *indices: int) -> int:
-        """Return the zero-based place of the element at ``indices``.
+        """Return the zero-based position of the element at ``indices``.
 
         Raises:
             IndexError: the number of indices is wrong, or one is outside its bounds.
         """
         if len(indices) != len(self.bounds):
             raise IndexError(f"{self.name}: {len(self.bounds)} indices wanted, not {len(indices)}.")
-        place = 0
+        position = 0
         for index, (low, high) in zip(indices, self.bounds, strict=True):
             if not low <= index <= high:
                 raise IndexError(f"{self.name}: index {index} is outside {low}..{high}.")
-            place = place * (high - low + 1) + index - low
-        return place
+            position = position * (high - low + 1) + index - low
+        return position
 
 
 class StructType(DataType[V_co]):

@@ -56,11 +56,11 @@ def _element(data_type: DataType[Any], step: str) -> tuple[DataType[Any], int]:
     if not isinstance(data_type, ArrayType):
         raise KeyError(f"{data_type} has no elements ({step})")
     try:
-        place = data_type.index_of(*(int(i) for i in step.strip("[]").split(",")))
+        position = data_type.index_of(*(int(i) for i in step.strip("[]").split(",")))
     except (ValueError, IndexError) as err:
         raise KeyError(f"{step}: {err}") from None
     element = resolve_alias(data_type.element)
-    return element, place * element.size
+    return element, position * element.size
 
 
 def _member(data_type: StructType[Any], step: str) -> tuple[DataType[Any], int]:

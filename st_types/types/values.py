@@ -175,13 +175,13 @@ def _struct(data_type: StructType, value: object) -> bytes:  # type: ignore[type
     return bytes(image)
 
 
-def _named(place: str, data_type: DataType[object], value: object) -> bytes:
+def _named(path: str, data_type: DataType[object], value: object) -> bytes:
     try:
         return encode(data_type, value)
     except ValueRangeError as err:
         text = str(err)
         glue = "" if text.startswith((".", "[")) else ": "
-        raise ValueRangeError(f"{place}{glue}{text}") from None
+        raise ValueRangeError(f"{path}{glue}{text}") from None
 
 
 def initial_image(data_type: DataType[object]) -> bytes:

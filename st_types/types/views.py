@@ -440,9 +440,9 @@ def _array_of(
     if slot is None:
         size = element.size
 
-        def make(place: int) -> Struct | Array[Any]:
-            inner = address + place * size if address else 0
-            return view_of(element, buffer, offset + place * size, inner, context)
+        def make(position: int) -> Struct | Array[Any]:
+            inner = address + position * size if address else 0
+            return view_of(element, buffer, offset + position * size, inner, context)
 
         raw = (ctypes.c_ubyte * data_type.size).from_buffer(buffer, offset)
         return ViewArray(data_type, raw, address, make, assign)

@@ -79,12 +79,12 @@ def python_source(module: Module, title: str) -> str:
 def _imports(used: set[tuple[str, str]]) -> str:
     """Return the import statements: the standard library's, others, the modules beside."""
     groups = {"": "", "_": "", ".": ""}
-    for place in sorted({place for place, _ in used}):
-        names = sorted(name for found, name in used if found == place)
-        line = f"from {place} import {', '.join(names)}\n"
+    for module in sorted({module for module, _ in used}):
+        names = sorted(name for found, name in used if found == module)
+        line = f"from {module} import {', '.join(names)}\n"
         if len(line) > 100:
-            line = f"from {place} import (\n" + "".join(f"    {n},\n" for n in names) + ")\n"
-        kind = "." if place.startswith(".") else "" if place in _STANDARD_MODULES else "_"
+            line = f"from {module} import (\n" + "".join(f"    {n},\n" for n in names) + ")\n"
+        kind = "." if module.startswith(".") else "" if module in _STANDARD_MODULES else "_"
         groups[kind] += line
     return "".join("\n" + text for text in groups.values() if text)
 
@@ -153,8 +153,8 @@ class Module:
                 subsequent_indent="# ",
             )
 
-    def _use(self, name: str, place: str = "st_types") -> str:
-        self.imports.add((place, name))
+    def _use(self, name: str, module: str = "st_types") -> str:
+        self.imports.add((module, name))
         return name
 
     def _free(self, name: str) -> str:
@@ -214,15 +214,15 @@ class Module:
         self._imported[data_type] = self._import_as(name, f".{owner.name}")
         return True
 
-    def _import_as(self, name: str, place: str) -> str:
+    def _import_as(self, name: str, module: str) -> str:
         here = self._free(name)
-        self._use(name if here == name else f"{name} as {here}", place)
+        self._use(name if here == name else f"{name} as {here}", module)
         return here
 
     def _import_block(self, data_type: DataType[object]) -> None:
-        place, name = self._executed[data_type]
+        module, name = self._executed[data_type]
         here = self._name(data_type)
-        self._use(f"{name} as {here}", place)  # "as" makes it a name of this module for mypy too
+        self._use(f"{name} as {here}", module)  # "as" makes it a name of this module for mypy too
         self.names[data_type] = here
 
     def _assignment(self, data_type: DataType[object], value: str) -> str:

@@ -48,7 +48,7 @@ class Guest:
 
     def value(self, name: str) -> int:
         tag = self.reader.directory.find(f"main.{name}")
-        place = self.reader.directory.place_of(tag.address, tag.data_type.size)
+        place = self.reader.directory.offset_of(tag.address, tag.data_type.size)
         return int.from_bytes(self.reader.copy(place, place + tag.data_type.size)[1], "little")
 
     def address(self, name: str) -> int:

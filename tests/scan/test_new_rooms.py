@@ -47,7 +47,7 @@ SERVICE = {
         def serve(service):
             image, path = service.image, service.given["tag"]
             tag = image.directory.find(path)
-            at = image.directory.place_of(tag.address, 4)
+            at = image.directory.offset_of(tag.address, 4)
             service.serving(f"shows {path}")
             while not service.is_stopping:
                 number = int.from_bytes(image.copy(at, at + 4)[1], "little")

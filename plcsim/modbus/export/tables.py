@@ -67,14 +67,14 @@ def as_markdown(export: Export) -> str:
     lines = [f"| {' | '.join(_HEADINGS)} |", f"|{'---|' * len(_HEADINGS)}"]
     for entry in export.entries:
         point = entry.point
-        place = f"{point.offset}.{point.bit}" if point.bit >= 0 else str(point.offset)
+        offset = f"{point.offset}.{point.bit}" if point.bit >= 0 else str(point.offset)
         kind = entry.type
         if point.registers > 1 and point.kind != "s":
             kind = f"{kind} {point.order}"
         if point.is_scaled:
             kind += f" * {point.scale:g}"
         cells = (
-            f"`{entry.row.tag}`", point.area, place, entry.modicon6, kind, point.access,
+            f"`{entry.row.tag}`", point.area, offset, entry.modicon6, kind, point.access,
             entry.row.unit, entry.row.description,
         )  # fmt: skip
         lines.append(f"| {' | '.join(cell.replace('|', '/') for cell in cells)} |")

@@ -71,14 +71,14 @@ def _bytes_of(
                 addresses, was = range(address, address + 2), word.to_bytes(2, "little")
                 data = operation.applied_to(word).to_bytes(2, "little")
         new.update(zip(addresses, data, strict=True))
-        for place, value in zip(addresses, was, strict=True):
-            old.setdefault(place, value)
+        for address, value in zip(addresses, was, strict=True):
+            old.setdefault(address, value)
     return new, old
 
 
 def _value(point: Point, found: dict[int, int]) -> bool | float | str:
-    places = range(point.address, point.address + point.size)
-    data = bytes(found[place] for place in places if place in found)
+    addresses_of_point = range(point.address, point.address + point.size)
+    data = bytes(found[address] for address in addresses_of_point if address in found)
     if len(data) < point.size:
         return f"16#{data.hex().upper()}"
     return _decoded(point, data)

@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 @cache
 def wire_order(size: int, order: str) -> tuple[int, ...]:
-    """Return for each byte on the wire its place in the big-endian value.
+    """Return for each byte on the wire its index in the big-endian value.
 
     ABCD is big-endian; CDAB has the low word first; BADC swaps the bytes of each word; DCBA does
     both. Each of them undoes itself.
     """
-    places = list(range(size))
+    indices = list(range(size))
     if order in ("CDAB", "DCBA"):
-        words = [places[i : i + 2] for i in range(0, size, 2)]
-        places = [place for word in reversed(words) for place in word]
+        words = [indices[i : i + 2] for i in range(0, size, 2)]
+        indices = [index for word in reversed(words) for index in word]
     if order in ("BADC", "DCBA"):
-        places = [places[i ^ 1] for i in range(size)]
-    return tuple(places)
+        indices = [indices[i ^ 1] for i in range(size)]
+    return tuple(indices)
 
 
 def _ordered(data: bytes, order: str) -> bytes:

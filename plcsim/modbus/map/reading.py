@@ -79,7 +79,7 @@ class Reads:
 
     Args:
         points: of the map.
-        place_of: gives the offset of a variable in a snapshot from its PLC address and size.
+        offset_of: gives the offset of a variable in a snapshot from its PLC address and size.
         strict_holes: a range that touches an address without a tag is refused; otherwise such an
             address reads as 0 between the first and the last tag of its area.
     """
@@ -87,11 +87,11 @@ class Reads:
     def __init__(
         self,
         points: Sequence[Point],
-        place_of: Callable[[int, int], int],
+        offset_of: Callable[[int, int], int],
         *,
         strict_holes: bool = False,
     ) -> None:
-        self._place_of = place_of
+        self._offset_of = offset_of
         self._strict = strict_holes
         self._plans: dict[tuple[Area, int, int], _Plan] = {}
         self._by_address: dict[Area, dict[int, list[Point]]] = {area: {} for area in Area}
@@ -160,24 +160,24 @@ class Reads:
 
     def _plan(self, area: Area, address: int, count: int) -> _Plan:
         points = list(self._points(area, address, count))
-        places = {id(p): self._place_of(p.address, p.size) for p in points}
-        start = min(places.values(), default=0)
-        end = max((places[id(p)] + p.size for p in points), default=0)
+        offsets = {id(p): self._offset_of(p.address, p.size) for p in points}
+        start = min(offsets.values(), default=0)
+        end = max((offsets[id(p)] + p.size for p in points), default=0)
         width = 2 if area.has_registers else 1
         indices = [0] * (width * count)
         patches: list[_Patch] = []
         bits: list[_Bit] = []
         for point in points:
-            at = 1 + places[id(point)] - start
+            at = 1 + offsets[id(point)] - start
             first = width * (point.offset - address)
             if not area.has_registers:
                 indices[first] = at
             elif point.bit >= 0:
                 bits.append(_Bit(at, first + (point.bit < 8), 1 << point.bit % 8))
             elif point.is_plain:
-                for i, place in enumerate(wire_order(point.size, point.order)):
+                for i, index in enumerate(wire_order(point.size, point.order)):
                     if 0 <= first + i < len(indices):
-                        indices[first + i] = at + point.size - 1 - place
+                        indices[first + i] = at + point.size - 1 - index
             else:
                 skip = max(0, -first)
                 stop = min(2 * point.registers, len(indices) - first)

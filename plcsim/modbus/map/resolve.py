@@ -77,8 +77,8 @@ def resolve(rows: Iterable[Row], find: Callable[[str], Tag], file: Path, order: 
             point = _point(row, find(row.tag), order)
             _take(row, point, taken)
         except (TagError, ValueError) as err:
-            place = f"{file}:{row.line}" if row.line else str(file)
-            raise TagMapError(f"{place}: {row.tag}: {err}") from None
+            location = f"{file}:{row.line}" if row.line else str(file)
+            raise TagMapError(f"{location}: {row.tag}: {err}") from None
         points.append(point)
     return points
 

@@ -125,10 +125,10 @@ def _stores(point: Point, address: int, end: int, data: bytes) -> Iterator[Store
         yield Store(point.address, from_registers(point, data[first : first + 2 * point.registers]))
     elif point.partial:
         order = enumerate(wire_order(point.size, point.order))
-        part = {place: data[first + i] for i, place in order if 0 <= first + i < len(data)}
+        part = {index: data[first + i] for i, index in order if 0 <= first + i < len(data)}
         _check_exponent(point, part)
-        for place, value in part.items():
-            yield Store(point.address + point.size - 1 - place, bytes([value]))
+        for index, value in part.items():
+            yield Store(point.address + point.size - 1 - index, bytes([value]))
     else:
         raise IllegalAddress(f"only part of {point.tag} is written")
 
@@ -141,7 +141,7 @@ def _check_exponent(point: Point, part: dict[int, int]) -> None:
 
     Args:
         point: the tag.
-        part: bytes by their place in the big-endian value.
+        part: bytes by their index in the big-endian value.
     """
     if point.kind not in "fd" or 0 not in part:
         return

@@ -169,7 +169,7 @@ class Device:
     def __post_init__(self) -> None:
         self._pending: deque[PendingWrite] = deque()
         directory = self.image.directory
-        self.reads = Reads(self.points, directory.place_of, strict_holes=self.strict_holes)
+        self.reads = Reads(self.points, directory.offset_of, strict_holes=self.strict_holes)
         self.writes = Writes(self.points)
         self._watch = ScanWatch(directory.cycle_ns)
 

@@ -31,7 +31,7 @@ HANDSHAKE_S: Final = 10.0
 """A peer has this long to finish the handshake of TLS."""
 
 
-def place(host: str, port: int) -> str:
+def endpoint(host: str, port: int) -> str:
     """Return an address as people write it; an IPv4 peer of an IPv6 socket as IPv4."""
     host = host.removeprefix("::ffff:")
     return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
@@ -95,7 +95,7 @@ class Listener:
                 client.close()
                 continue
             client.settimeout(0)
-            entering = self._enter(client, protocol, place(*address[:2]))
+            entering = self._enter(client, protocol, endpoint(*address[:2]))
             self.entering[protocol] = asyncio.get_running_loop().create_task(entering)
 
     async def _enter(self, client: socket.socket, protocol: asyncio.Protocol, name: str) -> None:

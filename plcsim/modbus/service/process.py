@@ -12,7 +12,7 @@ from plcsim.modbus.map.point import point_from
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.service.audit import AuditLog
 from plcsim.modbus.service.device import Device, Identity
-from plcsim.modbus.service.listener import place
+from plcsim.modbus.service.listener import endpoint
 from plcsim.modbus.service.server import Server
 from plcsim.modbus.settings import settings_from
 
@@ -61,7 +61,7 @@ async def _serve(service: Service) -> None:
         server = Server(device, settings)
         await server.start(service.wake_fd)
         service.serving(
-            f"serving {len(device.points)} tags on {place(settings.host, server.port)}"
+            f"serving {len(device.points)} tags on {endpoint(settings.host, server.port)}"
             f"{' with TLS' if settings.tls else ''}"
         )
         await stopped.wait()

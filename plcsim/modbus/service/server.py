@@ -16,7 +16,7 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.ports import remedy
 from plcsim.modbus.service.connection import ModbusConnection, ModbusLimits
 from plcsim.modbus.service.handler import AccessRights, Handler
-from plcsim.modbus.service.listener import Listener, place
+from plcsim.modbus.service.listener import Listener, endpoint
 from plcsim.modbus.service.tls import rights_of, role_of
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Server:
             denied = isinstance(err, PermissionError)
             reason = remedy(port) if denied else os.strerror(err.errno or errno.EIO)
             raise ConfigurationError(
-                f"modbus: cannot listen on {place(host, port)}: {reason}"
+                f"modbus: cannot listen on {endpoint(host, port)}: {reason}"
             ) from None
         loop.set_exception_handler(self._report)
         self.port = self._listener.port
@@ -141,7 +141,7 @@ class Server:
         return sum(protocol not in self.peers for protocol in entering)
 
     def _admit(self, host: str, port: int) -> _Peer | None:
-        return _Peer(self, place(host, port)) if self.admits(host) else None
+        return _Peer(self, endpoint(host, port)) if self.admits(host) else None
 
     def rights_of(self, role: str) -> AccessRights:
         """Return what a peer may do."""

@@ -183,13 +183,13 @@ class Modbus:
 
     def _read_bits(self, area: Area, address: int, count: int, what: str = "") -> list[bool]:
         data = self._ask(struct.pack(">BHH", READ[area], address, count), what)[2:]
-        return [bool(data[place // 8] >> place % 8 & 1) for place in range(count)]
+        return [bool(data[index // 8] >> index % 8 & 1) for index in range(count)]
 
     def _read_data(self, area: Area, address: int, count: int, what: str = "") -> bytes:
         return self._ask(struct.pack(">BHH", READ[area], address, count), what)[2:]
 
     def _write_bits(self, address: int, values: Sequence[bool], what: str = "") -> None:
-        bits = sum(1 << place for place, value in enumerate(values) if value)
+        bits = sum(1 << index for index, value in enumerate(values) if value)
         size = -(-len(values) // 8)
         head = struct.pack(">BHHB", WRITE_COILS, address, len(values), size)
         self._ask(head + bits.to_bytes(size, "little"), what)

@@ -70,4 +70,4 @@ def _ordered(point: Point, data: bytes) -> bytes:
         return b"".join(
             data[i : i + 2][::-1] if swapped else data[i : i + 2] for i in range(0, len(data), 2)
         )
-    return bytes(data[place] for place in wire_order(len(data), point.order))
+    return bytes(data[index] for index in wire_order(len(data), point.order))

@@ -75,7 +75,7 @@ class World:
     def read(self, path: str) -> object:
         tag = self.reader.directory.find(path)
         size = tag.data_type.size
-        place = self.reader.directory.place_of(tag.address, size)
+        place = self.reader.directory.offset_of(tag.address, size)
         from st_types.types.values import decode
 
         return decode(tag.data_type, self.reader.copy(place, place + size)[1])

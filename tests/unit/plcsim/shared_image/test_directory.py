@@ -112,14 +112,14 @@ def test_names_near_an_unknown_tag_are_offered_as_the_scan_process_offers_them()
         directory().find("prog.flg")
 
 
-def test_the_place_of_a_variable_is_its_offset_in_the_snapshot() -> None:
+def test_an_offset_of_a_variable_in_the_snapshot() -> None:
     two = Directory("p", 5, [], [(8192, 16), (4096, 8)])
-    assert two.place_of(4100, 4) == 20
-    assert two.place_of(8192, 16) == 0
+    assert two.offset_of(4100, 4) == 20
+    assert two.offset_of(8192, 16) == 0
     with pytest.raises(ImageError, match="16#00001008"):
-        two.place_of(4104, 1)
+        two.offset_of(4104, 1)
     with pytest.raises(ImageError):
-        two.place_of(4100, 8)
+        two.offset_of(4100, 8)
 
 
 def test_the_hash_changes_with_the_layout() -> None:

@@ -90,7 +90,7 @@ import sys
 from plcsim.shared_image import ImageReader
 reader = ImageReader(int(sys.argv[1]))
 tag = reader.directory.find("fast.count")
-place = reader.directory.place_of(tag.address, 4)
+place = reader.directory.offset_of(tag.address, 4)
 copy = reader.directory.find("fast.copy").address - tag.address
 print("ready", flush=True)
 torn = 0

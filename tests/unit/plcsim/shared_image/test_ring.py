@@ -27,7 +27,7 @@ def take(consumer: Consumer) -> bytes | None:
     taken = consumer.take()
     if taken is None:
         return None
-    record = bytes(taken.place)
+    record = bytes(taken.record)
     taken.applied()
     consumer.acknowledge()
     return record

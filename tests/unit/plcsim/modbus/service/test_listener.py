@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable
 import pytest
 
 from plcsim.modbus.service import listener
-from plcsim.modbus.service.listener import Listener, place
+from plcsim.modbus.service.listener import Listener, endpoint
 
 
 class Greeter(asyncio.Protocol):
@@ -105,4 +105,4 @@ def test_without_descriptors_nobody_gets_in_until_there_are_some_again(
     ],
 )
 def test_addresses_are_written_as_people_write_them(host: str, written: str) -> None:
-    assert place(host, 502) == written
+    assert endpoint(host, 502) == written
