@@ -57,6 +57,7 @@ class Catalogue:
         self.scopes = Scopes(self.libraries)
         self._languages = languages
         self._bodies: dict[Library, dict[str, Executable]] = {}
+        self._broken: dict[Library, tuple[str, ...]] = {}
 
     def bodies(self, library: Library) -> Mapping[str, Executable]:
         """Return the bodies of a library by declared name; what has none is missing.
@@ -64,8 +65,14 @@ class Catalogue:
         Raises:
             ConfigurationError: some cannot be loaded, or one is there twice.
         """
+        if library in self._broken:
+            raise ConfigurationError(*self._broken[library])
         if library not in self._bodies:
-            self._bodies[library] = self._load(library)
+            try:
+                self._bodies[library] = self._load(library)
+            except ConfigurationError as err:
+                self._broken[library] = err.findings  # compiling it again would find the same
+                raise
         return self._bodies[library]
 
     def _load(self, library: Library) -> dict[str, Executable]:

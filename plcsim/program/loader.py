@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+from contextlib import suppress
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -210,7 +211,8 @@ class ProgramLoader:
                     f"here and in {self._layout.folder / 'globals.py'}; let one of them do it"
                 )
             shared = Variables(view, shared.constants)
-        give_views(shared.variables, self.declarations.catalogue)
+        with suppress(ConfigurationError):  # of a library, which `_check_bodies` tells
+            give_views(shared.variables, self.declarations.catalogue)
         return shared
 
     def _load(self, name: str) -> ProgramCode:

@@ -7,8 +7,10 @@ be compiled.
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from plcsim.core.errors import ConfigurationError
 from plcsim.library.simulated import LANGUAGE as TABLE
 from plcsim.library.stub import LANGUAGE as STUB
 from plcsim.program.structured_text.check.builtins import EDGES, PLACE_FUNCTIONS, rule_of
@@ -84,9 +86,10 @@ def _names(catalogue: Catalogue, space: str) -> frozenset[str]:
 
 def _stubbed_in(catalogue: Catalogue, name: str) -> str | None:
     """Return the library whose stub a name means, None where something executes it."""
-    for found in (catalogue.find_block(name), catalogue.find_function(name)):
-        if found is not None and found[1] is not None and found[1].language in (STUB, TABLE):
-            return found[0].name
+    with suppress(ConfigurationError):  # of the library that declares it; it is told elsewhere
+        for found in (catalogue.find_block(name), catalogue.find_function(name)):
+            if found is not None and found[1] is not None and found[1].language in (STUB, TABLE):
+                return found[0].name
     return None
 
 

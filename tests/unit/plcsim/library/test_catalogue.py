@@ -101,3 +101,18 @@ def test_what_has_no_body_is_idle_in_a_library_of_stubs(library):
     assert (stub.language, stub.bind(None)(4)) == ("stub", 0)
     assert {name: [*names] for name, names in found.stubbed.items()} == {"ramps": ["twice"]}
     assert Catalogue([library], []).find_function("twice")[1] is None
+
+
+def test_bodies_that_are_wrong_are_loaded_once_and_told_each_time(library):
+    class Wrong(Spoken):
+        def bodies(self, library):
+            self.asked.append(library.name)
+            raise ConfigurationError("a.c:1: wrong", "a.c:2: wrong too")
+
+    language = Wrong("A")
+    found = Catalogue([library], [language])
+    for _ in range(2):
+        with pytest.raises(ConfigurationError) as raised:
+            found.bodies(library)
+        assert raised.value.findings == ("a.c:1: wrong", "a.c:2: wrong too")
+    assert language.asked == ["ramps"]

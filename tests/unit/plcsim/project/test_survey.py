@@ -115,3 +115,26 @@ def test_a_program_that_calls_what_is_nowhere_is_left_out(surveyed, write_projec
     left = runnable(read_project(folder))
     assert left.left_out == ("Bad is left out: Bad: uses function gone, which is nowhere",)
     assert [entry.name for entry in left.programs] == ["Good"]
+
+
+@pytest.mark.usefixtures("_a_compiler")
+def test_a_library_that_does_not_compile_is_told_and_its_callers(surveyed, write_project):
+    folder = write_project(
+        {
+            "Logical/Package.pkg": ["Program:Good", "Program:Bad", "Library:Lib"],
+            "Logical/Lib/ANSIC.lby": ["File:Lib.fun", "File:Lib.c"],
+            "Logical/Lib/Lib.fun": "FUNCTION_BLOCK Broken END_FUNCTION_BLOCK",
+            "Logical/Lib/Lib.c": "this is no C;\n",
+            "Logical/Good/IEC.prg": ["File:Main.st"],
+            "Logical/Good/Main.st": "PROGRAM _CYCLIC\nEND_PROGRAM",
+            "Logical/Bad/IEC.prg": ["File:Main.st", "File:Local.var"],
+            "Logical/Bad/Local.var": "VAR block : Broken; END_VAR",
+            "Logical/Bad/Main.st": "PROGRAM _CYCLIC\nblock();\nEND_PROGRAM",
+        },
+        ["Good", "Bad"],
+    )
+    found = surveyed(folder)
+    good, bad = found.rows
+    assert good.reasons == ()
+    assert bad.reasons
+    assert any("Logical/Lib/Lib.c:1" in text for text in found.common)
