@@ -73,7 +73,7 @@ def command_tree(
             helps = {choice.dest: choice.help or "" for choice in action._choices_actions}
             commands = [
                 command_tree(inner, (*path, name), helps.get(name, ""))
-                for name, inner in action.choices.items()
+                for name, inner in action._name_parser_map.items()
             ]
         elif action.help is not argparse.SUPPRESS:
             arguments.append(_argument(parser, action))
