@@ -42,7 +42,9 @@ def test_every_key_is_there_once(example):
 def test_without_its_sign_of_a_comment_a_key_has_its_default(project):
     text = plc_toml("blinky")
     plain = read_project(project({"plc.toml": text}))
-    keys = uncommented(commented(text, "cell")).replace("exception_program", "# ")
+    keys = uncommented(commented(text, "cell"))
+    for name in ("exception_program", "start_date"):  # what they are by default cannot be written
+        keys = keys.replace(name, "# ")
     found = read_project(project({"plc.toml": keys}))
     assert found.plc == replace(plain.plc, name="cell")
     assert found.classes == plain.classes
