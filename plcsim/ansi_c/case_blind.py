@@ -49,7 +49,8 @@ def written_overlay(folders: Iterable[Path], parent: Path) -> Path:
 def _folder(path: str, depth: int, name: str | None = None) -> dict[str, Any] | None:
     contents: list[dict[str, Any]] = []
     try:
-        entries = sorted(os.scandir(path), key=lambda entry: entry.name)
+        with os.scandir(path) as found:
+            entries = sorted(found, key=lambda entry: entry.name)
     except OSError:
         return None
     for entry in entries:

@@ -90,10 +90,11 @@ class CodeCache:
         """Delete the entries unused for longest, until the rest fits."""
         assert self._folder is not None
         entries = []
-        for entry in os.scandir(self._folder):
-            with contextlib.suppress(OSError):
-                status = entry.stat()
-                entries.append((status.st_mtime_ns, status.st_size, entry.path))
+        with os.scandir(self._folder) as found:
+            for entry in found:
+                with contextlib.suppress(OSError):
+                    status = entry.stat()
+                    entries.append((status.st_mtime_ns, status.st_size, entry.path))
         total = sum(size for _, size, _ in entries)
         for _, size, path in sorted(entries):
             if total <= self._max_bytes:

@@ -8,6 +8,9 @@ from plcsim.network import VirtualNetwork
 from plcsim.project.assembly import assemble, load
 from plcsim.project.plc_toml import read_project
 
+PATIENT = '[plc]\ninit_timeout = "10m"\n'
+"""Of plc.toml: the time limit of loading is no subject here, whatever else the machine does."""
+
 CALLS = [
     ("n : INT", "n := LEN(CONCAT('abc', 'de'));", 5),
     ("s : STRING[80]", "s := CONCAT(CONCAT('a', 'b'), MID('xyz', 1, 2));", "aby"),
@@ -50,7 +53,9 @@ def values(tmp_path_factory):
         (folder / name / "Main.st").write_text(f"PROGRAM _CYCLIC\n{body}\nEND_PROGRAM\n")
         (folder / name / "Main.var").write_text(f"VAR\n{declared};\nEND_VAR\n")
     programs = ", ".join(f'"{name}"' for name in names)
-    (folder / "plc.toml").write_text(f'[task_class.1]\ncycle = "10ms"\nprograms = [{programs}]\n')
+    (folder / "plc.toml").write_text(
+        f'{PATIENT}[task_class.1]\ncycle = "10ms"\nprograms = [{programs}]\n'
+    )
     clock = VirtualClock()
     network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
     controller = assemble(load(read_project(folder)), clock=clock, network=network)
@@ -119,7 +124,7 @@ def writer(tmp_path):
     (tmp_path / "files").mkdir()
 
     def writer(devices):
-        plc_toml = f'[task_class.1]\ncycle = "10ms"\nprograms = ["main"]\n{devices}'
+        plc_toml = f'{PATIENT}[task_class.1]\ncycle = "10ms"\nprograms = ["main"]\n{devices}'
         (tmp_path / "plc.toml").write_text(plc_toml)
         clock = VirtualClock()
         network = VirtualNetwork(clock.now_ns).host("192.168.0.10")
