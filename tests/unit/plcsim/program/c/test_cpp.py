@@ -41,6 +41,7 @@ public:
 };
 static Counter counter;
 static Ring<long, 4> ring;
+static void *volatile seen; // so that no compiler leaves the new out
 
 void _INIT ProgramInit(void) { counter.n++; }
 void _CYCLIC ProgramCyclic(void)
@@ -48,6 +49,7 @@ void _CYCLIC ProgramCyclic(void)
 	static Counter once;
 	Shape *shape = new Square(1.5);
 	int *many = new int[10]();
+	seen = many;
 	ring.put(counter.n);
 	total = ring.sum() + once.n + many[3];
 	area = sqrt(shape->area());
