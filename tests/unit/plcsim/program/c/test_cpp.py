@@ -81,7 +81,7 @@ def test_a_unit_in_cpp_runs_and_starts_anew(run, value):
 
 
 def test_new_without_room_is_a_fault_with_its_line(run):
-    text = MAIN.replace("0xFFFF", "0x40")
+    text = MAIN.replace("0xFFFF", "0x28")
     controller = run(
         {"main/Main.cpp": text, "main/V.var": "VAR total : DINT; area : LREAL; on : BOOL; END_VAR"},
         cycles=3,
