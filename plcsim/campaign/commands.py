@@ -19,7 +19,10 @@ DESCRIPTION = (
     "find out where it breaks. The file of a campaign is Python; see docs/campaigns.md."
 )
 EXAMPLES = (
-    ("plcsim campaign run overflow.py", "run what the file says, or go on where it was interrupted"),
+    (
+        "plcsim campaign run overflow.py",
+        "run what the file says, or go on where it was interrupted",
+    ),
     ("plcsim campaign show overflow.py", "failures by cause, the smallest example, a picture"),
     ("plcsim campaign repeat overflow.py 137", "one run again, with its last cycles"),
     ("plcsim campaign overflow.py --scheduler tcp://cluster:8786", "on a Dask cluster"),

@@ -6,22 +6,10 @@ import contextlib
 import io
 import os
 import sys
+from importlib import import_module
 from importlib.metadata import version
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Final, TextIO
 
-from plcsim.cli import (
-    check,
-    completion,
-    doctor,
-    logbook,
-    new,
-    operate,
-    report,
-    run,
-    st,
-    types,
-    watch,
-)
 from plcsim.cli.console import print_error
 from plcsim.cli.exit_codes import ExitCode, epilog
 from plcsim.cli.installed import COMMANDS, register_installed
@@ -33,8 +21,30 @@ if TYPE_CHECKING:
     import argparse
 
 
-def build_parser() -> argparse.ArgumentParser:
-    """Return the parser of all commands, those of other packages included."""
+OWN_COMMANDS: Final = {
+    "new": "new",
+    "check": "check",
+    "run": "run",
+    "watch": "watch",
+    "set": "operate",
+    "force": "operate",
+    "release": "operate",
+    "logbook": "logbook",
+    "types": "types",
+    "st": "st",
+    "doctor": "doctor",
+    "report": "report",
+    "completion": "completion",
+}
+"""Modules of ``plcsim.cli`` by the command; one module may have several."""
+
+
+def build_parser(command: str = "") -> argparse.ArgumentParser:
+    """Return the parser of all commands, those of other packages included.
+
+    Args:
+        command: the one that will be given; of our own commands the others are not even imported.
+    """
     parser: argparse.ArgumentParser = CommandParser(
         prog="plcsim",
         description="Runs PLC programs on Linux the way a B&R controller runs them.",
@@ -47,21 +57,11 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"plcsim {version('plcsim')}")
     subparsers = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (
-        new,
-        check,
-        run,
-        watch,
-        operate,
-        logbook,
-        types,
-        st,
-        doctor,
-        report,
-        completion,
-    ):
-        command.register(subparsers)
-    register_installed(COMMANDS, subparsers)
+    own = OWN_COMMANDS.get(command)
+    for module in (own,) if own else dict.fromkeys(OWN_COMMANDS.values()):
+        import_module(f"plcsim.cli.{module}").register(subparsers)
+    if own is None:
+        register_installed(COMMANDS, subparsers)
     return parser
 
 
@@ -71,7 +71,8 @@ def run_command(arguments: list[str] | None) -> int:
         sys.stdout.reconfigure(errors="backslashreplace")  # LANG=C has no letters beyond ASCII
     code = 0
     try:
-        options = build_parser().parse_args(arguments)
+        words = sys.argv[1:] if arguments is None else arguments
+        options = build_parser(words[0] if words else "").parse_args(words)
         code = options.func(options)
         if sys.stdout is not None:
             sys.stdout.flush()

@@ -74,7 +74,7 @@ def test_what_a_command_raises(monkeypatch, capsys, error, code, text):
 
     parser = argparse.ArgumentParser()
     parser.set_defaults(func=fail)
-    monkeypatch.setattr(cli, "build_parser", lambda: parser)
+    monkeypatch.setattr(cli, "build_parser", lambda _command: parser)
     assert main([]) == code
     assert capsys.readouterr() == ("", text)
 
@@ -124,6 +124,22 @@ def test_letters_that_the_language_has_not_are_shown_as_numbers(monkeypatch):
     monkeypatch.setattr(sys, "stdout", out)
     parser = argparse.ArgumentParser()
     parser.set_defaults(func=lambda _: print("\xe4") or 0)
-    monkeypatch.setattr(cli, "build_parser", lambda: parser)
+    monkeypatch.setattr(cli, "build_parser", lambda _command: parser)
     assert main([]) == 0
     assert out.buffer.getvalue() == b"\\xe4\n"
+
+
+@pytest.mark.parametrize("command", commands())
+def test_a_command_alone_is_as_it_is_among_all(command):
+    alone = build_parser(command)._subparsers._group_actions[0].choices
+    assert command in list(alone)
+    among = build_parser()._subparsers._group_actions[0].choices
+    assert alone[command].format_help() == among[command].format_help()
+
+
+def test_a_command_of_ours_imports_no_other():
+    code = (
+        "import sys; from plcsim.cli.command import build_parser; build_parser('logbook'); "
+        "sys.exit('plcsim.project.assembly' in sys.modules or 'numpy' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-P", "-c", code], check=False).returncode == 0
