@@ -5,6 +5,7 @@ controller on the virtual clock (`make_controller`). A program of a test says wh
 `VirtualClock.spend_ns`, `stall_ns` and `wait_ns`.
 """
 
+import sys
 import textwrap
 
 import pytest
@@ -19,6 +20,18 @@ from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.program.setup import make_controller as controller_of
 
 MS = 1_000_000
+
+
+def pytest_runtest_call():
+    """Set the handlers of traps again before each test.
+
+    Machines that a test module makes when it is imported are older than the tests of pytest
+    plugins, whose inner runs switch faulthandler off and take the handlers away.
+    """
+    signals = sys.modules.get("plcsim.machine.signals")
+    if signals is not None:
+        signals.set_again()
+
 
 settings.register_profile("plcsim", deadline=None)  # how long it takes is not what tests ask
 settings.load_profile("plcsim")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import logging
 import os
 from collections import deque
@@ -16,15 +17,22 @@ from plcsim.campaign.result import Outcome, Result
 from plcsim.campaign.workers import Installation, perform, plugin_name
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.campaign.content import Content
     from plcsim.campaign.result import Order
+
+    Batch = tuple[Order, ...]
 
 CONNECT_LIMIT_S: Final = 15
 WORKERS_LIMIT_S: Final = 60
 AHEAD: Final = 3
 """Runs that wait at a worker for each that is being done, so that none of them has to wait."""
+
+BATCH_S: Final = 0.25
+"""Seconds of work that are given to a worker at once: each message costs some ten milliseconds."""
+
+MOST_AT_ONCE: Final = 50
 
 MOST_LOSSES: Final = 5
 """Times that a run is begun again because its worker went, until the run itself is suspected."""
@@ -87,35 +95,38 @@ class Cluster:
         Only as many runs as are needed wait at the workers, however many there are.
         """
         waiting = iter(orders)
-        again: deque[Order] = deque()
-        underway: dict[Any, Order] = {}
+        again: deque[Batch] = deque()
+        underway: dict[Any, Batch] = {}
         losses: dict[int, int] = {}
+        size = 1
         done = as_completed(with_results=True, raise_errors=False)
 
         def submit() -> None:
             free = max(1, self.processors) * (1 + AHEAD) - len(underway)
             for _ in range(free):
-                order = again.popleft() if again else next(waiting, None)
-                if order is None:
+                batch = again.popleft() if again else tuple(itertools.islice(waiting, size))
+                if not batch:
                     return
-                future = self._submit(order)
-                underway[future] = order
+                future = self._submit(batch)
+                underway[future] = batch
                 done.add(future)
 
         submit()
-        for future, result in done:
-            order = underway.pop(future)
-            if isinstance(result, Result):
-                yield result
-            elif _is_loss(result) and losses.get(order.number, 0) < MOST_LOSSES:
-                losses[order.number] = losses.get(order.number, 0) + 1
-                again.append(order)
+        for future, found in done:
+            batch = underway.pop(future)
+            first = batch[0].number
+            if isinstance(found, list):
+                yield from found
+                size = batch_size(found)
+            elif _is_loss(found) and losses.get(first, 0) < MOST_LOSSES:
+                losses[first] = losses.get(first, 0) + 1
+                again.append(batch)
             else:
-                yield Result(order, Outcome.ERROR, _message(result))
+                yield from (Result(order, Outcome.ERROR, _message(found)) for order in batch)
             submit()
 
-    def _submit(self, order: Order) -> Any:
-        return self._client.submit(perform, self._content.name, order, self._limit_s, pure=False)
+    def _submit(self, batch: Batch) -> Any:
+        return self._client.submit(perform, self._content.name, batch, self._limit_s, pure=False)
 
     def close(self) -> None:
         """Let the workers go; those of a scheduler that was there before stay."""
@@ -125,6 +136,12 @@ class Cluster:
             self._client.close()
         if self._local is not None:
             self._local.close()
+
+
+def batch_size(results: Sequence[Result]) -> int:
+    """Return how many runs to give to a worker at once, from those of the batch before."""
+    longest_s = max(result.host_s for result in results)
+    return max(1, min(MOST_AT_ONCE, int(BATCH_S / longest_s))) if longest_s else 1
 
 
 def _is_loss(result: object) -> bool:

@@ -47,6 +47,7 @@ def main() -> None:
 
 def _serve(parent: Connection, campaign: Campaign, file: Path) -> None:
     here = f"{Path.cwd()}{os.sep}"
+    is_first = True
     while True:
         try:
             order = parent.recv()
@@ -58,6 +59,9 @@ def _serve(parent: Connection, campaign: Campaign, file: Path) -> None:
         message = result.message.replace(here, "")  # alike wherever the content was unpacked
         parent.send(replace(result, message=message, host_s=host_s, details=""))
         gc.collect()
+        if is_first:
+            gc.freeze()  # what the first run imported stays: later collections are about runs
+            is_first = False
 
 
 if __name__ == "__main__":

@@ -23,6 +23,8 @@ from plcsim.campaign.errors import CampaignError
 from plcsim.campaign.result import Outcome, Result
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from distributed import Worker
 
     from plcsim.campaign.content import Content
@@ -172,7 +174,7 @@ def plugin_name(content_name: str) -> str:
     return f"plcsim-campaign-{content_name}"
 
 
-def perform(content_name: str, order: Order, limit_s: float) -> Result:
-    """Do a run; what a worker of Dask is asked for."""
+def perform(content_name: str, batch: Sequence[Order], limit_s: float) -> list[Result]:
+    """Do runs, one after another; what a worker of Dask is asked for."""
     installation: Installation = get_worker().plugins[plugin_name(content_name)]
-    return installation.perform(order, limit_s)
+    return [installation.perform(order, limit_s) for order in batch]

@@ -20,11 +20,21 @@ _kept: dict[int, ctypes.Array[ctypes.c_char]] = {}
 def keep_handlers() -> None:
     """Remember the handlers that are set at the first call; set them again at later ones."""
     for number in _SIGNALS:
-        now = ctypes.create_string_buffer(_SIZE)
-        _sigaction(number, None, now)
-        kept = _kept.setdefault(number, now)
-        if kept.raw != now.raw:
+        _kept.setdefault(number, _handler_of(number))
+    set_again()
+
+
+def set_again() -> None:
+    """Set the handlers that are remembered, where others have taken them away; do else nothing."""
+    for number, kept in _kept.items():
+        if _handler_of(number).raw != kept.raw:
             _sigaction(number, kept, None)
+
+
+def _handler_of(number: int) -> ctypes.Array[ctypes.c_char]:
+    found = ctypes.create_string_buffer(_SIZE)
+    _sigaction(number, None, found)
+    return found
 
 
 def _sigaction(number: int, new: object, old: object) -> None:
