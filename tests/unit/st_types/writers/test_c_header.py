@@ -53,10 +53,10 @@ def assertions(table: Scope, names: dict[object, str]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def check(folder: Path, table: Scope) -> None:
+def check(folder: Path, table: Scope, *options: str) -> None:
     header = Header(table)
     text = c_header(header, "Check") + assertions(table, header.names)
-    assert compile_m32(folder, text) == ""
+    assert compile_m32(folder, text, *options) == ""
 
 
 EVERY_KIND = """
@@ -117,7 +117,8 @@ def test_every_kind_of_type_compiles_and_lies_as_laid_out(folder: Path) -> None:
 def test_the_library_compiles_and_lies_as_laid_out(folder: Path) -> None:
     paths = [p for p in sorted(LIBRARY.rglob("*")) if p.suffix in (".fun", ".typ", ".var")]
     assert len(paths) >= 4
-    check(folder, checked([parse_declarations(Source.read(path)) for path in paths], strict=True))
+    table = checked([parse_declarations(Source.read(path)) for path in paths], strict=True)
+    check(folder, table, "-fno-builtin")  # atan2 of AsMath is one of REALs, unlike the built-in one
 
 
 def test_constants_have_their_values(folder: Path) -> None:

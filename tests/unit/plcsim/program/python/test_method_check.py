@@ -5,6 +5,7 @@ import textwrap
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 
 HEAD = """\
@@ -41,7 +42,7 @@ def load(project):
         text = head + textwrap.indent(textwrap.dedent(body), "    ")
         others = {f"main/{stem}.py": content for stem, content in files.items()}
         folder = project({"main/main.py": text} | others)
-        return ProgramLoader(folder, ["main"]).load()["main"].program
+        return ProgramLoader(folder_layout(folder, ["main"])).load()["main"].program
 
     return load
 

@@ -5,6 +5,7 @@ import textwrap
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 
 HEAD = """\
@@ -55,7 +56,7 @@ def load(project):
         files["Global.var"] = (
             "VAR gText : STRING[9]; END_VAR VAR CONSTANT MOST : UINT := 5; END_VAR"
         )
-        return ProgramLoader(project(files), ["main"]).load()["main"].program
+        return ProgramLoader(folder_layout(project(files), ["main"])).load()["main"].program
 
     return load
 
@@ -133,4 +134,4 @@ def test_what_fits_or_is_not_known_is_loaded(load):
 def test_a_name_of_the_module_hides_that_of_python(project):
     text = HEAD.replace("class Mode", "def len(x): return 'x'\n\nclass Mode")
     folder = project({"main/main.py": text + "        self.s = len(self.a)\n"})
-    assert ProgramLoader(folder, ["main"]).load()["main"]
+    assert ProgramLoader(folder_layout(folder, ["main"])).load()["main"]
