@@ -7,10 +7,10 @@ from contextlib import suppress
 from typing import Final
 
 from plcsim.network.datagrams import MAX_DATAGRAM, Datagram, OpenedDatagrams
+from plcsim.network.os_options import read_option, set_option
 from plcsim.network.os_outcomes import outcome_of
 from plcsim.network.protocol import (
     ANY_IP,
-    BUFFERS,
     NO_ADDRESS,
     Address,
     Option,
@@ -19,7 +19,6 @@ from plcsim.network.protocol import (
     Sent,
     is_connectable,
     is_ipv4,
-    legal_value,
 )
 
 _OPTIONS: Final = {
@@ -102,25 +101,11 @@ class OsDatagramSocket:
 
     def set_option(self, option: Option, value: int) -> Outcome:
         """Set BROADCAST or the size of a buffer."""
-        legal = legal_value(option, value)
-        if option not in _OPTIONS or legal is None:
-            return Outcome.INVALID
-        try:
-            self._socket.setsockopt(*_OPTIONS[option], legal)
-        except OSError as error:
-            return outcome_of(error)
-        return Outcome.OK
+        return set_option(self._socket, _OPTIONS, option, value)
 
     def option(self, option: Option) -> OptionValue:
         """Read it back."""
-        if option not in _OPTIONS:
-            return OptionValue(Outcome.INVALID)
-        try:
-            value = self._socket.getsockopt(*_OPTIONS[option])
-        except OSError as error:
-            return OptionValue(outcome_of(error))
-        # socket(7): the kernel doubles the buffer sizes that are set.
-        return OptionValue(Outcome.OK, value // 2 if option in BUFFERS else value)
+        return read_option(self._socket, _OPTIONS, option)
 
     def close(self) -> None:
         """Free the port."""

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.host import descriptors
 from plcsim.network import os_datagrams
+from plcsim.network.os_options import read_option, set_option
 from plcsim.network.os_outcomes import OUTCOMES, outcome_of
 from plcsim.network.protocol import (
     ANY_IP,
-    BUFFERS,
     MAX_BACKLOG,
     MAX_LINGER_S,
     MAX_RECEIVE,
@@ -28,7 +28,6 @@ from plcsim.network.protocol import (
     Sent,
     is_connectable,
     is_ipv4,
-    legal_value,
 )
 
 if TYPE_CHECKING:
@@ -195,25 +194,11 @@ class OsSocket:
 
     def set_option(self, option: Option, value: int) -> Outcome:
         """See ``Socket.set_option``."""
-        legal = legal_value(option, value)
-        if legal is None or option not in _OPTIONS:
-            return Outcome.INVALID
-        try:
-            self._socket.setsockopt(*_OPTIONS[option], legal)
-        except OSError as error:
-            return outcome_of(error)
-        return Outcome.OK
+        return set_option(self._socket, _OPTIONS, option, value)
 
     def option(self, option: Option) -> OptionValue:
         """See ``Socket.option``."""
-        if option not in _OPTIONS:
-            return OptionValue(Outcome.INVALID)
-        try:
-            value = self._socket.getsockopt(*_OPTIONS[option])
-        except OSError as error:
-            return OptionValue(outcome_of(error))
-        # socket(7): the kernel doubles the buffer sizes that are set.
-        return OptionValue(Outcome.OK, value // 2 if option in BUFFERS else value)
+        return read_option(self._socket, _OPTIONS, option)
 
     def set_linger(self, seconds: int | None) -> Outcome:
         """See ``Socket.set_linger``."""
