@@ -32,7 +32,7 @@ ACTIVE: Final = ".active"
 SUFFIXES: Final = (".bag", ".mcap", ".db3")
 
 _MAGIC_SIZE: Final = 13
-_HEADER_SIZE: Final = 4096
+HEADER_SIZE: Final = 4096
 """Bytes that header and padding of the first record have in a bag of ROS 1 (rosbag's bag.cpp)."""
 
 _MESSAGE: Final = struct.Struct("<II4sI5sII5sIII")
@@ -133,7 +133,7 @@ class Ros1Bag:
             file.seek(_MAGIC_SIZE)
             header = int.from_bytes(file.read(4), "little")
             file.seek(_MAGIC_SIZE + 4 + header)
-            file.write((_HEADER_SIZE - header).to_bytes(4, "little"))
+            file.write((HEADER_SIZE - header).to_bytes(4, "little"))
 
     @property
     def size(self) -> int:

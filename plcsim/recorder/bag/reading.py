@@ -173,7 +173,7 @@ def open_bag(path: Path) -> Iterator[BagReader]:
 
     if not path.exists():
         left = active(path)
-        hint = f"; {left.name} was not closed: try rosbag reindex" if left.exists() else ""
+        hint = f"; {left.name} was not closed: plcsim bag reindex {left}" if left.exists() else ""
         raise RecordingError(f"{path}: there is no such file{hint}")
     is_ros2 = path.is_dir() or path.suffix in (".mcap", ".db3")
     with _told(path):
@@ -195,7 +195,7 @@ def _told(path: Path) -> Iterator[None]:
         yield
     except (ReaderError, Reader2Error) as err:
         text = str(err)
-        hint = "; rosbag reindex makes it readable" if "reindex" in text else ""
+        hint = f": plcsim bag reindex {path} makes it readable" if "reindex" in text else ""
         raise RecordingError(f"{path}: {text}{hint}") from None
     except (OSError, AssertionError, KeyError, ValueError, struct.error, IndexError) as err:
         raise RecordingError(f"{path}: is damaged or no bag: {err}") from None

@@ -13,8 +13,10 @@ from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration
 from plcsim.recorder.bag.difference import difference
+from plcsim.recorder.bag.files import ACTIVE
 from plcsim.recorder.bag.plot import draw, page
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.reindex import reindex as recover
 from plcsim.recorder.bag.series import rows_of, series_of
 from plcsim.recorder.bag.types import CYCLES, HEAD
 from plcsim.recorder.errors import RecordingError
@@ -22,6 +24,7 @@ from plcsim.recorder.errors import RecordingError
 if TYPE_CHECKING:
     import argparse
     from collections.abc import Iterator
+    from pathlib import Path
 
     from plcsim.recorder.journal.record import Record
 
@@ -86,6 +89,20 @@ def export(options: argparse.Namespace) -> int:
         print(text.getvalue(), end="")
     else:
         write_output("--output", options.output, text.getvalue())
+    return ExitCode.DONE
+
+
+def reindex(options: argparse.Namespace) -> int:
+    """Copy what is complete in a bag that was not closed."""
+    source: Path = options.bag
+    target: Path | None = options.output
+    if target is None:
+        if not source.name.endswith(ACTIVE):
+            raise RecordingError(f"{source}: say where to with --output; it stays as it is")
+        target = source.with_name(source.name.removesuffix(ACTIVE))
+    found = recover(source, target)
+    left_out = f", {found.left_out} bytes of an incomplete chunk left out" if found.left_out else ""
+    print(f"{target}: {found.messages} messages{left_out}")
     return ExitCode.DONE
 
 

@@ -32,6 +32,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     _add_diff(commands)
     _add_plot(commands)
     _add_export(commands)
+    _add_reindex(commands)
 
 
 def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -144,6 +145,23 @@ def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("tags", nargs="+", metavar="TAG", help="such as tank.level")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="instead of stdout")
     parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "export"))
+
+
+def _add_reindex(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "reindex",
+        help="make a bag readable that was not closed",
+        description="Copy what is complete in a bag of ROS 1 whose recorder was killed, or whose "
+        "disk was full, into one with an index. The bag itself stays as it is.",
+        examples=(
+            ("plcsim bag reindex run.bag.active", "makes run.bag"),
+            ("plcsim bag reindex cut.bag -o whole.bag", "of any bag, of rosbag record too"),
+        ),
+        epilog=epilog(DONE="", FAILED="it is no bag of ROS 1, or the other one is there already"),
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help="a bag of ROS 1")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="the bag that is made")
+    parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "reindex"))
 
 
 def _later(module: str, name: str) -> Callable[[argparse.Namespace], int]:

@@ -60,7 +60,7 @@ def test_a_bag_that_was_not_closed_is_all_but_indexed(tmp_path: Path) -> None:
 
     assert b"hello" in (tmp_path / f"a.bag{ACTIVE}").read_bytes()
     with (
-        pytest.raises(RecordingError, match="was not closed: try rosbag reindex"),
+        pytest.raises(RecordingError, match=r"was not closed: plcsim bag reindex .*a\.bag\.active"),
         open_bag(tmp_path / "a.bag"),
     ):
         pass
@@ -70,14 +70,15 @@ def test_a_bag_that_was_not_closed_is_all_but_indexed(tmp_path: Path) -> None:
 def test_the_memory_for_the_index_does_not_grow_with_the_messages(tmp_path: Path) -> None:
     bag = Ros1Bag(tmp_path / "a.bag")
     chatter = bag.add("/chatter", TEXT)
-    for number in range(60_000):
+    bag._writer.chunk_threshold = 10_000
+    for number in range(1000):
         bag.write(chatter, number + 1, text_message("hello world"))
 
     kept = [p for c in bag._writer.chunks for p in c.connections.values() if isinstance(p, list)]
-    assert sum(map(len, kept)) < 30_000
+    assert sum(map(len, kept)) < 500
     bag.close()
     with open_bag(tmp_path / "a.bag") as reader:
-        assert sum(1 for _ in reader.messages()) == 60_000
+        assert sum(1 for _ in reader.messages()) == 1000
 
 
 def test_a_file_that_is_there_is_not_written_over(tmp_path: Path) -> None:
