@@ -150,7 +150,9 @@ class BlockChecker(CallChecker):
             self.error(node, code, message)
         return NOTHING
 
-    def assignment(self, node: Expression, target: Value, value: Value, line: int) -> Statement:
+    def assignment(
+        self, node: Expression, target: Value, value: Value, line: int
+    ) -> Assign | SetAddress:
         """Return ``target := value``; ``node`` is the value.
 
         An address goes into a reference itself, unless that refers to an integer of 32 bits: then

@@ -74,13 +74,19 @@ class StatementChecker(BlockChecker):
         while isinstance(links[-1].value, tree.Assignment):
             links.append(links[-1].value)
         last = links.pop()
-        self._assignment(last, into)
-        value, source = self.value(last.target), last.target
+        source = last.value
+        assert not isinstance(source, tree.Assignment)
+        target = self.assigned(last.target)
+        line = self.findings.line(node)
+        found = [self.assignment(source, target, self.value(source), self.findings.line(last))]
         while links:
             link = links.pop()
+            value = found[-1].address if isinstance(found[-1], typed.SetAddress) else target
             target = self.assigned(link.target)
-            into.append(self.assignment(source, target, value, self.findings.line(link)))
-            value, source = target, link.target
+            made = self.assignment(last.target, target, value, self.findings.line(link))
+            found.append(made)
+            last = link
+        into.append(typed.Chain(line, found))
 
     def _access(self, node: tree.Assignment, line: int) -> Statement:
         reference = self._reference(node.target)

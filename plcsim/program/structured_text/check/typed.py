@@ -219,6 +219,14 @@ class Assign:
 
 
 @dataclass(slots=True, eq=False)
+class Chain:
+    """``a := b := c``: from the innermost on; the others take what the one before has stored."""
+
+    line: int
+    links: Sequence[Assign | SetAddress]
+
+
+@dataclass(slots=True, eq=False)
 class SetAddress:
     """``reference ACCESS address``: ``reference`` is the place that holds the address."""
 
@@ -345,6 +353,7 @@ class Return:
 
 Statement = (
     Assign
+    | Chain
     | SetAddress
     | Evaluate
     | CallBlock

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import typed
+from plcsim.program.structured_text.check.kinds import UDINT
 from plcsim.program.structured_text.lower import conversions
 from plcsim.program.structured_text.lower.conversions import common_type, to_type
 from plcsim.program.structured_text.lower.functions import FunctionLowering
@@ -17,6 +19,7 @@ from st_types.types.derived import StringType, WStringType
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Statement, Value
     from plcsim.program.structured_text.lower.context import FunctionContext
 
@@ -60,6 +63,39 @@ class StatementLowering(FunctionLowering):
         else:
             size = ir.Const("i32", data_type.size)
             into.append(ir.CopyBytes(line, self.address(target), self.address(value), size))
+
+    def _chain(self, node: typed.Chain, into: list[ir.Statement]) -> None:
+        """Assign from the innermost on; the place of each target is worked out once."""
+        first, *others = node.links
+        held = self._held(first, into)
+        for link in others:
+            taken = link if isinstance(link, typed.SetAddress) else replace(link, value=held)
+            held = self._held(taken, into)
+
+    def _held(self, link: typed.Assign | typed.SetAddress, into: list[ir.Statement]) -> Value:
+        """Assign, and return what the target holds then."""
+        if isinstance(link, typed.SetAddress):
+            self._set_address(link, into)
+            return link.address
+        target, value = link.target, link.value
+        if is_scalar(target.type):
+            value = self._variable(link.line, target.type, self.argument(value, target.type), into)
+            held: Value = value
+        else:
+            address = self._variable(link.line, UDINT, self.address(target), into)
+            target = held = typed.Target(target.type, address)
+        self._assign(typed.Assign(link.line, target, value), into)
+        return held
+
+    def _variable(
+        self, line: int, data_type: Type, value: ir.Expression, into: list[ir.Statement]
+    ) -> Value:
+        """Return a variable of the function's own that holds a scalar."""
+        assert value.type is not None
+        symbol = typed.Symbol("", data_type, "frame")
+        index = self.function.in_locals[symbol] = self.function.local(value.type)
+        into.append(ir.SetLocal(line, index, value))
+        return typed.Variable(data_type, symbol)
 
     def _scalar_assignment(self, line: int, target: Value, value: Value) -> ir.Statement:
         if isinstance(target, typed.Bit):
@@ -329,6 +365,7 @@ def _signed_ranges(low: int, high: int) -> list[tuple[int, int]]:
 
 _RULES: dict[type, Callable[[StatementLowering, Any, list[ir.Statement]], None]] = {
     typed.Assign: StatementLowering._assign,
+    typed.Chain: StatementLowering._chain,
     typed.SetAddress: StatementLowering._set_address,
     typed.Evaluate: StatementLowering._evaluate,
     typed.CallBlock: StatementLowering._call_block,

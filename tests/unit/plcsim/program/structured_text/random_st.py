@@ -388,15 +388,12 @@ class Body:
         return f"{target.st} := {value.st};", f"{target.c}={value.c};"
 
     def chained(self, _depth):
-        """A chain; its second target has no index, which might read what is assigned."""
+        """A chain; the place of its second target may read what the first one is."""
         first, second = self.random.choice([("DINT", "INT"), ("INT", "SINT"), ("UDINT", "USINT")])
-        plain = [each for each in self.places[second] if not callable(each)]
-        a, b, value = (
-            self.place(first),
-            Term(second, *self.random.choice(plain)),
-            self.typed(second),
-        )
-        return f"{a.st} := {b.st} := {value.st};", f"{a.c}=({b.c}={value.c});"
+        a, b, value = self.place(first), self.place(second), self.typed(second)
+        c_type = TYPES[second][0]
+        text = f"{{{c_type} v={value.c};{c_type}*q=&{b.c};*q=v;{a.c}=v;}}"
+        return f"{a.st} := {b.st} := {value.st};", text
 
     def bit_assignment(self, _depth):
         target = self.place(self.random.choice(INTEGERS))
