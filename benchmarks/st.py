@@ -176,7 +176,7 @@ def _compiling(lines: int, folder: Path, rounds: int) -> Compiled:
     count = text.programs["Main.st"].count("\n")
     steps: list[list[float]] = []
     cached: list[float] = []
-    for number in range(max(3, rounds // 10)):
+    for number in range(max(3, rounds * SIZES[0] // lines // 2)):
         gc.collect()
         compiled = compile_text(text, AUTOMATION_STUDIO, CodegenOptions())
         addresses = {

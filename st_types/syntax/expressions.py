@@ -13,8 +13,7 @@ the `Tokens` of the file know its place.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from st_types.syntax.lexer import NAME, KeyTable
 from st_types.syntax.literals import TYPED_PREFIXES, Constant, LiteralError, parse_literal
@@ -23,7 +22,8 @@ from st_types.syntax.reader import TokenReader, UnexpectedTokenError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from st_types.syntax.lexer import Keys
+    from st_types.syntax.diagnostics import DiagnosticLog
+    from st_types.syntax.lexer import Keys, Tokens
 
 MAX_OPERATORS = 400
 """Most operators, brackets and parts of a path in one expression; bounds the depth of its tree."""
@@ -141,7 +141,6 @@ POSTFIXES = frozenset([".", "[", "^", "("])
 """What may follow an operand: a member, an index, a dereference, arguments."""
 
 _ENDS = frozenset([";", ",", ")", "]", "THEN", "DO", "OF", "TO", ".."])
-_SIMPLE = frozenset([NAME, "literal"])
 _PREFIXES = frozenset(["-", "+", "NOT"])
 _ARGUMENT_SIGNS = (":=", "=>")
 FUNCTION_WORDS = frozenset(["AND", "OR", "XOR", "MOD"])
@@ -156,18 +155,22 @@ class ExpressionParser(TokenReader):
     Attributes:
         reserved: keywords that are no names of variables, whatever stands beside them.
         key_table: the keys of tokens; with the keywords of statements in the parser of those.
+        keys: the keys of all tokens.
         postfixes: what may follow an operand here: arguments may not where ``(`` means another
             thing.
     """
 
     reserved: ClassVar[frozenset[str]] = _OPERATOR_WORDS
     key_table: ClassVar[KeyTable] = KeyTable(_OPERATOR_WORDS)
-    postfixes = POSTFIXES
-    _operators = 0
 
-    @cached_property
-    def keys(self) -> Keys:
-        """The keys of all tokens; declarations ask for few of them."""
+    def __init__(self, tokens: Tokens, diagnostics: DiagnosticLog) -> None:
+        super().__init__(tokens, diagnostics)
+        self.keys = self._keys()
+        self.postfixes = POSTFIXES
+        self._operators = 0
+
+    def _keys(self) -> Keys:
+        """Return the keys of all tokens; declarations ask for few of them."""
         return self.key_table.keys_when_asked(self.texts)
 
     def expression(self) -> Expression:
@@ -178,37 +181,56 @@ class ExpressionParser(TokenReader):
         """
         index = self.index
         keys = self.keys
-        if keys[index + 1] in _ENDS and keys[index] in _SIMPLE:
-            if keys[index] == "literal":
+        if keys[index + 1] in _ENDS:
+            key = keys[index]
+            if key == NAME:
+                self.index = index + 1
+                return Name(index, self.texts[index])
+            if key == "literal":
                 return self.literal(self.texts[index])
-            self.index = index + 1
-            return Name(index, self.texts[index])
         self._operators = 0
         return self._operation()
 
     def _operation(self) -> Expression:
-        left = self._operand()
-        precedence = PRECEDENCE.get(self.keys[self.index])
-        return left if precedence is None else self._operations(left, precedence)
+        """Parse operands and the operators between them.
 
-    def _operations(self, left: Expression, precedence: int) -> Expression:
-        """Parse what follows the first operand; ``precedence`` is that of its operator."""
-        keys = self.keys
+        Operands of one token are taken here, as most are; a call for each would cost as much
+        as the rest.
+        """
+        keys, texts, postfixes = self.keys, self.texts, self.postfixes
         waiting: list[tuple[int, int, Expression]] = []  # precedence, operator, left operand
-        while precedence:
-            waiting.append((precedence, self._step(), left))
-            left = self._operand()
-            precedence = PRECEDENCE.get(keys[self.index], 0)
+        index = self.index
+        while True:
+            key = keys[index]
+            if key == NAME and keys[index + 1] not in postfixes:
+                left: Expression = Name(index, texts[index])
+                index += 1
+            else:
+                self.index = index
+                left = self.literal(texts[index]) if key == "literal" else self._operand()
+                index = self.index
+            key = keys[index]
+            precedence = PRECEDENCE.get(key, 0)
             while waiting and waiting[-1][0] >= precedence:
                 _, at, first = waiting.pop()
                 operator = keys[at]
                 left = Binary(at, "AND" if operator == "&" else operator, first, left)
-        return left
+            self.index = index
+            if not precedence:
+                return left
+            self._operators += 1
+            if self._operators > MAX_OPERATORS:
+                self._fail_operators()
+            waiting.append((precedence, index, left))
+            index += 1
+
+    def _fail_operators(self) -> NoReturn:
+        self.fail(f"expected at most {MAX_OPERATORS} operators in an expression")
 
     def _step(self) -> int:
         self._operators += 1
         if self._operators > MAX_OPERATORS:
-            self.fail(f"expected at most {MAX_OPERATORS} operators in an expression")
+            self._fail_operators()
         self.index += 1
         return self.index - 1
 
@@ -270,18 +292,21 @@ class ExpressionParser(TokenReader):
         Raises:
             UnexpectedTokenError: it is malformed.
         """
+        index = self.index
         try:
             constant = parse_literal(text)
         except LiteralError as err:
-            prefix, _, name = text.partition("#")
-            is_value = name.isidentifier() and prefix.isidentifier()
-            if is_value and prefix.upper() not in TYPED_PREFIXES:
-                self.index += 1
-                return MemberAccess(self.index - 1, Name(self.index - 1, prefix), name)
-            offset = self.tokens.offset(self.index)
-            raise UnexpectedTokenError(offset, str(err)) from None
+            return self._typed_value(text, err)
+        self.index = index + 1
+        return Literal(index, text, constant)
+
+    def _typed_value(self, text: str, error: LiteralError) -> Expression:
+        prefix, _, name = text.partition("#")
+        is_value = name.isidentifier() and prefix.isidentifier()
+        if not is_value or prefix.upper() in TYPED_PREFIXES:
+            raise UnexpectedTokenError(self.tokens.offset(self.index), str(error)) from None
         self.index += 1
-        return Literal(self.index - 1, text, constant)
+        return MemberAccess(self.index - 1, Name(self.index - 1, prefix), name)
 
     def postfix(self, base: Expression) -> Expression:
         """Parse the members, indices, ``^`` and arguments that follow ``base``."""

@@ -7,7 +7,6 @@ on behind the next semicolon or at the next keyword, so that one run finds them 
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from plcsim.program.structured_text.syntax.keywords import (
@@ -36,7 +35,13 @@ from plcsim.program.structured_text.syntax.tree import (
     WhileStatement,
 )
 from st_types.syntax.declarations import DeclarationParser
-from st_types.syntax.expressions import MAX_OPERATORS, POSTFIXES, Binary, Name
+from st_types.syntax.expressions import (
+    MAX_OPERATORS,
+    POSTFIXES,
+    Binary,
+    ExpressionParser,
+    Name,
+)
 from st_types.syntax.lexer import NAME
 from st_types.syntax.reader import UnexpectedTokenError
 
@@ -65,10 +70,14 @@ class StatementParser(DeclarationParser):
     _open: list[str]
     """The END keywords of the statements and units that are open, the outermost first."""
 
-    @cached_property
-    def keys(self) -> list[str]:
-        """The keys of all tokens: statements ask for most of them."""
+    keys: list[str]
+
+    def _keys(self) -> list[str]:
+        """Return the keys of all tokens: statements ask for most of them."""
         return self.key_table.keys_of(self.texts)
+
+    expression = ExpressionParser.expression
+    """That of declarations asks for no keys; here they are known."""
 
     def statements(self) -> list[Statement]:
         """Parse statements up to a keyword that ends a list; whether the right one is not asked.
@@ -93,9 +102,11 @@ class StatementParser(DeclarationParser):
         in_case = self._open[-1:] == ["END_CASE"]
         while True:
             key = keys[self.index]
-            if in_case and self._starts_label(key):
+            if key == NAME and keys[self.index + 1] == ":=":
+                into.append(self._assignment())
+            elif in_case and self._starts_label(key):
                 return
-            if key == NAME:
+            elif key == NAME:
                 into.append(self._named_statement())
             elif key == ";":
                 self.index += 1
@@ -150,6 +161,17 @@ class StatementParser(DeclarationParser):
             index += 1
         self.index = index
 
+    def _assignment(self) -> Statement:
+        """Parse what begins with ``name :=``, as most statements do."""
+        at = self.index
+        self.index = at + 2
+        value = self.expression()
+        target = Name(at, self.texts[at])
+        if self.keys[self.index] != ";":
+            return self._assigned(at + 1, target, value)
+        self.index += 1
+        return Assignment(at + 1, target, value)
+
     def _named_statement(self) -> Statement:
         """Parse what begins with a name."""
         at = self.index
@@ -162,7 +184,7 @@ class StatementParser(DeclarationParser):
             target = self.postfix(target)
             key = keys[self.index]
         if key == ":=":
-            return self._assigned(target)
+            return self._assigned_to(target)
         if key == ";":
             self.index += 1
             return ExpressionStatement(at, target)
@@ -170,16 +192,15 @@ class StatementParser(DeclarationParser):
             return self._label(at)
         return self._rare_statement(at, target)
 
-    def _assigned(self, target: Expression) -> Statement:
+    def _assigned_to(self, target: Expression) -> Statement:
         """Parse ``:=`` and the value behind it."""
         at = self.index
         self.index = at + 1
-        value = self.expression()
-        key = self.keys[self.index]
-        if key == ";":
-            self.index += 1
-            return Assignment(at, target, value)
-        if key == ":=":
+        return self._assigned(at, target, self.expression())
+
+    def _assigned(self, at: int, target: Expression, value: Expression) -> Statement:
+        """Parse what follows ``target := value``, whose ``:=`` is token ``at``."""
+        if self.keys[self.index] == ":=":
             return self._chained(at, target, value)
         return self._ended(Assignment(at, target, value))
 
@@ -211,7 +232,7 @@ class StatementParser(DeclarationParser):
         self._operators = 0
         target = self._operand()
         if self.keys[self.index] == ":=":
-            return self._assigned(target)
+            return self._assigned_to(target)
         return self._rare_statement(at, target)
 
     def _rare_statement(self, at: int, target: Expression) -> Statement:
