@@ -19,8 +19,18 @@ from pathlib import Path
 MAX_BYTES = 256 << 20
 """Default size of a cache; beyond it the entries that were unused for longest go."""
 
+MAX_ENTRIES = 8192
+"""Default number of entries, for those that hold next to nothing."""
+
+_LOOK = 16
+"""The folder is looked through when this part of what it may hold was written since."""
+
 _DIGEST = 32
 _SUFFIX = ".code"
+
+
+_written: dict[Path, int] = {}
+"""Bytes that this process wrote since it looked through a folder; caches of one folder share it."""
 
 
 def default_folder() -> Path | None:
@@ -41,12 +51,17 @@ class CodeCache:
 
     Args:
         folder: where; it is made when something is stored. None keeps nothing.
-        max_bytes: size of all entries together.
+        max_bytes: size of all entries together; another sixteenth may be written before it is
+            looked at.
+        max_entries: number of entries, likewise.
     """
 
-    def __init__(self, folder: Path | None, max_bytes: int = MAX_BYTES) -> None:
+    def __init__(
+        self, folder: Path | None, max_bytes: int = MAX_BYTES, max_entries: int = MAX_ENTRIES
+    ) -> None:
         self._folder = folder
         self._max_bytes = max_bytes
+        self._max_entries = max_entries
 
     def load(self, key: str) -> bytes | None:
         """Return the code stored under a key, None where there is none that can be used."""
@@ -73,7 +88,20 @@ class CodeCache:
         with contextlib.suppress(OSError):
             self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
             self._replace(self._folder / (key + _SUFFIX), _hash(code) + code)
-            self._shrink()
+            if self._is_due(_DIGEST + len(code)):
+                self._shrink()
+
+    def _is_due(self, size: int) -> bool:
+        """Whether the folder is to be looked through after an entry of ``size`` bytes.
+
+        At each entry it would take longer than what is saved: thousands of files are there.
+        """
+        assert self._folder is not None
+        least = self._max_bytes // self._max_entries
+        written = _written.get(self._folder, self._max_bytes) + max(size, least)
+        is_due = written * _LOOK >= self._max_bytes
+        _written[self._folder] = 0 if is_due else written
+        return is_due
 
     def _replace(self, file: Path, content: bytes) -> None:
         """Write a file as a whole: who reads it meanwhile finds the old one or the new one."""
@@ -95,13 +123,13 @@ class CodeCache:
                 with contextlib.suppress(OSError):
                     status = entry.stat()
                     entries.append((status.st_mtime_ns, status.st_size, entry.path))
-        total = sum(size for _, size, _ in entries)
+        total, count = sum(size for _, size, _ in entries), len(entries)
         for _, size, path in sorted(entries):
-            if total <= self._max_bytes:
+            if total <= self._max_bytes and count <= self._max_entries:
                 return
             with contextlib.suppress(OSError):
                 os.unlink(path)  # noqa: PTH108  # a string from scandir
-            total -= size
+            total, count = total - size, count - 1
 
 
 def key_of(wasm: bytes, settings: str) -> str:

@@ -94,11 +94,14 @@ class Scope:
         """This scope and all around it, each once, in the order in which names are looked up."""
         found: dict[Scope, None] = {}
         waiting = [self]
+        last: Sequence[Scope] = ()
         while waiting:
             scope = waiting.pop()
             if scope not in found:
                 found[scope] = None
-                waiting += reversed(scope.outer)
+                if scope.outer and scope.outer is not last:  # what is left of the last waits next
+                    waiting += reversed(scope.outer)
+                    last = scope.outer
         return tuple(found)
 
     @cached_property

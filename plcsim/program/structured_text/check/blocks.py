@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check.calls import CallChecker, Parameter, root_of
 from plcsim.program.structured_text.check.kinds import (
+    ANY_INT,
     BOOL,
     UDINT,
     VOID,
@@ -18,6 +19,7 @@ from plcsim.program.structured_text.check.typed import (
     Address,
     Assign,
     CallBlock,
+    Constant,
     SetAddress,
     Target,
     Unary,
@@ -156,11 +158,11 @@ class BlockChecker(CallChecker):
         """Return ``target := value``; ``node`` is the value.
 
         An address goes into a reference itself, unless that refers to an integer of 32 bits: then
-        it goes there, as any other value does.
+        it goes there, as any other value does. So does 0, which is no address.
         """
         if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
-            value_type = UDINT if isinstance(value, Address) else value.type
-            if value_type is UDINT and _takes_address(target.type, value):
+            is_address = isinstance(value, Address) or value.type is UDINT or _is_nil(value)
+            if is_address and _takes_address(target.type, value):
                 return SetAddress(line, target.pointer, value)
         self.check_fit(node, value, target.type)
         return Assign(line, target, value)
@@ -172,3 +174,7 @@ def _takes_address(target: Type, value: Value) -> bool:
     if isinstance(value, Address):
         return kind is not Kind.INTEGER or target.size != UDINT.size
     return kind >= Kind.STRING
+
+
+def _is_nil(value: Value) -> bool:
+    return isinstance(value, Constant) and value.type is ANY_INT and value.value == 0

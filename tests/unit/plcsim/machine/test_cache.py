@@ -108,6 +108,22 @@ def test_the_oldest_go_when_it_is_full(tmp_path):
     assert sorted(file.stem for file in entries(tmp_path)) == ["a", "c", "d"]
 
 
+def test_the_oldest_go_when_there_are_too_many(tmp_path):
+    cache = CodeCache(tmp_path, max_bytes=1000, max_entries=2)
+    for place, key in enumerate("abc"):
+        cache.store(key, b"")
+        os.utime(tmp_path / f"{key}.code", ns=(place, place))
+    assert sorted(file.stem for file in entries(tmp_path)) == ["b", "c"]
+
+
+def test_the_folder_is_not_looked_through_at_every_entry(tmp_path, monkeypatch):
+    looks = []
+    monkeypatch.setattr(CodeCache, "_shrink", lambda cache: looks.append(cache))
+    for number in range(64):
+        CodeCache(tmp_path, max_bytes=64_000, max_entries=64).store(str(number), b"")
+    assert 4 <= len(looks) <= 17
+
+
 def test_what_is_larger_than_the_cache_is_not_kept(tmp_path):
     cache = CodeCache(tmp_path, max_bytes=100)
     cache.store("key", bytes(100))

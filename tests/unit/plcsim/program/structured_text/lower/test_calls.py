@@ -62,6 +62,22 @@ END_PROGRAM"""
     assert (running["n"], running["a.n"], running["a.total"]) == (7, 7, 2013)
 
 
+def test_0_goes_into_a_reference_to_a_structure_itself() -> None:
+    running = run(
+        COUNTER
+        + """
+PROGRAM _CYCLIC
+VAR a : Counter; r : REFERENCE TO Counter; before, after : UDINT; END_VAR
+r ACCESS ADR(a);
+before := ADR(r);
+r := 0;
+after := ADR(r);
+END_PROGRAM"""
+    )
+    assert running["before"] != 0
+    assert running["after"] == 0
+
+
 FUNCTIONS = """
 FUNCTION sum : DINT
 VAR_INPUT list : ARRAY[1..3] OF INT; factor : INT := 10; END_VAR
