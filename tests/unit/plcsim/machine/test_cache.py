@@ -118,7 +118,11 @@ def test_the_oldest_go_when_there_are_too_many(tmp_path):
 
 def test_the_folder_is_not_looked_through_at_every_entry(tmp_path, monkeypatch):
     looks = []
-    monkeypatch.setattr(CodeCache, "_shrink", lambda cache: looks.append(cache))
+
+    def look(cache):
+        looks.append(cache)
+
+    monkeypatch.setattr(CodeCache, "_shrink", look)
     for number in range(64):
         CodeCache(tmp_path, max_bytes=64_000, max_entries=64).store(str(number), b"")
     assert 4 <= len(looks) <= 17
