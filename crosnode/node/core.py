@@ -64,6 +64,7 @@ class NodeCore:
 
     def flush(self, link: PeerLink) -> None:
         """Write what waits in a link now, as far as the budget of the step allows."""
+        link.wake()
         if self.budget.work >= TRANSFER_WORK:
             link.flush(self.now_ns, self.budget)
 

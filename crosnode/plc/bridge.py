@@ -16,8 +16,6 @@ from crosnode.node.publisher import printable
 from crosnode.plc.bridge_services import FollowedParameter, TagService
 from crosnode.plc.bridge_topics import BridgeStatus, Incoming, Outgoing
 from crosnode.plc.project import make_node, surroundings
-from crosnode.transport.budget import StepBudget
-from crosnode.transport.link import QUIET_TURNS
 from plcsim.core.errors import ConfigurationError, Findings, TagError
 from plcsim.core.logbook import Severity
 
@@ -122,8 +120,7 @@ class Bridge:
     def close(self) -> None:
         """End with the controller, whose sockets are closed already: take back by a new one."""
         node = self.node
-        for _ in range(QUIET_TURNS):
-            node.core.loop.step(self._controller.context.release_ns, StepBudget(node.pace.limits))
+        node.core.loop.end_links(self._controller.context.release_ns)
         node.destroy()
 
     def _log_news(self, status: Status) -> None:

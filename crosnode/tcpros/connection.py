@@ -151,7 +151,7 @@ class TcprosConnection(ProtocolConnection):
         return (yield from self._reader.large_block(self.limits.max_message, "message"))
 
     def _send_header(self, fields: Mapping[str, str]) -> None:
-        self._outbox.append(encode_header(fields))
+        self.outbox.append(encode_header(fields))
 
 
 class ClientConnection(TcprosConnection):

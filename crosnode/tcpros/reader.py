@@ -6,7 +6,9 @@ Where bytes are missing it yields None, and goes on from there when it is resume
 
 from __future__ import annotations
 
+import mmap
 import struct
+from sys import getrefcount
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import TcprosError
@@ -16,17 +18,48 @@ if TYPE_CHECKING:
 
 _LENGTH: Final = struct.Struct("<I")
 
-AHEAD: Final = 1 << 20
-"""Bytes of a large block that are laid out at once, where the first of it has come."""
+LARGE: Final = 1 << 16
+"""Bytes; larger blocks go to memory of their own as they come."""
 
-FIRST: Final = 1 << 16
-"""Bytes that are laid out for a peer that has said no more than a length."""
+KEPT: Final = 3
+"""Memories that a reader keeps for the next large blocks."""
+
+
+class BlockMemory:
+    """Memory for large blocks: reserved at once, but the system lays out a page when it is filled.
+
+    A memory is used again when nobody has a view of it, so a stream of images costs page faults
+    for the first ones only, and gives nothing back.
+    """
+
+    __slots__ = ("_kept",)
+
+    def __init__(self) -> None:
+        self._kept: list[mmap.mmap] = []
+
+    def take(self, size: int) -> mmap.mmap:
+        """Return memory of at least ``size`` bytes, of whatever was there before."""
+        kept = self._kept
+        for place in range(len(kept)):
+            if len(kept[place]) >= size and getrefcount(kept[place]) == _UNUSED:
+                kept.append(kept.pop(place))
+                return kept[-1]
+        # Private: pages of shared memory cost more.
+        kept.append(mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS))
+        del kept[:-KEPT]
+        return kept[-1]
+
+
+_UNUSED: Final = 2
+"""References to an object in a list, with that of the call that counts them."""
 
 
 class LargeBlock:
     """A block of ``size`` bytes that is filled as they come.
 
-    No more than ``FIRST`` bytes, and later ``AHEAD``, are laid out before they have come.
+    Args:
+        size: bytes.
+        memory: at least as many bytes.
 
     Attributes:
         data: the bytes that came, and room for more.
@@ -35,9 +68,9 @@ class LargeBlock:
 
     __slots__ = ("_size", "data", "have")
 
-    def __init__(self, size: int) -> None:
+    def __init__(self, size: int, memory: mmap.mmap) -> None:
         self._size = size
-        self.data = bytearray(min(size, FIRST))
+        self.data = memoryview(memory)[:size]
         self.have = 0
 
     @property
@@ -47,25 +80,22 @@ class LargeBlock:
 
     def fill(self, data: memoryview) -> memoryview:
         """Take bytes; return those that belong to what follows the block."""
-        while data and self.have < self._size:
-            if self.have == len(self.data):
-                self.data += bytes(min(AHEAD - self.have % AHEAD, self._size - self.have))
-            piece = min(len(data), len(self.data) - self.have)
-            self.data[self.have : self.have + piece] = data[:piece]
-            self.have += piece
-            data = data[piece:]
-        return data
+        piece = min(len(data), self._size - self.have)
+        self.data[self.have : self.have + piece] = data[:piece]
+        self.have += piece
+        return data[piece:]
 
 
 class ByteReader:
     """Bytes received and not parsed yet, and whether the peer has closed."""
 
-    __slots__ = ("_buffer", "_eof", "_large")
+    __slots__ = ("_buffer", "_eof", "_large", "_memory")
 
     def __init__(self) -> None:
         self._buffer = bytearray()
         self._eof = False
         self._large: LargeBlock | None = None
+        self._memory = BlockMemory()
 
     def __len__(self) -> int:
         return len(self._buffer)
@@ -114,9 +144,9 @@ class ByteReader:
         Where they do not fit into one read they go to their place as they are fed, and what is
         returned is a read-only view of it. Raises as ``exactly`` does.
         """
-        if size <= FIRST:
+        if size <= LARGE:
             return (yield from self.exactly(size))
-        block = LargeBlock(size)
+        block = LargeBlock(size, self._memory.take(size))
         with memoryview(self._buffer) as data:
             used = len(data) - len(block.fill(data))
         del self._buffer[:used]
@@ -126,7 +156,7 @@ class ByteReader:
                 raise TcprosError(f"connection closed after {block.have} of {size} bytes")
             yield
         self._large = None
-        return memoryview(block.data).toreadonly()
+        return block.data.toreadonly()
 
     def large_block(self, limit: int, what: str) -> Generator[None, None, bytes | memoryview]:
         """Take a block as ``block`` does, its bytes as ``large`` does."""

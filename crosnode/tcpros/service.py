@@ -116,7 +116,7 @@ class ServiceServerConnection(ServerConnection):
 
     def _reply(self, ok: bytes, body: bytes | memoryview) -> None:
         self._move(Trigger.REPLY if self.is_persistent else Trigger.LAST)
-        self._outbox += (ok + length_of(body), body)
+        self.outbox += (ok + length_of(body), body)
 
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_offer())
@@ -174,7 +174,7 @@ class ServiceClientConnection(ClientConnection):
         """Call the service; the reply must come within the time limit."""
         self._move(Trigger.REQUEST)
         self._since_ns = now_ns
-        self._outbox += (length_of(body), body)
+        self.outbox += (length_of(body), body)
 
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         trigger = Trigger.LAST if self._probe else Trigger.HEADER

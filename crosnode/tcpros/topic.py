@@ -82,7 +82,7 @@ class PublisherConnection(ServerConnection):
     def send_message(self, body: bytes | memoryview) -> None:
         """Send a message; ``body`` must not change until it is written."""
         self._move(Trigger.MESSAGE)
-        self._outbox += (length_of(body), body)
+        self.outbox += (length_of(body), body)
 
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_offer())
@@ -133,5 +133,6 @@ class SubscriberConnection(ClientConnection):
             body = yield from self._read_message()
             self._move(Trigger.MESSAGE)
             yield MessageReceived(body)
+            del body  # its memory may be used again
         self.close()
         yield Closed()

@@ -80,6 +80,10 @@ class ProtocolConnection(ABC):
         state: the first state.
         timeout_ns: nanoseconds the peer may take for its part in a timed state.
         now_ns: time of the step in which the connection was made.
+
+    Attributes:
+        state: of the role's table.
+        outbox: what is to be written, in order; ``data_to_send`` takes it.
     """
 
     TABLE: ClassVar[Table]
@@ -94,7 +98,7 @@ class ProtocolConnection(ABC):
         self._timeout_ns = timeout_ns
         self._since_ns = now_ns
         self._is_drained = True
-        self._outbox: list[bytes | memoryview] = []
+        self.outbox: list[bytes | memoryview] = []
 
     @property
     @abstractmethod
@@ -135,7 +139,7 @@ class ProtocolConnection(ABC):
 
     def data_to_send(self) -> list[bytes | memoryview]:
         """Return what is to be written, in order, and forget it."""
-        data, self._outbox = self._outbox, []
+        data, self.outbox = self.outbox, []
         return data
 
     @property

@@ -25,6 +25,9 @@ BACKLOG: Final = 64
 LARGE_BLOCK: Final = 8 << 20
 """Bytes; messages up to this size cost no page faults each time."""
 
+TIMER_TURNS: Final = 16
+"""Steps in which the time limits of all links are looked at, a part in each."""
+
 REOPEN_NS: Final = 1_000_000_000
 """Nanoseconds between two attempts to open a port that is in use."""
 
@@ -87,9 +90,9 @@ class PortListener:
             self._next.close()
         return True
 
-    def step(self, now_ns: int, budget: StepBudget) -> None:
-        """Take waiting connections within the budget."""
-        if not self.open(now_ns):
+    def step(self, now_ns: int, budget: StepBudget, news: set[int]) -> None:
+        """Take waiting connections within the budget, where ``news`` has the port's ident."""
+        if not self.open(now_ns) or self._socket.ident not in news:
             return
         while budget.accepts > 0 and budget.affords(CONNECTION_WORK):
             client = self._next
@@ -147,7 +150,7 @@ class EventLoop:
         self.listeners: list[PortListener] = []
         self._new: list[PeerLink] = []
         self._turn = 0
-        self._listener_turn = 0
+        self._round = 0
 
     def listen(self, ip: str, port: int, acceptor: Acceptor) -> PortListener:
         """Add a port to listen at."""
@@ -171,16 +174,16 @@ class EventLoop:
         self._new.append(link)
 
     def step(self, now_ns: int, budget: StepBudget) -> None:
-        """Look at one listener, then at each link in turn while the budget lasts.
+        """Look at the listeners, then at each link in turn while the budget lasts.
 
-        Links with more to read have further turns. The next step begins with the first link that
-        had to wait.
+        A link that has nothing to do costs next to nothing. Links with more to read have further
+        turns. The next step begins with the first link that had to wait.
         """
-        if self.listeners:
-            self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
-            self.listeners[self._listener_turn].step(now_ns, budget)
+        news = self.pool.look()
+        for listener in self.listeners:
+            listener.step(now_ns, budget, news)
         budget.is_short = False
-        self._turn = self._go_round(now_ns, budget)
+        self._turn = self._go_round(now_ns, budget, news)
         while not budget.is_short and (busy := [link for link in self.links if link.has_more]):
             for link in busy:
                 self._give_turn(link, now_ns, budget)
@@ -192,6 +195,7 @@ class EventLoop:
         new, self._new = self._new, []
         for link in new:
             if budget.polls > 0 and not link.is_over:
+                link.is_readable = True
                 link.step(now_ns, budget)
 
     def _give_turn(self, link: PeerLink, now_ns: int, budget: StepBudget) -> None:
@@ -201,19 +205,25 @@ class EventLoop:
         else:
             link.has_more = False
 
-    def _go_round(self, now_ns: int, budget: StepBudget) -> int:
+    def _go_round(self, now_ns: int, budget: StepBudget, news: set[int]) -> int:
         """Give links their turn while the budget lasts; return where the next step begins."""
         links, count = self.links, len(self.links)
         start = self._turn if self._turn < count else 0
-        turns = min(count, budget.polls)
-        for turn in range(start, start + turns):
-            link, work = links[turn % count], budget.work
-            if not link.is_over:  # another link's event may have ended it
-                link.step(now_ns, budget)
+        self._round += 1
+        for turn in range(start, start + count):
+            place = turn % count
+            link, work = links[place], budget.work
+            if (place + self._round) % TIMER_TURNS == 0:
+                link.check_time(now_ns)
+            if link.is_over or not link.has_work(news):  # another link's event may have ended it
+                continue
+            if budget.polls <= 0:
+                return place
+            link.step(now_ns, budget)
             if budget.is_short:  # a link that could do nothing goes first, another goes last
                 had_to_wait = work - budget.work <= POLL_WORK
-                return (turn if had_to_wait else turn + 1) % count
-        return (start + (turns if turns < count else 1)) % max(1, count)
+                return place if had_to_wait else (turn + 1) % count
+        return (start + 1) % max(1, count)
 
     def _remove_ended(self) -> None:
         for link in self.links:

@@ -35,12 +35,6 @@ PARSED_READ: Final = 4_096
 READS: Final = 2
 """Times that a connection is read from in a step, where the first time gave a whole area."""
 
-TIMER_TURNS: Final = 16
-"""Time limits are looked at in every sixteenth turn of a link."""
-
-QUIET_TURNS: Final = 8
-"""A peer that has nothing to say but that it leaves is read from in every eighth turn."""
-
 _DONE: Final = TcpipSocketState.DONE
 _IN_PROGRESS: Final = TcpipSocketState.IN_PROGRESS
 
@@ -104,12 +98,14 @@ class PeerLink:
         bytes_in: bytes read so far.
         bytes_out: bytes written so far.
         has_more: whether the last turn left something to read.
+        is_readable: whether the socket has something to read, or may have.
         peer: who is at the other end, for messages and getBusInfo.
         state: how far it is.
     """
 
-    __slots__ = ("_is_parsed", "_outbox", "_reason", "_since_ns", "_turn", "bytes_in", "bytes_out",
-                 "connection", "has_more", "owner", "peer", "socket", "state")  # fmt: skip
+    __slots__ = ("_is_parsed", "_outbox", "_reason", "_resting", "_since_ns", "bytes_in",
+                 "bytes_out", "connection", "has_more", "is_readable", "owner", "peer", "socket",
+                 "state")  # fmt: skip
 
     def __init__(
         self,
@@ -129,7 +125,8 @@ class PeerLink:
         self._reason = ""
         self.has_more = False
         self._is_parsed = connection.IS_PARSED
-        self._turn = 0
+        self._resting: ConnectionState | None = None
+        self.is_readable = True
 
     @property
     def is_over(self) -> bool:
@@ -140,6 +137,28 @@ class PeerLink:
     def waiting(self) -> int:
         """Bytes that wait to be written."""
         return self._outbox.size
+
+    def has_work(self, news: set[int]) -> bool:
+        """Whether a turn would do anything.
+
+        After a turn that did nothing, that is so when the socket has news, when the connection has
+        something to say or is in another state, or when ``wake`` was called.
+
+        Args:
+            news: idents with something to read.
+        """
+        self.is_readable = self.socket.ident in news
+        connection = self.connection
+        return self.is_readable or self._resting is not connection.state or bool(connection.outbox)
+
+    def wake(self) -> None:
+        """Have a turn in the next step: the owner has something to say."""
+        self._resting = None
+
+    def check_time(self, now_ns: int) -> None:
+        """End the connection where the peer has had its time."""
+        if self.state is not LinkState.OVER and (failed := self.connection.handle_timer(now_ns)):
+            self._handle(failed, now_ns)
 
     def step(self, now_ns: int, budget: StepBudget) -> None:
         """Do what can be done now within the budget."""
@@ -152,22 +171,19 @@ class PeerLink:
             budget.work -= CONNECTION_WORK
 
     def _exchange(self, now_ns: int, budget: StepBudget) -> None:
-        self._turn += 1
-        if self._turn % TIMER_TURNS == 0 and (failed := self.connection.handle_timer(now_ns)):
-            self._handle(failed, now_ns)
-        expects_data = self.owner.expects_data(self)
-        if not expects_data or self._outbox.size < AREA_SIZE:  # who does not read is not heard
-            self._read(now_ns, budget, expects_data=expects_data)
+        # Who does not read is not heard, unless it has no more to say than that it leaves.
+        if self._outbox.size < AREA_SIZE or not self.owner.expects_data(self):
+            self._read(now_ns, budget)
         self._send(now_ns, budget)
         if self.connection.state is ConnectionState.CLOSED:
             self._finish(now_ns)
 
-    def _read(self, now_ns: int, budget: StepBudget, *, expects_data: bool) -> None:
+    def _read(self, now_ns: int, budget: StepBudget) -> None:
         """Take the events that are there, then what the socket has."""
         self.has_more = False
         if not self.connection.wants_data:
             self._take_events(now_ns, budget)
-        if not expects_data and self._turn % QUIET_TURNS:
+        if not self.is_readable:
             return
         for _ in range(READS):
             self.has_more = self.connection.wants_data and self._receive(now_ns, budget)
@@ -259,10 +275,15 @@ class PeerLink:
     def _send(self, now_ns: int, budget: StepBudget) -> None:
         if self._outbox.size < AREA_SIZE and self.connection.state is not ConnectionState.CLOSED:
             self.owner.fill(self)
-        for piece in self.connection.data_to_send():
-            self._outbox.push_back(piece)
+        connection = self.connection
+        if connection.outbox:
+            for piece in connection.data_to_send():
+                self._outbox.push_back(piece)
         if not self._outbox.size:
+            rests = self.state is LinkState.OPEN and connection.wants_data
+            self._resting = connection.state if rests else None
             return
+        self._resting = None
         size = budget.bytes_out if self._is_parsed else budget.at_most(budget.bytes_out)
         if size <= 0:
             return

@@ -38,6 +38,7 @@ from plcsim.library.astcp import (
     tcpTCP_KEEPINTVL_SET,
     tcpTCP_NODELAY_SET,
 )
+from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.settings import AsTcpSettings
 from st_types import STRING, UDINT, UINT, Struct, var
 
@@ -127,6 +128,10 @@ class SocketPool:
         self.send_area = context.memory.allocate(AREA_SIZE)
         self._free = [self._new() for _ in range(SOCKETS_AT_START)]
 
+    def look(self) -> set[int]:
+        """Return the idents with news: a client, bytes, or the end of a connection."""
+        return self.context.library(IdentTable).look()
+
     def get(self) -> TcpipSocket:
         """Return a socket that is not open."""
         return self._free.pop() if self._free else self._new()
@@ -147,6 +152,7 @@ class TcpipSocket:
         pool: whose transfer areas it uses.
 
     Attributes:
+        ident: of AsTCP, tcpINVALID_IDENT while it is not open.
         ip: address of the peer, or of the own interface where it listens.
         port: port of the peer, or the one to listen at.
         status: the status of the last block called, for messages.
@@ -157,12 +163,12 @@ class TcpipSocket:
         "_area",
         "_blocks",
         "_connected",
-        "_ident",
         "_memory",
         "_pool",
         "_recv",
         "_send",
         "_server",
+        "ident",
         "ip",
         "port",
         "status",
@@ -177,7 +183,7 @@ class TcpipSocket:
         blocks.recv.pData, blocks.recv.enable = pool.recv_area, True
         blocks.send.pData, blocks.send.enable = pool.send_area, True
         self._area = pool.send_area
-        self._ident = tcpINVALID_IDENT
+        self.ident = tcpINVALID_IDENT
         self._connected = False
         self.ip, self.port, self.status = "", 0, ERR_OK
 
@@ -195,7 +201,7 @@ class TcpipSocket:
     @property
     def is_open(self) -> bool:
         """Whether the socket has an ident."""
-        return self._ident != tcpINVALID_IDENT
+        return self.ident != tcpINVALID_IDENT
 
     @property
     def is_connected(self) -> bool:
@@ -223,7 +229,7 @@ class TcpipSocket:
         return _state_of(block.status)
 
     def _use(self, ident: int) -> None:
-        self._ident = ident
+        self.ident = ident
         self._recv.ident = self._send.ident = ident
 
     def connect(self) -> TcpipSocketState:
@@ -235,7 +241,7 @@ class TcpipSocket:
         if not self.is_open and (state := self.open()) is not _DONE:
             return state
         block = self._blocks.client
-        block(enable=True, ident=self._ident, pServer=self._address,
+        block(enable=True, ident=self.ident, pServer=self._address,
               portserv=self.port)  # fmt: skip
         self.status = block.status
         self._connected = block.status == ERR_OK
@@ -250,7 +256,7 @@ class TcpipSocket:
             DONE, IN_PROGRESS (nobody there, or no ident is free) or FAILED.
         """
         block = self._server
-        block.enable, block.ident, block.backlog = True, self._ident, backlog
+        block.enable, block.ident, block.backlog = True, self.ident, backlog
         block.pIpAddr = client._address
         block.execute()
         self.status = block.status
@@ -363,12 +369,12 @@ class TcpipSocket:
 
     def _ioctl(self, ioctl: int, data: int, size: int) -> None:
         block = self._blocks.ioctl
-        block(enable=True, ident=self._ident, ioctl=ioctl, pData=data, datalen=size)
+        block(enable=True, ident=self.ident, ioctl=ioctl, pData=data, datalen=size)
 
     def close(self) -> None:
         """Close the socket where it is open; what was written still goes out."""
         if self.is_open:
-            self._blocks.close(enable=True, ident=self._ident)
+            self._blocks.close(enable=True, ident=self.ident)
             self._blocks.client(enable=False)
             self._blocks.server(enable=False)
         self._use(tcpINVALID_IDENT)

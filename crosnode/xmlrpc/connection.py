@@ -221,7 +221,7 @@ class XmlRpcConnection(ProtocolConnection):
     def _send(self, *http_events: h11.Event) -> None:
         for http_event in http_events:
             if data := self._http.send(http_event):
-                self._outbox.append(data)
+                self.outbox.append(data)
 
 
 class XmlRpcServerConnection(XmlRpcConnection):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import select
 import socket
 import struct
 from contextlib import suppress
@@ -56,9 +57,12 @@ _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
 class OsSocket:
     """A socket of the host. Made by ``OsNetwork.open`` and ``accept`` only."""
 
-    def __init__(self, os_socket: socket.socket, peer: Address | None = None) -> None:
+    def __init__(self, os_socket: socket.socket, watch: Watch, peer: Address | None = None) -> None:
         os_socket.settimeout(0)
         self._socket = os_socket
+        self._watch = watch
+        if peer is not None:
+            watch.add(os_socket.fileno(), self)
         self._peer = peer
         self._listening = False
         self._target: Address | None = None
@@ -91,7 +95,9 @@ class OsSocket:
             self._socket.listen(min(backlog, MAX_BACKLOG))
         except OSError as error:
             return outcome_of(error)
-        self._listening = True
+        if not self._listening:
+            self._listening = True
+            self._watch.add(self._socket.fileno(), self)
         return Outcome.OK
 
     def accept(self) -> Accepted:
@@ -102,7 +108,8 @@ class OsSocket:
             outcome = outcome_of(error)
             # accept(2): an error of the waiting connection itself means "try the next one".
             return Accepted(Outcome.WOULD_BLOCK if outcome in _ENDS else outcome)
-        return Accepted(Outcome.OK, OsSocket(os_socket, Address(*peer)), Address(*peer))
+        accepted = OsSocket(os_socket, self._watch, Address(*peer))
+        return Accepted(Outcome.OK, accepted, Address(*peer))
 
     def connect(self, peer: Address) -> Outcome:
         """See ``Socket.connect``."""
@@ -125,6 +132,7 @@ class OsSocket:
             return Outcome.REFUSED
         if outcome is Outcome.OK:
             self._peer = peer
+            self._watch.add(self._socket.fileno(), self)
         return outcome
 
     def send(self, data: bytes | memoryview, *, urgent: bool = False, direct: bool = False) -> Sent:
@@ -189,6 +197,7 @@ class OsSocket:
         self._peer = None
         self._target = None
         self._listening = False
+        self._watch.remove(self._socket.fileno())
         with suppress(OSError):
             self._socket.close()
 
@@ -221,11 +230,39 @@ class OsSocket:
         return int(seconds) if on else None
 
 
+class Watch:
+    """Which sockets of a network have news; epoll(7), once somebody looks."""
+
+    def __init__(self) -> None:
+        self._sockets: dict[int, OsSocket] = {}
+        self._epoll: select.epoll | None = None
+
+    def add(self, descriptor: int, watched: OsSocket) -> None:
+        """Watch a socket that listens or is connected."""
+        self._sockets[descriptor] = watched
+        if self._epoll is not None:
+            self._epoll.register(descriptor, select.EPOLLIN)
+
+    def remove(self, descriptor: int) -> None:
+        """Watch a socket no more that is about to be closed, which takes it out of epoll."""
+        self._sockets.pop(descriptor, None)
+
+    def look(self) -> list[OsSocket]:
+        """Return the sockets with news."""
+        if self._epoll is None:
+            self._epoll = select.epoll()
+            for descriptor in self._sockets:
+                self._epoll.register(descriptor, select.EPOLLIN)
+        sockets = self._sockets
+        return [sockets[fd] for fd, _ in self._epoll.poll(0) if fd in sockets]
+
+
 class OsNetwork:
     """TCP and UDP of the host this process runs on."""
 
     def __init__(self) -> None:
         descriptors.make_room()
+        self._watch = Watch()
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See ``Network.open``."""
@@ -245,7 +282,11 @@ class OsNetwork:
             outcome = outcome_of(error)
             no_port_left = port == 0 and outcome is Outcome.IN_USE
             return Opened(Outcome.NO_RESOURCES if no_port_left else outcome)
-        return Opened(Outcome.OK, OsSocket(os_socket))
+        return Opened(Outcome.OK, OsSocket(os_socket, self._watch))
+
+    def look(self) -> list[OsSocket]:
+        """See ``Network.look``."""
+        return self._watch.look()
 
     def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
         """See ``DatagramNetwork.open_datagrams``."""

@@ -10,6 +10,8 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from plcsim.core.context import Context
 
 ANY_IP = "0.0.0.0"  # noqa: S104  # the literal is compared and passed on by choice of the program
@@ -254,6 +256,13 @@ class Network(Protocol):
         Returns:
             OK with the socket, IN_USE, NOT_LOCAL, INVALID_ADDRESS, DENIED, NO_RESOURCES,
             INVALID (port out of range) or SYSTEM.
+        """
+
+    def look(self) -> Collection[Socket]:
+        """Return the sockets with news: ``accept`` or ``recv`` would not say WOULD_BLOCK now.
+
+        One call to the host tells of all sockets, so that a program of many connections need not
+        try each. Urgent data are no news.
         """
 
 

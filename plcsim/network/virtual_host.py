@@ -55,6 +55,11 @@ class VirtualHost:
         self.add(made)
         return Opened(Outcome.OK, made)
 
+    def look(self) -> list[VirtualSocket]:
+        """See ``Network.look``."""
+        self.net.settle()
+        return [user for users in self._ports.values() for user in users if user.has_news]
+
     def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
         """See ``DatagramNetwork.open_datagrams``; two sockets never share a port here."""
         self.net.settle()

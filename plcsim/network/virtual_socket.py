@@ -302,6 +302,19 @@ class VirtualSocket:
         handshake.cancelled = True
         return self._connection if handshake.answer is Outcome.OK else None
 
+    @property
+    def has_news(self) -> bool:
+        """Whether ``accept`` or ``recv`` would not say WOULD_BLOCK now."""
+        if self.state is SocketState.LISTENING:
+            return bool(self._queue)
+        connection = self._connected()
+        if connection is None:
+            return False
+        return (
+            bool(connection.incoming.arrived)
+            or self._why_nothing(connection) is not Outcome.WOULD_BLOCK
+        )
+
     def _why_nothing(self, connection: Connection) -> Outcome:
         """Tell why there is no byte to read."""
         if connection.lost is not None:

@@ -352,6 +352,28 @@ class NetworkContract:
         client.send(b"x")
         assert talk.read(server, 1) == b"x"
 
+    def test_a_look_tells_who_has_news(self, talk: Talk) -> None:
+        listener = talk.listen()
+        assert listener not in talk.server.look()
+        client = talk.open(talk.client)
+        talk.settle(lambda: client.connect(talk.address(listener)))
+        talk.eventually(talk.server.look, lambda news: listener in news)
+        peer = talk.keep(listener.accept().socket)
+        assert listener not in talk.server.look()
+        assert client not in talk.client.look()
+        assert peer not in talk.server.look()
+        client.send(b"ab")
+        talk.eventually(talk.server.look, lambda news: peer in news)
+        assert talk.read(peer, 2) == b"ab"
+        assert peer not in talk.server.look()
+        client.close()
+        talk.eventually(talk.server.look, lambda news: peer in news)
+        assert peer.recv(1).outcome is Outcome.CLOSED
+        assert peer in talk.server.look()
+        peer.close()
+        listener.close()
+        assert not {peer, listener, client} & set(talk.server.look())
+
     def test_time_wait_keeps_the_port_without_reuse(self, talk: Talk) -> None:
         listener = talk.listen(reuse=True)
         port = listener.local.port

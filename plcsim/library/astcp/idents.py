@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.library.astcp.interface import tcpINVALID_IDENT
 from plcsim.library.astcp.settings import AsTcpSettings
+from plcsim.network.protocol import network_of
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -40,7 +41,9 @@ class IdentTable:
 
     def __init__(self, context: Context) -> None:
         self.settings = context.settings(AsTcpSettings) or AsTcpSettings()
+        self._context = context
         self._endpoints: dict[int, Endpoint] = {}
+        self._idents: dict[Socket, int] = {}
         self._last = tcpINVALID_IDENT
 
     @property
@@ -54,15 +57,23 @@ class IdentTable:
         while self._last in self._endpoints:
             self._last = self._last % LAST_IDENT + 1
         self._endpoints[self._last] = Endpoint(socket)
+        self._idents[socket] = self._last
         return self._last
 
     def find(self, ident: int) -> Endpoint | None:
         """Return what an ident stands for, None if it is not in use."""
         return self._endpoints.get(ident)
 
+    def look(self) -> set[int]:
+        """Return the idents with news: TcpServer gives a client, TcpRecv more than "no data"."""
+        idents = self._idents
+        return {idents[found] for found in network_of(self._context).look() if found in idents}
+
     def remove(self, ident: int) -> None:
         """Free an ident that is in use and close its socket."""
-        self._endpoints.pop(ident).socket.close()
+        socket = self._endpoints.pop(ident).socket
+        del self._idents[socket]
+        socket.close()
 
     def in_use(self) -> tuple[int, ...]:
         """Return all idents in use, oldest first."""

@@ -30,6 +30,7 @@ _OPEN, _ACCEPT, _LISTEN, _CONNECT = map(_heads, (b"o", b"a", b"l", b"c"))
 _SEND, _RECV, _SHUTDOWN = map(_heads, (b"s", b"r", b"d"))
 _SET_OPTION, _OPTION, _SET_LINGER = map(_heads, (b"t", b"p", b"i"))
 _CLOSE, _LISTENING, _LOCAL, _PEER, _LINGER = b"x", b"n", b"h", b"e", b"g"
+_LOOK = b"k"
 
 
 def _text(address: Address | None) -> bytes:
@@ -45,25 +46,54 @@ class RecordedNetwork:
     Args:
         network: answers.
         journal: takes the answers down.
+
+    Attributes:
+        answers: those of the cycle so far.
     """
 
     def __init__(self, network: Network, journal: Journal) -> None:
         self._network = network
-        self._answers = journal.network
+        self.answers = journal.network
+        self._count = 0
+        self._made: dict[Socket, RecordedSocket] = {}
+
+    def look(self) -> list[RecordedSocket]:
+        """See `plcsim.network.Network`; a socket is told by its place among those made."""
+        found = [self._made[each] for each in self._network.look() if each in self._made]
+        self.answers += _LOOK + b"\0" + _U32.pack(len(found))
+        for each in found:
+            self.answers += _U32.pack(each.number)
+        return found
+
+    def record(self, socket: Socket) -> RecordedSocket:
+        """Return what records the answers of a new socket."""
+        self._count += 1
+        made = self._made[socket] = RecordedSocket(socket, self, self._count)
+        return made
+
+    def forget(self, socket: Socket) -> None:
+        """Look at a socket no more."""
+        self._made.pop(socket, None)
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See `plcsim.network.Network`."""
         outcome, socket = self._network.open(ip, port, reuse_address=reuse_address)
-        self._answers += _OPEN[outcome]
-        return Opened(outcome, socket and RecordedSocket(socket, self._answers))
+        self.answers += _OPEN[outcome]
+        return Opened(outcome, socket and self.record(socket))
 
 
 class RecordedSocket:
-    """A socket whose answers go into the journal; for what its calls do see `Socket`."""
+    """A socket whose answers go into the journal; for what its calls do see `Socket`.
 
-    def __init__(self, socket: Socket, answers: bytearray) -> None:
+    Attributes:
+        number: its place among the sockets made.
+    """
+
+    def __init__(self, socket: Socket, network: RecordedNetwork, number: int) -> None:
+        self.number = number
         self._socket = socket
-        self._answers = answers
+        self._network = network
+        self._answers = network.answers
 
     @property
     def listening(self) -> bool:
@@ -99,7 +129,7 @@ class RecordedSocket:
         if socket is None:
             return Accepted(outcome, None, peer)
         self._answers += _text(peer)
-        return Accepted(outcome, RecordedSocket(socket, self._answers), peer)
+        return Accepted(outcome, self._network.record(socket), peer)
 
     def connect(self, peer: Address) -> Outcome:
         """See `Socket`."""
@@ -131,6 +161,7 @@ class RecordedSocket:
 
     def close(self) -> None:
         """See `Socket`."""
+        self._network.forget(self._socket)
         self._socket.close()
         self._answers += _CLOSE + b"\0"
 
@@ -169,18 +200,43 @@ class ReplayNetwork:
 
     def __init__(self, feed: Feed) -> None:
         self._feed = feed
+        self._count = 0
+        self._made: dict[int, ReplaySocket] = {}
+
+    def look(self) -> list[ReplaySocket]:
+        """See `plcsim.network.Network`."""
+        self._feed.answer(_LOOK)
+        found = [self._made.get(self._u32()) for _ in range(self._u32())]
+        if None in found:
+            raise self._feed.differs("the network told of a socket that is not there")
+        return [each for each in found if each is not None]
+
+    def _u32(self) -> int:
+        return int.from_bytes(self._feed.data(4), "little")
+
+    def replay(self) -> ReplaySocket:
+        """Return what answers for a new socket."""
+        self._count += 1
+        made = self._made[self._count] = ReplaySocket(self._feed, self, self._count)
+        return made
+
+    def forget(self, number: int) -> None:
+        """Look at a socket no more."""
+        self._made.pop(number, None)
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See `plcsim.network.Network`."""
         outcome = _OUTCOMES[self._feed.answer(b"o")]
-        return Opened(outcome, ReplaySocket(self._feed) if outcome is Outcome.OK else None)
+        return Opened(outcome, self.replay() if outcome is Outcome.OK else None)
 
 
 class ReplaySocket:
     """A socket that answers what was recorded."""
 
-    def __init__(self, feed: Feed) -> None:
+    def __init__(self, feed: Feed, network: ReplayNetwork, number: int) -> None:
         self._feed = feed
+        self._network = network
+        self._number = number
 
     def _outcome(self, call: bytes) -> Outcome:
         return _OUTCOMES[self._feed.answer(call)]
@@ -225,7 +281,7 @@ class ReplaySocket:
         if outcome is not Outcome.OK:
             return Accepted(outcome)
         peer = self._address() or Address("", 0)
-        return Accepted(outcome, ReplaySocket(self._feed), peer)
+        return Accepted(outcome, self._network.replay(), peer)
 
     def connect(self, peer: Address) -> Outcome:
         """See `Socket`."""
@@ -247,6 +303,7 @@ class ReplaySocket:
 
     def close(self) -> None:
         """See `Socket`."""
+        self._network.forget(self._number)
         self._feed.answer(_CLOSE)
 
     def set_option(self, option: Option, value: int) -> Outcome:

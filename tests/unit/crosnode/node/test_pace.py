@@ -53,7 +53,9 @@ def test_a_step_reads_on_while_its_budget_lasts() -> None:
     (link,) = [each for each in node.core.loop.links if each.owner in subscriber.peers.values()]
     first = (9 * AREA_SIZE - 4).to_bytes(4, "little") + bytes(AREA_SIZE - 4)
     areas = [memoryview(bytes(AREA_SIZE))] * 8 + [memoryview(first)]
-    link.socket = FullSocket(areas)  # type: ignore[assignment]
+    full = FullSocket(link.socket.ident, areas)
+    link.socket = full  # type: ignore[assignment]
+    node.core.loop.pool.look = lambda: {full.ident}  # type: ignore[method-assign]
     world.run(10, step_ms=10)
     assert areas == []
     assert subscriber.queue.pushed == 1
@@ -62,7 +64,8 @@ def test_a_step_reads_on_while_its_budget_lasts() -> None:
 class FullSocket:
     """A socket whose buffer holds many areas, as one of the host can."""
 
-    def __init__(self, areas: list[memoryview]) -> None:
+    def __init__(self, ident: int, areas: list[memoryview]) -> None:
+        self.ident = ident
         self._areas = areas
 
     def read_area(self, size: int) -> tuple[TcpipSocketState, memoryview]:

@@ -51,7 +51,7 @@ class Lines(ProtocolConnection):
 
     def close(self) -> None:
         if self.state is not ConnectionState.CLOSED:
-            self._outbox.append(self._farewell)
+            self.outbox.append(self._farewell)
         super().close()
 
 
@@ -99,6 +99,15 @@ class Wire:
             self.now_ns += 1_000_000
             self.loop.step(self.now_ns, StepBudget(StepLimits()))
 
+    def idle_work(self) -> int:
+        """Return the most that one of a hundred steps cost."""
+        limits = StepLimits()
+        budgets = [StepBudget(limits) for _ in range(100)]
+        for budget in budgets:
+            self.now_ns += 1_000_000
+            self.loop.step(self.now_ns, budget)
+        return max(limits.work - budget.work for budget in budgets)
+
     def peer(self) -> Socket:
         assert self.listener
         self.step()
@@ -122,6 +131,21 @@ def test_bytes_go_to_the_protocol_and_its_events_to_the_owner() -> None:
     assert wire.told.reasons == [""]
     assert wire.link.is_over
     assert wire.loop.links == []
+
+
+def test_a_link_with_nothing_to_do_costs_no_work_of_a_step() -> None:
+    wire = Wire()
+    peer = wire.peer()
+    assert wire.idle_work() == 0
+    peer.send(b"abc")
+    wire.step(1)
+    assert wire.protocol.received == b"abc"
+    wire.step()
+    assert wire.idle_work() == 0
+    wire.protocol.outbox.append(b"hello")
+    wire.step(1)
+    wire.now_ns += 1_000_000
+    assert peer.recv(10).data == b"hello"
 
 
 def test_a_port_where_nobody_listens() -> None:

@@ -34,8 +34,9 @@ def talk(server: Network, client: Network, wait: Callable[[], None]) -> list[Any
     told += [accepted.outcome, accepted.peer, caller.local, caller.peer, listener.peer]
     peer = accepted.socket
     assert peer is not None
-    told += [caller.send(b"hello"), peer.recv(100)]
+    told += [caller.send(b"hello"), peer.recv(100), server.look() == []]
     wait()
+    told += [server.look() == [peer], client.look() == []]
     told += [peer.recv(3, peek=True), peer.recv(100), peer.recv(100)]
     told += [caller.set_option(Option.NO_DELAY, 1), caller.option(Option.NO_DELAY)]
     told += [caller.set_linger(3), caller.linger(), caller.set_linger(None), caller.linger()]
