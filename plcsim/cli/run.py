@@ -49,6 +49,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             ("plcsim run my_plc", "until Ctrl-C, with a live table"),
             ("plcsim run", "the project that this folder belongs to"),
             ("plcsim run my_plc --for 10s --report run.json", "ten seconds, and their figures"),
+            ("plcsim run my_plc --web", "with its pages for a browser"),
             ("plcsim run my_plc --record run.bag", "what it does can be repeated and looked at"),
             ("plcsim run my_plc --virtual --for 1h", "an hour on the virtual clock, in seconds"),
         ),
@@ -86,6 +87,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         type=Path,
         metavar="FILE",
         help="record the run in a bag: .bag of ROS 1, .mcap or .db3 of ROS 2; see `plcsim replay`",
+    )
+    parser.add_argument(
+        "--web",
+        action="store_true",
+        help="serve the controller's pages, as the table [web] does; "
+        "http://127.0.0.1:8080 where that says nothing else",
     )
     parser.add_argument(
         "--stay",
@@ -157,6 +164,8 @@ def _read_project(options: argparse.Namespace) -> Project:
         if file.exists():
             raise ConfigurationError(f"--record {file}: exists already, and is not written over")
         given["record"] = {"file": str(file.resolve())}
+    if options.web:
+        given["web"] = {}
     project = read_project(options.project, given)
     if options.keep_going:
         project = runnable(project)

@@ -28,8 +28,8 @@ _TIME_AT = 8
 
 OPERATION: Final = struct.Struct("<IHH")
 MASKS: Final = struct.Struct("<HH")
-_FORCE = struct.Struct("<HH")
-_CONTROL = struct.Struct("<q")
+_FORCE = struct.Struct("<HHH")
+_CONTROL = struct.Struct("<qH")
 _SAMPLE = struct.Struct("<IIq")
 _CANCEL = struct.Struct("<I")
 _SPAN = struct.Struct("<II")
@@ -123,23 +123,32 @@ class Write(NamedTuple):
 
 
 class Force(NamedTuple):
-    """Force a tag to the value with these bytes."""
+    """Force a tag to the value with these bytes.
+
+    Attributes:
+        path: of the tag.
+        data: its bytes while it is forced.
+        by: who asks, beside the service's name in the logbook and the list of forces.
+    """
 
     path: str
     data: bytes
+    by: str = ""
 
 
 class Release(NamedTuple):
-    """Let a forced tag go; "" for all."""
+    """Let a forced tag go; "" for all; for ``by`` see `Force`."""
 
     path: str
+    by: str = ""
 
 
 class Control(NamedTuple):
-    """Ask the controller for an act; see `plcsim.core.control.Request`."""
+    """Ask the controller for an act; see `plcsim.core.control.Request`, for ``by`` `Force`."""
 
     action: Action
     argument: int = 0
+    by: str = ""
 
 
 class Sample(NamedTuple):
@@ -252,14 +261,13 @@ def encode_command(command: Command) -> bytes:
     match command:
         case Write(operations):
             return _record(WRITE, _operations(operations), len(operations))
-        case Force(path, data):
-            name = path.encode()
-            return _record(_FORCED, _FORCE.pack(len(name), len(data)) + name + data)
-        case Release(path):
-            name = path.encode()
-            return _record(_RELEASED, _FORCE.pack(len(name), 0) + name)
-        case Control(action, argument):
-            return _record(_CONTROLLED, _CONTROL.pack(argument), action.value)
+        case Force(path, data, by):
+            return _record(_FORCED, _forcing(path, data, by))
+        case Release(path, by):
+            return _record(_RELEASED, _forcing(path, b"", by))
+        case Control(action, argument, by):
+            name = by.encode()
+            return _record(_CONTROLLED, _CONTROL.pack(argument, len(name)) + name, action.value)
         case Sample(number, task_class, period_ns, spans):
             head = _SAMPLE.pack(number, task_class, period_ns)
             body = head + b"".join(_SPAN.pack(*span) for span in spans)
@@ -272,6 +280,11 @@ def _record(kind: int, body: bytes, count: int = 0) -> bytes:
     size = align_up(HEAD.size + len(body), 8)
     head = HEAD.pack(size, kind, Outcome.WAITING.value, count, 0)
     return head + body.ljust(size - HEAD.size, b"\0")
+
+
+def _forcing(path: str, data: bytes, by: str) -> bytes:
+    name, who = path.encode(), by.encode()
+    return _FORCE.pack(len(name), len(data), len(who)) + name + data + who
 
 
 def _operations(operations: Iterable[Operation]) -> bytes:
@@ -309,14 +322,15 @@ def _decode(kind: int, count: int, record: bytes) -> Command:
     if kind == WRITE:
         return Write(_decode_operations(record, count))
     if kind in (_FORCED, _RELEASED):
-        length, size = _FORCE.unpack_from(record, HEAD.size)
-        at = HEAD.size + _FORCE.size
-        path, data = record[at : at + length], record[at + length : at + length + size]
-        if len(path) != length or len(data) != size:
-            raise ValueError("record ends inside a tag")
-        return Force(path.decode(), data) if kind == _FORCED else Release(path.decode())
+        lengths = _FORCE.unpack_from(record, HEAD.size)
+        path, data, by = _cut(record, HEAD.size + _FORCE.size, lengths)
+        if kind == _FORCED:
+            return Force(path.decode(), data, by.decode())
+        return Release(path.decode(), by.decode())
     if kind == _CONTROLLED:
-        return Control(Action(count), *_CONTROL.unpack_from(record, HEAD.size))
+        argument, length = _CONTROL.unpack_from(record, HEAD.size)
+        (by,) = _cut(record, HEAD.size + _CONTROL.size, (length,))
+        return Control(Action(count), argument, by.decode())
     if kind == _SAMPLED:
         number, task_class, period_ns = _SAMPLE.unpack_from(record, HEAD.size)
         if not number or period_ns < 0:
@@ -327,6 +341,17 @@ def _decode(kind: int, count: int, record: bytes) -> Command:
     if kind == _CANCELLED:
         return Cancel(*_CANCEL.unpack_from(record, HEAD.size))
     raise ValueError(f"record of kind {kind}")
+
+
+def _cut(record: bytes, at: int, lengths: Iterable[int]) -> list[bytes]:
+    """Return parts of a record that follow each other."""
+    parts = []
+    for length in lengths:
+        parts.append(record[at : at + length])
+        at += length
+    if at > len(record):
+        raise ValueError("record ends inside a name or its data")
+    return parts
 
 
 def _decode_operations(record: bytes, count: int) -> tuple[Operation, ...]:

@@ -48,12 +48,12 @@ class Hands:
     def carry_out(self, command: Command, source: str) -> Outcome:
         """Do what a command asks for, and say so in the logbook."""
         match command:
-            case Force(path, data):
-                return self._force(path, data, source)
-            case Release(path):
-                return self._release(path, source)
-            case Control(action, argument):
-                return self._request(Request(action, argument, source))
+            case Force(path, data, by):
+                return self._force(path, data, _who(source, by))
+            case Release(path, by):
+                return self._release(path, _who(source, by))
+            case Control(action, argument, by):
+                return self._request(Request(action, argument, _who(source, by)))
         return Outcome.NO_COMMAND
 
     def _force(self, path: str, data: bytes, source: str) -> Outcome:
@@ -100,6 +100,11 @@ class Hands:
 
     def _log(self, source: str, text: str) -> None:
         self._controller.log(Severity.INFORMATION, source, text)
+
+
+def _who(service: str, by: str) -> str:
+    """Return who asks, as the logbook says it: the service, and the person where it knows one."""
+    return f"{service}: {by}" if by else service
 
 
 def _text(tag: Tag, data: bytes) -> str:

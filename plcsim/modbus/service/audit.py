@@ -6,16 +6,14 @@ not write can push out the lines of those who may.
 
 from __future__ import annotations
 
-import errno
-import json
 import math
-import os
-import sys
 import time
 from collections import OrderedDict
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Self
+
+from plcsim.access.line_file import LineFile
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -39,79 +37,6 @@ PAUSE_NS: Final = 1_000_000_000
 
 HOSTS: Final = 1000
 """Hosts whose lines are counted; beyond, the one that was quiet for longest is forgotten."""
-
-
-class _Lines:
-    """A file of lines; while it cannot be written, those that are missing are counted."""
-
-    def __init__(self, file: Path, largest: int, files: int) -> None:
-        self._file = file
-        self._largest = largest
-        self._files = files
-        self._fd = -1
-        self._size = 0
-        self._lost = 0
-        self._is_told = False
-
-    def open(self) -> None:
-        """Make the file; a fault is printed."""
-        try:
-            self._open()
-        except OSError as err:
-            self._say(err)
-
-    def _open(self) -> None:
-        self._file.parent.mkdir(parents=True, exist_ok=True)
-        flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC
-        self._fd = os.open(self._file, flags, 0o640)
-        self._size = os.fstat(self._fd).st_size
-
-    def _say(self, err: OSError) -> None:
-        """Print the fault, once until it is over."""
-        if self._is_told:
-            return
-        self._is_told = True
-        sys.stderr.write(f"modbus: the audit log cannot be written: {err}\n")
-
-    def write(self, values: dict[str, Any]) -> None:
-        """Append a line; after some that could not be written, it has their number as ``lost``."""
-        if self._lost:
-            values["lost"] = self._lost
-        try:
-            self._append(json.dumps(values, ensure_ascii=False).encode() + b"\n")
-        except OSError as err:
-            self.close()
-            self._say(err)
-            self._lost += 1
-        else:
-            self._lost, self._is_told = 0, False
-
-    def _append(self, data: bytes) -> None:
-        """Write a line, whole or not at all."""
-        if self._fd < 0:
-            self._open()
-        if self._size and self._size + len(data) > self._largest:
-            self._shift()
-            self.close()
-            self._open()
-        if os.write(self._fd, data) < len(data):  # the disk was full in the middle of it
-            os.ftruncate(self._fd, self._size)
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        self._size += len(data)
-
-    def _shift(self) -> None:
-        """Give each file the name of the next older one."""
-        name = self._file.name
-        for number in range(self._files - 1, 0, -1):
-            newer = self._file.with_name(f"{name}.{number - 1}") if number > 1 else self._file
-            if newer.exists():
-                newer.replace(self._file.with_name(f"{name}.{number}"))
-
-    def close(self) -> None:
-        """Close the file."""
-        if self._fd >= 0:
-            os.close(self._fd)
-            self._fd = -1
 
 
 class _Allowance:
@@ -140,13 +65,13 @@ class AuditLog:
     ) -> None:
         self._now_ns = now_ns
         self._hosts: OrderedDict[str, _Allowance] = OrderedDict()
-        self._applied: _Lines | None = None
-        self._refused: _Lines | None = None
+        self._applied: LineFile | None = None
+        self._refused: LineFile | None = None
         if file:
             path = Path(file)
             refused = path.with_name(f"{path.stem}-refused{path.suffix}")
-            self._applied = _Lines(path, largest, FILES)
-            self._refused = _Lines(refused, largest, FILES_OF_REFUSED)
+            self._applied = LineFile(path, largest, FILES, "modbus")
+            self._refused = LineFile(refused, largest, FILES_OF_REFUSED, "modbus")
             self._applied.open()
 
     def applied(self, origin: Origin, changed: Sequence[Change]) -> None:

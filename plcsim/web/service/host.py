@@ -1,0 +1,81 @@
+"""What /proc tells of the processes of a run: their memory, rights and use of the processor."""
+
+from __future__ import annotations
+
+import os
+import sys
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, Final
+
+_POLICIES: Final = {os.SCHED_OTHER: "other", os.SCHED_FIFO: "FIFO", os.SCHED_RR: "round robin"}
+_TICKS: Final = os.sysconf("SC_CLK_TCK")
+_PAGE: Final = os.sysconf("SC_PAGE_SIZE")
+_PACKAGES: Final = ("plcsim", "wasmtime", "numpy", "pymodbus", "starlette", "uvicorn", "websockets")
+
+
+def processes(supervisor: int, names: dict[int, str]) -> list[dict[str, Any]]:
+    """Return the processes of a run.
+
+    Args:
+        supervisor: its process id.
+        names: of processes that are known, by process id.
+    """
+    found = []
+    for pid in (supervisor, *_children(supervisor)):
+        described = _process(pid, names.get(pid, ""))
+        if described is not None:
+            found.append(described)
+    return found
+
+
+def _children(pid: int) -> list[int]:
+    try:
+        return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except (OSError, ValueError):
+        return []
+
+
+def _process(pid: int, name: str) -> dict[str, Any] | None:
+    """Return what is known of a process, None where it has gone."""
+    try:
+        stat = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+        status = dict(
+            line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines()
+        )
+        policy = os.sched_getscheduler(pid)
+        priority = os.sched_getparam(pid).sched_priority
+    except OSError:
+        return None
+    return {
+        "pid": pid,
+        "name": name or _name(words),
+        "cpu_s": (int(stat[11]) + int(stat[12])) / _TICKS,
+        "rss": int(stat[21]) * _PAGE,
+        "locked": int(status.get("VmLck", "0 kB").split()[0]) * 1024,
+        "policy": _POLICIES.get(policy, str(policy)) + (f" {priority}" if priority else ""),
+        "cpus": status.get("Cpus_allowed_list", "").strip(),
+        "threads": int(stat[17]),
+    }
+
+
+def _name(words: list[bytes]) -> str:
+    text = [word.decode("utf-8", "replace") for word in words]
+    modules = [text[i + 1] for i, word in enumerate(text[:-1]) if word == "-m"]
+    if modules and modules[0].endswith("service_main"):
+        return text[text.index(modules[0]) + 1]
+    return modules[0] if modules else Path(text[0]).name
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Return the versions of what runs here."""
+    found = {"Python": ".".join(map(str, sys.version_info[:3])), "Linux": os.uname().release}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            continue
+    return found

@@ -1,0 +1,148 @@
+"""What all pages share: the image, its values, what happened, and the commands to the scan."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from collections import deque
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.access import LineFile
+from plcsim.shared_image.command import Cancel
+from plcsim.shared_image.events import EventKind, entry_of, violation_of
+from plcsim.shared_image.reader import ScanWatch
+from plcsim.shared_image.samples import sample_of
+from plcsim.web.service.commander import Commander
+from plcsim.web.service.host import processes, versions
+from plcsim.web.service.values import LiveValues
+from plcsim.web.service.variables import Variables
+from st_types.types.values import decode
+from st_types.writers.value_text import value_text
+
+if TYPE_CHECKING:
+    from plcsim.process.service_main import Service
+
+POLL_S: Final = 0.05
+ENTRIES: Final = 2000
+"""Of the logbook, kept for pages that are opened later."""
+
+VIOLATIONS: Final = 200
+AUDIT_FILE: Final = ".plcsim/web-audit.jsonl"
+LARGEST_AUDIT: Final = 10 * 1024 * 1024
+AUDIT_FILES: Final = 10
+
+
+class Hub:
+    """The one reader of the image in this process.
+
+    Args:
+        service: what the process has.
+    """
+
+    def __init__(self, service: Service) -> None:
+        self.image = service.image
+        self.given: dict[str, Any] = service.given
+        self.page = service.page
+        self.values = LiveValues(self.image)
+        self.variables = Variables(self.image.directory)
+        self.commander = Commander(self.image, service.wake_fd)
+        audit = Path(self.given["folder"]) / AUDIT_FILE
+        self.audit = LineFile(audit, LARGEST_AUDIT, AUDIT_FILES, service.table)
+        self.entries: deque[tuple[int, dict[str, Any]]] = deque(maxlen=ENTRIES)
+        self.entries_seen = 0
+        self.violations: deque[dict[str, Any]] = deque(maxlen=VIOLATIONS)
+        self.lost = 0
+        self._events = self.image.events(from_oldest=True)
+        self._samples = self.image.samples()
+        self._watch = ScanWatch(self.image.directory.cycle_ns)
+        self._supervisor = os.getppid()
+        self._refreshed_s = 0.0
+
+    async def run(self) -> None:
+        """Read what comes, until cancelled."""
+        self.commander.start()
+        self.image.send(Cancel(0))  # what this service had asked for before it was started again
+        while True:
+            self.read()
+            await asyncio.sleep(POLL_S)
+
+    def read(self) -> None:
+        """Take what is new in the streams."""
+        for record in self._events.read():
+            if record.kind == EventKind.ENTRY.value:
+                self._enter(record)
+            elif record.kind == EventKind.VIOLATION.value:
+                self._violated(record)
+        for record in self._samples.read():
+            if record.kind == EventKind.SAMPLE.value:
+                sample = sample_of(record.data)
+                self.values.sampled(sample.number, sample.data)
+        self.lost = self._events.lost
+
+    def _enter(self, record: Any) -> None:
+        entry = entry_of(record)
+        self.entries_seen += 1
+        described = {
+            "time_ns": entry.time_ns,
+            "severity": entry.severity.value,
+            "source": entry.source,
+            "text": entry.text,
+        }
+        self.entries.append((self.entries_seen, described))
+
+    def _violated(self, record: Any) -> None:
+        violation = violation_of(record)
+        self.violations.append({**violation._asdict(), "cause": violation.cause.value})
+
+    def refresh(self) -> None:
+        """Read the values anew, where the last time is not just now."""
+        now_s = time.monotonic()
+        if now_s - self._refreshed_s >= POLL_S / 2:
+            self._refreshed_s = now_s
+            self.values.refresh()
+
+    def status(self) -> dict[str, Any]:
+        """Return how the controller is."""
+        alive = self._watch.is_alive(self.page.heartbeat, time.monotonic_ns())
+        return {
+            "state": self.page.state.name,
+            "elapsed_ns": self.page.elapsed_ns,
+            "is_alive": alive,
+            "snapshot": self.image.latest,
+            "cycles": {c["number"]: self._figures(c["number"]) for c in self.given["classes"]},
+        }
+
+    def _figures(self, number: int) -> dict[str, Any]:
+        status = self.page.of_class(number)
+        return {**status._asdict(), "violations": status.violations}
+
+    def forces(self) -> list[dict[str, Any]]:
+        """Return the forced tags."""
+        found = []
+        for force in self.image.forces():
+            tag = self.image.directory.find(force.path)
+            value = value_text(tag.data_type, decode(tag.data_type, force.data))
+            found.append({"path": force.path, "value": value, "by": force.source})
+        return found
+
+    def system(self) -> dict[str, Any]:
+        """Return the processes of the run and what they use."""
+        names = {self._supervisor: "supervisor", self.given["scan_pid"]: "scan"}
+        return {"processes": processes(self._supervisor, names), "cpu": self.page.cpu}
+
+    def facts(self) -> dict[str, Any]:
+        """Return what does not change while the controller runs."""
+        directory = self.image.directory
+        return {
+            "project": directory.project,
+            "folder": self.given["folder"],
+            "is_virtual": self.given["is_virtual"],
+            "memory_size": self.given["memory_size"],
+            "variables_size": sum(area.data_type.size for area in directory.areas),
+            "snapshot_size": directory.bank_size,
+            "classes": self.given["classes"],
+            "services": list(directory.services),
+            "versions": versions(),
+        }

@@ -1,0 +1,71 @@
+"""The table [web] of plc.toml; docs/guide/web.md lists its keys."""
+
+from __future__ import annotations
+
+import ipaddress
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple
+
+from plcsim.settings import Converted, Whole, settings
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from plcsim.settings import Table
+
+WEB_PORT: Final = 8080
+
+
+def _address(text: str) -> str:
+    try:
+        return str(ipaddress.ip_address(text))
+    except ValueError:
+        raise ValueError(f"{text!r} is not an IP address") from None
+
+
+@settings
+class WebSettings:
+    """What [web] says.
+
+    Attributes:
+        host: address to listen on.
+        port: of TCP, 0 for any free one.
+        names: host names, beside the address, by which browsers may ask for the pages.
+        connections: at once.
+    """
+
+    host: Annotated[str, Converted(_address)] = "127.0.0.1"
+    port: Annotated[int, Whole(0, 65535)] = WEB_PORT
+    names: tuple[str, ...] = ()
+    connections: Annotated[int, Whole(1, 10_000)] = 64
+
+    @property
+    def is_loopback(self) -> bool:
+        """Nobody reaches the pages but from this machine."""
+        return ipaddress.ip_address(self.host).is_loopback
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the settings as JSON's types."""
+        return asdict(self)
+
+
+class WebProject(NamedTuple):
+    """The settings and the folder of the project they belong to."""
+
+    settings: WebSettings
+    folder: Path
+
+
+def settings_from(values: Mapping[str, Any]) -> WebSettings:
+    """Return the settings of `WebSettings.to_json`."""
+    return WebSettings(**{**values, "names": tuple(values["names"])})
+
+
+def read_settings(table: Table) -> WebProject:
+    """Return the settings of the table [web] of a project.
+
+    Raises:
+        ConfigurationError: values are wrong; file and field of each are named.
+    """
+    return WebProject(table.read(WebSettings), table.folder.resolve())
