@@ -44,7 +44,7 @@ function inBase(value, base, kind) {
 export function shown(value, kind, format = "dec") {
   if (value === null || value === undefined) return "…";
   if (kind === "bool") return value ? "TRUE" : "FALSE";
-  if (kind === "string") return JSON.stringify(value);
+  if (kind === "string") return literal(value);
   if (kind === "real" && typeof value === "number") {
     return Number.isInteger(value) && Math.abs(value) < 1e15 ? value.toFixed(1) : String(Number(value.toPrecision(9)));
   }
@@ -55,10 +55,16 @@ export function shown(value, kind, format = "dec") {
   return String(value);
 }
 
+// a STRING as Structured Text writes it
+function literal(value) {
+  const escaped = String(value).replace(/[$']/g, (sign) => `$${sign}`);
+  return `'${escaped.replace(/[\x00-\x1f\x7f-\x9f]/g, (sign) => `$${sign.charCodeAt(0).toString(16).toUpperCase().padStart(2, "0")}`)}'`;
+}
+
 // a value as Structured Text writes it, for the field in which it is changed
 export function editable(value, kind) {
   if (value === null || value === undefined) return "";
   if (kind === "bool") return value ? "TRUE" : "FALSE";
-  if (kind === "string") return `'${String(value).replaceAll("$", "$$$$").replaceAll("'", "$$'")}'`;
+  if (kind === "string") return literal(value);
   return String(value);
 }

@@ -63,7 +63,8 @@ class Commander:
         future: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
         self._open[ticket] = future
         try:
-            answer = await asyncio.wait_for(future, PATIENCE_S)
+            async with asyncio.timeout(PATIENCE_S):
+                answer = await future
         except TimeoutError:
             raise PlcError(f"{what}: the scan takes no commands; nothing was done yet") from None
         finally:

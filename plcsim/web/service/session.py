@@ -87,7 +87,8 @@ class Session:
         text = json.dumps(message, separators=(",", ":"))
         async with self._sending:
             try:
-                await asyncio.wait_for(self._socket.send_text(text), PATIENCE_S)
+                async with asyncio.timeout(PATIENCE_S):  # wait_for may lose a cancellation
+                    await self._socket.send_text(text)
             except TimeoutError:
                 await self._close(TOO_SLOW, "what was sent is not read")
 
