@@ -19,6 +19,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
     resolve_alias,
 )
@@ -137,7 +138,8 @@ class _Writer:
                 behind += [""] * (len(data_type.members) - len(behind))
                 pairs = zip(data_type.members, behind, strict=True)
                 lines = [_Line(m.name, m.data_type, text) for m, text in pairs]
-                yield from self._class(name, self._use("st_types", "Struct"), comment, lines)
+                base = "Union" if isinstance(data_type, UnionType) else "Struct"
+                yield from self._class(name, self._use("st_types", base), comment, lines)
 
     def _enumeration(self, name: str, values: Mapping[str, int], comment: str) -> Iterator[str]:
         self._use(_FACE, "declared_beside")

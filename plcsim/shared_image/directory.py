@@ -12,7 +12,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import Tag, find_tag
 from plcsim.shared_image.errors import ImageError
@@ -27,6 +27,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
 )
 from st_types.types.elementary import ELEMENTARY, UDINT, DataType, ElementaryType
@@ -130,6 +131,9 @@ def hash_of(data: bytes) -> int:
     return int.from_bytes(hashlib.sha256(data).digest()[:8], "little")
 
 
+_KEYS: Final = {DataBlockType: "data_block", UnionType: "union"}
+
+
 def describe_type(data_type: DataType[Any]) -> object:
     """Return a type as strings, numbers, lists and dicts."""
     match data_type:
@@ -150,7 +154,7 @@ def describe_type(data_type: DataType[Any]) -> object:
         case ArrayType(element=element, bounds=bounds):
             return {"array": describe_type(element), "bounds": [list(b) for b in bounds]}
         case StructType(name=name, members=members):
-            key = "data_block" if isinstance(data_type, DataBlockType) else "struct"
+            key = _KEYS.get(type(data_type), "struct")
             described = [[m.name, describe_type(m.data_type), m.section.value] for m in members]
             return {key: name, "members": described}
     raise TypeError(f"{data_type} cannot be described")
@@ -173,6 +177,8 @@ def type_from(text: Any) -> DataType[Any]:
             return ArrayType(type_from(element), [(low, high) for low, high in bounds])
         case {"data_block": name, "members": members}:
             return DataBlockType(name, _members(members))
+        case {"union": name, "members": members}:
+            return UnionType(name, _members(members))
         case {"struct": name, "members": members}:
             return StructType(name, _members(members))
     raise ImageError(f"{text!r} does not describe a type")

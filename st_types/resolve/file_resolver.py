@@ -34,6 +34,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
     resolve_alias,
 )
@@ -276,11 +277,25 @@ class FileResolver(ConstantResolver):
         return EnumerationType(name, values)
 
     def _struct(self, node: StructSpecification, name: str) -> DataType[object] | None:
+        base = self._base_of(node)
         members = self._members(node.members, name) if self._enter(node) else None
         self.level -= 1
-        if members is None:
+        if members is None or base is None:
             return None
-        return self._made(node, lambda: StructType(name, members))
+        made = UnionType if node.keyword == "UNION" else StructType
+        return self._made(node, lambda: made(name, [*base, *members]))
+
+    def _base_of(self, node: StructSpecification) -> Sequence[Member] | None:
+        """Return the members of what a STRUCT extends, None after an error."""
+        if not node.base:
+            return ()
+        base = self._named_type(NamedType(node.at, node.base))
+        found = None if base is None else resolve_alias(base)
+        if type(found) is StructType:
+            return found.members
+        if found is not None:
+            self.error(node, f"{node.base} is no STRUCT, so none can extend it")
+        return None
 
     def _value(self, node: Expression, following: int) -> int:
         number = self.integer(node)

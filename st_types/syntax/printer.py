@@ -123,7 +123,13 @@ class Printer(ExpressionPrinter):
         """Return the lines of a type, a variable or a member, its comments included."""
         address = f" AT {node.address}" if node.address else ""
         specification = self.specification(node.specification, indent)
-        words = (f"{indent}{node.name}{address} :", *node.pragmas, specification, node.edge)
+        extends = _extends(node.specification)
+        words = (
+            f"{indent}{node.name}{extends}{address} :",
+            *node.pragmas,
+            specification,
+            node.edge,
+        )
         initial = f" := {self.initial(node.initial)}" if node.initial is not None else ""
         text = " ".join(filter(None, words)).replace(": \n", ":\n", 1) + initial + ";"
         lead = _lines(comments_before(node.before), indent)
@@ -156,10 +162,10 @@ class Printer(ExpressionPrinter):
 
     def _struct(self, node: StructSpecification, indent: str) -> str:
         inner = indent + "\t"
-        head = " ".join(("STRUCT", *comments_behind(node.behind)))
+        head = " ".join((node.keyword, *comments_behind(node.behind)))
         members = "".join(self.declaration(member, inner) for member in node.members)
         last = notes_before(node.closing) + pragmas_behind(node.closing)
-        return f"{head}\n{members}{_lines(last, inner)}{indent}END_STRUCT"
+        return f"{head}\n{members}{_lines(last, inner)}{indent}END_{node.keyword}"
 
     def _enumeration(self, node: EnumerationSpecification, indent: str) -> str:
         inner = indent + "\t"
@@ -195,6 +201,10 @@ class Printer(ExpressionPrinter):
             else self.initial(node)
             for node in nodes
         )
+
+
+def _extends(node: TypeSpecification) -> str:
+    return f" EXTENDS {node.base}" if isinstance(node, StructSpecification) and node.base else ""
 
 
 def _all_comments(trivia: str) -> tuple[str, ...]:

@@ -37,7 +37,7 @@ VARIABLE_SECTIONS = frozenset(
 """Keywords that start a block of variables."""
 
 END_KEYWORDS = frozenset(
-    ["END_TYPE", "END_VAR", "END_STRUCT", "END_FUNCTION", "END_FUNCTION_BLOCK"]
+    ["END_TYPE", "END_VAR", "END_STRUCT", "END_UNION", "END_FUNCTION", "END_FUNCTION_BLOCK"]
 )
 _EDGES = ("R_EDGE", "F_EDGE")
 _AFTER_TYPE = (";", ":=")
@@ -136,9 +136,12 @@ class SpecificationParser(InitialParser):
         if not (name.isidentifier() and name.isascii()):
             self.fail("expected the name of a declaration")
         self.index = at + 1
-        others, address = ([], "") if texts[at + 1] == ":" else self._others_and_address()
+        base = self._base() if texts[at + 1].upper() == "EXTENDS" else ""
+        others, address = ([], "") if texts[self.index] == ":" else self._others_and_address()
         colon = self.expect(":", f"after the name {name}")
         specification = self.specification()
+        if base:
+            specification = self._extended(base, specification)
         edge = self._edge() if texts[self.index] not in _AFTER_TYPE else ""
         initial: Initial | None = None
         if texts[self.index] == ":=":
@@ -158,10 +161,21 @@ class SpecificationParser(InitialParser):
         for at, name in others:
             into.append(Declaration(at, name, specification, initial, address, pragmas, edge))
 
+    def _base(self) -> str:
+        """Parse ``EXTENDS base`` between the name of a STRUCT and the colon."""
+        if self.texts[self.index + 1] == ":":
+            return ""
+        self.index += 1
+        return self.expect_name("of a STRUCT after EXTENDS")
+
+    def _extended(self, base: str, specification: TypeSpecification) -> StructSpecification:
+        if not isinstance(specification, StructSpecification) or specification.keyword != "STRUCT":
+            self.fail_before("only a STRUCT can extend another one")
+        specification.base = base
+        return specification
+
     def _others_and_address(self) -> tuple[list[tuple[int, str]], str]:
         """Parse ``, b, c`` and ``AT %IX0.0`` between the first name and the colon."""
-        if self.keyword == "EXTENDS":
-            self.fail("a STRUCT that EXTENDS another one is not supported")
         others = []
         while self.accept(","):
             others.append((self.index, self.expect_name("after ','")))
@@ -180,7 +194,7 @@ class SpecificationParser(InitialParser):
         return self.texts[self.index - 1].upper()
 
     def _end_without_semicolon(self, name: str) -> None:
-        ended = self.texts[self.index - 1].upper() == "END_STRUCT"
+        ended = self.texts[self.index - 1].upper() in ("END_STRUCT", "END_UNION")
         if not ended and self.keyword not in END_KEYWORDS:
             self.fail_before(f"expected ';' after the declaration of {name}")
 
@@ -223,14 +237,12 @@ class SpecificationParser(InitialParser):
             index += 1
         self.index = index + bool(texts[index])
 
-    def _union(self) -> NamedType:
-        """Refuse a UNION; the name of a type is one, too."""
-        at, start = self.index, self.here()
-        self.index += 1
-        if self.text not in (";", ":="):
-            self.skip_behind("END_UNION")
-            raise UnexpectedTokenError(start, "UNION is not supported")
-        return NamedType(at, self.texts[at])
+    def _union(self) -> StructSpecification | NamedType:
+        """Parse a UNION; the name of a type is one, too."""
+        if self.texts[self.index + 1] in (";", ":="):
+            self.index += 1
+            return NamedType(self.index - 1, self.texts[self.index - 1])
+        return self._struct_specification()
 
     def _bounds(self) -> tuple[Expression, Expression]:
         if self.text == "*":
@@ -261,10 +273,11 @@ class SpecificationParser(InitialParser):
     def _struct_specification(self) -> StructSpecification:
         at = self.index
         self.index += 1
+        keyword = self.texts[at].upper()
         behind = self.trivia[self.index]
-        members = self.declarations("END_STRUCT")
+        members = self.declarations(f"END_{keyword}")
         closing = self.trivia[max(at + 1, self.index - 1)]
-        return StructSpecification(at, members, behind, closing)
+        return StructSpecification(at, members, keyword, "", behind, closing)
 
     def _enumeration_specification(self) -> EnumerationSpecification:
         at = self.index

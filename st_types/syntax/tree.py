@@ -82,9 +82,14 @@ class EnumerationSpecification(Node):
 
 @dataclass(slots=True)
 class StructSpecification(Node):
-    """``STRUCT ... END_STRUCT``; ``behind`` is text after STRUCT, ``closing`` before the end."""
+    """``STRUCT ... END_STRUCT``; ``behind`` is text after STRUCT, ``closing`` before the end.
+
+    ``keyword`` is STRUCT or UNION; ``base`` is what the STRUCT EXTENDS, mostly nothing.
+    """
 
     members: Sequence[Declaration]
+    keyword: str = "STRUCT"
+    base: str = ""
     behind: str = field(default="", compare=False)
     closing: str = field(default="", compare=False)
 

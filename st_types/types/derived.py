@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from st_types.errors import DeclarationError
 from st_types.types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
-from st_types.types.layout import Layout, lay_out
+from st_types.types.layout import Layout, align_up, lay_out
 from st_types.types.spelling import Spellings
 
 if TYPE_CHECKING:
@@ -154,6 +154,18 @@ class StructType(DataType[V_co]):
         It is ``name`` itself, else the only member whose name differs from it in case.
         """
         return self._spellings.of(name)
+
+
+class UnionType(StructType[V_co]):
+    """UNION: members that all lie at its start; the first one gives its initial value."""
+
+    __slots__ = ()
+
+    def _laid_out(self) -> Layout:
+        layouts = [lay_out([member.data_type]) for member in self.members]
+        alignment = max((each.alignment for each in layouts), default=1)
+        size = align_up(max((each.size for each in layouts), default=0), alignment)
+        return Layout((0,) * len(layouts), size, alignment)
 
 
 class DataBlockType(StructType[V_co]):

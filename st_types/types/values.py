@@ -21,6 +21,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
 )
 from st_types.types.elementary import DINT, UDINT, ElementaryType, Kind
@@ -166,7 +167,12 @@ def _struct(data_type: StructType, value: object) -> bytes:  # type: ignore[type
         raise ValueRangeError(f"{value!r} is not a mapping of members of {data_type}.")
     image = bytearray(data_type.size)
     left = dict(given)
-    for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+    is_union = isinstance(data_type, UnionType)
+    for number, (member, offset) in enumerate(
+        zip(data_type.members, data_type.offsets, strict=True)
+    ):
+        if is_union and number and member.name not in left:
+            continue
         value = left.pop(member.name, member.initial)
         data = _named(f".{member.name}", member.data_type, value)
         image[offset : offset + len(data)] = data

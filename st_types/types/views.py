@@ -20,7 +20,7 @@ from __future__ import annotations
 import ctypes
 from enum import IntEnum
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple, Self, TypeVar, cast, overload
 
 from st_types.errors import DeclarationError, ValueRangeError
 from st_types.types.arrays import Array, BoolArray, ConvertedArray, ViewArray
@@ -33,6 +33,7 @@ from st_types.types.derived import (
     Section,
     StringType,
     StructType,
+    UnionType,
     WStringType,
     resolve_alias,
 )
@@ -234,11 +235,13 @@ def _declared_type(name: str, base: object, declared: dict[str, _Declaration]) -
 
 def _structure_body(data_type: StructType[Any], body: dict[str, Any]) -> dict[str, Any]:
     """Return the class attributes that make a ctypes structure of ``data_type``."""
+    is_union = isinstance(data_type, UnionType)
     fields: list[tuple[str, Any]] = []
     views: list[tuple[str, DataType[object], int]] = []
     attributes: dict[str, Any] = {}
     end = 0
-    for offset, member in sorted(zip(data_type.offsets, data_type.members, strict=True)):
+    members = zip(data_type.offsets, data_type.members, strict=True)
+    for offset, member in members if is_union else sorted(members):
         slot = slot_of(member.data_type)
         if slot is None:
             views.append((f"_plc_v_{member.name}", resolve_alias(member.data_type), offset))
@@ -251,6 +254,10 @@ def _structure_body(data_type: StructType[Any], body: dict[str, Any]) -> dict[st
         if slot.load is not None:
             attributes[member.name] = _converting_property(field, slot)
         end = offset + member.data_type.size
+    if is_union:
+        fields = [("_plc_union", type("Fields", (ctypes.Union,), {"_fields_": fields}))]
+        end = data_type.size
+        attributes["_anonymous_"] = ["_plc_union"]
     if end < data_type.size:
         fields.append((f"_plc_gap_{end}", ctypes.c_ubyte * (data_type.size - end)))
     if not data_type.members:
@@ -350,6 +357,14 @@ def _bind(view: type[S], buffer: Any, offset: int, address: int, context: object
     return bound
 
 
+class Union(Struct):
+    """Base of all views of UNIONs: their members lie at one place."""
+
+    __slots__ = ()
+
+    _plc_kind = UnionType
+
+
 class DataBlock(Struct):
     """Base of the data blocks of function blocks: laid out as the generated C struct."""
 
@@ -414,10 +429,13 @@ def reset(view: Struct) -> None:
     ctypes.memmove(ctypes.addressof(view), encode(data_type, None), data_type.size)
 
 
+_BASES: Final = {DataBlockType: DataBlock, UnionType: Union}
+
+
 def view_class(data_type: StructType[Any]) -> type[Struct]:
     """Return the view class of a STRUCT or data block type, made at the first call."""
     if data_type.view is None:
-        base = DataBlock if isinstance(data_type, DataBlockType) else Struct
+        base = _BASES.get(type(data_type), Struct)
         _StructMeta(data_type.name, (base,), {"_plc_type": data_type})
     return cast("type[Struct]", data_type.view)
 

@@ -27,6 +27,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
     is_digital,
     resolve_alias,
@@ -274,7 +275,8 @@ class Header:
 
     def _struct(self, data_type: StructType[object]) -> Iterator[str]:
         name = self._name(data_type)
-        yield from ("", f"typedef struct {self._tags[data_type]} {{")
+        keyword = _keyword(data_type)
+        yield from ("", f"typedef {keyword} {self._tags[data_type]} {{")
         taken = set(C_KEYWORDS)
         group = ""
         for _, member in sorted(
@@ -319,7 +321,7 @@ class Header:
                 return self._pointer(target, name)
             case AliasType() | SubrangeType():
                 return f"{self._name(data_type)} {name}"
-        keyword = "enum" if isinstance(data_type, EnumerationType) else "struct"
+        keyword = _keyword(data_type)
         self._name(data_type)
         return f"{keyword} {self._tags[data_type]} {name}"
 
@@ -448,6 +450,12 @@ def _value(variable: Variable) -> str:
         case str(value):
             return _text(value)
     return ""
+
+
+def _keyword(data_type: DataType[object]) -> str:
+    if isinstance(data_type, UnionType):
+        return "union"
+    return "enum" if isinstance(data_type, EnumerationType) else "struct"
 
 
 def _integer(value: int) -> str:

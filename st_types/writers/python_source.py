@@ -25,6 +25,7 @@ from st_types.types.derived import (
     StringType,
     StructType,
     SubrangeType,
+    UnionType,
     WStringType,
     resolve_alias,
 )
@@ -43,9 +44,12 @@ _MAKERS = {
     Section.IN_OUT: "var_in_out",
     Section.INTERNAL: "var",
 }
+_BASES: dict[type, str] = {DataBlockType: "DataBlock", UnionType: "Union"}
+"""Base classes of views, where it is not Struct."""
+
 _IMPORTED = frozenset(
     [
-        *("ARRAY", "ENUM", "STRING", "WSTRING", "DataBlock", "Struct", *_MAKERS.values()),
+        *("ARRAY", "ENUM", "STRING", "WSTRING", "DataBlock", "Struct", "Union", *_MAKERS.values()),
         *("AliasType", "EnumerationType", "ReferenceType", "SubrangeType", *ELEMENTARY),
         *("Final", "IntEnum", "locals"),
     ]
@@ -189,7 +193,7 @@ class Module:
                 for member in data_type.members:
                     yield from self._needed(member.data_type)
                 name = self.names[data_type] = self._name(data_type)
-                base = "DataBlock" if isinstance(data_type, DataBlockType) else "Struct"
+                base = _BASES.get(type(data_type), "Struct")
                 yield self._class(name, base, _description(data_type), data_type.members)
             case EnumerationType():
                 yield self._enumeration(data_type)
@@ -260,7 +264,7 @@ class Module:
             link = link.target
         members = [m._replace(initial=given.get(m.name, m.initial)) for m in target.members]
         name = self.names[data_type] = self._name(data_type)
-        base = "DataBlock" if isinstance(target, DataBlockType) else "Struct"
+        base = _BASES.get(type(target), "Struct")
         return self._class(name, base, f"{data_type.name}: as {target.name}.", members)
 
     def _class(self, name: str, base: str, doc: str, members: Sequence[Member]) -> str:

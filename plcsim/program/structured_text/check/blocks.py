@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plcsim.program.structured_text.check.calls import CallChecker, Parameter, root_of
+from plcsim.program.structured_text.check.calls import CallChecker, Parameter
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     BOOL,
@@ -13,7 +13,7 @@ from plcsim.program.structured_text.check.kinds import (
     Kind,
     kind_of,
 )
-from plcsim.program.structured_text.check.names import NOTHING
+from plcsim.program.structured_text.check.names import NOTHING, root_of
 from plcsim.program.structured_text.check.typed import (
     PLACES,
     Address,
@@ -85,7 +85,7 @@ class BlockChecker(CallChecker):
     ) -> None:
         block = instance.type
         assert isinstance(block, DataBlockType)
-        spelling = block.spelling(name)
+        spelling = self.spelling_of(block, name)
         section = None if spelling is None else block.find(spelling)[0].section
         wanted = (Section.OUTPUT,) if argument.is_output else (Section.INPUT, Section.IN_OUT)
         if spelling is None or section not in wanted:
@@ -93,7 +93,7 @@ class BlockChecker(CallChecker):
             return
         if argument.value is None:
             return
-        if spelling != name:
+        if spelling != name and self.names.scope.dialect.case_sensitive:
             message = f"{name} is declared as {spelling}"
             self.findings.warning(argument, Code.OTHER_CASE, message)
         member = self.member_of(instance, block, spelling)

@@ -6,7 +6,7 @@ the type of the result; `lower` says what they do.
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.program.structured_text.check import operations
@@ -59,7 +59,7 @@ def conversion_of(name: str) -> tuple[Type | None, Type] | None:
     source, separator, target = name.upper().rpartition("TO_")
     if not separator or target not in _CONVERTED:
         return None
-    if not source:
+    if source in ("", "ANY_"):
         return None, _CONVERTED[target]
     known = _CONVERTED.get(source.removesuffix("_"))
     if not source.endswith("_") or known is None:
@@ -148,7 +148,29 @@ def _bit(name: str, arguments: Sequence[Value]) -> Value | None:
 
 
 def _truncated(name: str, arguments: Sequence[Value]) -> Value | None:
-    return Convert(DINT, name, arguments[0]) if kind_of(arguments[0].type) is Kind.REAL else None
+    """TRUNC, TRUNC_INT, REAL_TRUNC_INT, ...: a DINT where no other type is named."""
+    target = ELEMENTARY.get(name.rpartition("TRUNC")[2].removeprefix("_"), DINT)
+    return (
+        Convert(target, "TRUNC", arguments[0]) if kind_of(arguments[0].type) is Kind.REAL else None
+    )
+
+
+def _to_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
+    """INT_TO_BCD, UINT_TO_BCD_WORD, ...: a bit string of the size of the number."""
+    source, _, target = name.partition("_TO_BCD")
+    number = ELEMENTARY[source]
+    data_type = ELEMENTARY.get(target.removeprefix("_"), _BITS_BY_SIZE[number.size])
+    if kind_of(arguments[0].type) is not Kind.INTEGER:
+        return None
+    return Builtin(data_type, "TO_BCD", arguments)
+
+
+def _from_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
+    """BCD_TO_INT, WORD_BCD_TO_UINT, ..."""
+    target = ELEMENTARY[name.rpartition("_")[2]]
+    if kind_of(arguments[0].type) is not Kind.INTEGER:
+        return None
+    return Builtin(target, "FROM_BCD", arguments)
 
 
 _OPERATORS: Final = {
@@ -186,6 +208,11 @@ def _operator(name: str, arguments: Sequence[Value]) -> Value | None:
     return result
 
 
+def _calculated(name: str, arguments: Sequence[Value]) -> Value | None:
+    """ADD_TIME(t, u) and the like: the operator, of the types that the name says."""
+    return operations.operation(_OPERATORS[_TIME_FUNCTIONS[name]], arguments[0], arguments[1])
+
+
 def _moved(_name: str, arguments: Sequence[Value]) -> Value | None:
     return arguments[0]
 
@@ -199,10 +226,26 @@ def _power(_name: str, arguments: Sequence[Value]) -> Value | None:
     return operations.operation("**", arguments[0], arguments[1])
 
 
+def _truncating() -> list[str]:
+    targets = [name for name, t in ELEMENTARY.items() if kind_of(t) is Kind.INTEGER]
+    named = [f"{start}TRUNC_{target}" for start in ("", "REAL_", "LREAL_") for target in targets]
+    return ["TRUNC", *named]
+
+
 MANY: Final = 64
 """Most arguments of a function that takes any number."""
 
 _NUMBERS_AND_TIMES = NUMBERS | {Kind.TIME}
+_BITS: Final = ("BYTE", "WORD", "DWORD")
+_BITS_BY_SIZE: Final = {ELEMENTARY[name].size: ELEMENTARY[name] for name in _BITS}
+_BCD_NUMBERS: Final = ("SINT", "INT", "DINT", "USINT", "UINT", "UDINT", *_BITS)
+_TIME_FUNCTIONS: Final = {
+    **dict.fromkeys(["ADD_TIME", "ADD_TOD_TIME", "ADD_DT_TIME"], "ADD"),
+    **dict.fromkeys(["SUB_TIME", "SUB_TOD_TIME", "SUB_DT_TIME"], "SUB"),
+    **dict.fromkeys(["SUB_DATE_DATE", "SUB_TOD_TOD", "SUB_DT_DT"], "SUB"),
+    **dict.fromkeys(["MUL_TIME", "MULTIME"], "MUL"),
+    **dict.fromkeys(["DIV_TIME", "DIVTIME"], "DIV"),
+}
 _MATHEMATICS = ("SQRT", "LN", "LOG", "EXP", "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN")
 _EXTENSIBLE = ("ADD", "MUL", "AND", "OR", "XOR", "EQ", "LT", "GT", "LE", "GE")
 
@@ -220,7 +263,18 @@ RULES: Final[dict[str, Rule]] = {
     "NOT": Rule(1, 1, _negated, ("IN",)),
     **{name: Rule(2, 2, _shift, ("IN", "N")) for name in ("SHL", "SHR", "ROL", "ROR", "ASR")},
     **{name: Rule(2, 2, _bit, ("IN", "POS")) for name in ("BIT_SET", "BIT_CLR", "BIT_TST")},
-    "TRUNC": Rule(1, 1, _truncated, ("IN",)),
+    **{name: Rule(1, 1, _truncated, ("IN",)) for name in _truncating()},
+    **{f"{name}_TO_BCD": Rule(1, 1, _to_bcd, ("IN",)) for name in _BCD_NUMBERS},
+    **{
+        f"{name}_TO_BCD_{bits}": Rule(1, 1, _to_bcd, ("IN",))
+        for name, bits in product(_BCD_NUMBERS, _BITS)
+    },
+    **{f"BCD_TO_{name}": Rule(1, 1, _from_bcd, ("IN",)) for name in _BCD_NUMBERS},
+    **{
+        f"{bits}_BCD_TO_{name}": Rule(1, 1, _from_bcd, ("IN",))
+        for name, bits in product(_BCD_NUMBERS, _BITS)
+    },
+    **{name: Rule(2, 2, _calculated, ("IN1", "IN2")) for name in _TIME_FUNCTIONS},
     **{name: Rule(2, MANY if name in _EXTENSIBLE else 2, _operator) for name in _OPERATORS},
 }
 """Built-in functions by name in capitals, but for conversions and those of a place in memory."""

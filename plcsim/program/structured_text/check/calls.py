@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.program.structured_text.check import builtins
 from plcsim.program.structured_text.check.expressions import ExpressionChecker
@@ -15,7 +16,8 @@ from plcsim.program.structured_text.check.kinds import (
     kind_of,
     plain,
 )
-from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING
+from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING, keep_address
+from plcsim.program.structured_text.check.standard_names import standard_parameter
 from plcsim.program.structured_text.check.typed import (
     PLACES,
     Address,
@@ -23,8 +25,6 @@ from plcsim.program.structured_text.check.typed import (
     Call,
     Constant,
     Edge,
-    Element,
-    Member,
     Symbol,
     Target,
     Variable,
@@ -246,6 +246,8 @@ class CallChecker(ExpressionChecker):
             return self._no_function(node, name)
         self.names.check_case(name, hit)
         self.called_functions.add(function.name)
+        if function.name == "CONCAT" and not scope.dialect.case_sensitive:
+            node = _in_pairs(node)
         arguments = self._arguments_of(node, function)
         result = VOID if function.result is None else plain(function.result)
         if function.node.result is not None and function.result is None:
@@ -290,7 +292,9 @@ class CallChecker(ExpressionChecker):
         spellings = {key_of(each.name): each.name for each in parameters}
         for place, argument in enumerate(node.arguments):
             if argument.name:
-                key = spellings.get(key_of(argument.name))
+                key = spellings.get(key_of(argument.name)) or standard_parameter(
+                    name, argument.name, spellings.values()
+                )
             else:
                 key = parameters[place].name if place < len(parameters) else None
             if key is None:
@@ -353,6 +357,18 @@ class CallChecker(ExpressionChecker):
         return Address(UDINT, value)
 
 
+def _in_pairs(node: syntax.Call) -> syntax.Call:
+    """Return ``CONCAT(CONCAT(a, b), c)`` of ``CONCAT(a, b, c)``, which the norm has, too."""
+    found = node
+    if len(node.arguments) > 2:
+        values = [replace(argument, name="") for argument in node.arguments]
+        found = replace(node, arguments=values[:2])
+        for value in values[2:]:
+            inner = syntax.Argument(node.at, "", found)
+            found = replace(node, arguments=[inner, value])
+    return found
+
+
 def _count(number: int) -> str:
     return f"{number} argument{'' if number == 1 else 's'}"
 
@@ -365,17 +381,3 @@ def _place_of(name: str, rule: builtins.Rule) -> int | None:
     if name.startswith("IN") and number.isdecimal() and rule.most == builtins.MANY:
         return len(rule.parameters) + int(number)
     return None
-
-
-def root_of(value: Value) -> Any:
-    """Return the variable that a place is in, None if it is reached by an address."""
-    while isinstance(value, Member | Element | Bit):
-        value = value.base
-    return value.symbol if isinstance(value, Variable) else None
-
-
-def keep_address(value: Value) -> None:
-    """Note that the address of a place is known from now on."""
-    symbol = root_of(value)
-    if symbol is not None:
-        symbol.has_address = True

@@ -18,8 +18,10 @@ from plcsim.program.structured_text.check.kinds import (
     number_type,
     plain,
 )
-from plcsim.program.structured_text.check.names import NOTHING, followed
+from plcsim.program.structured_text.check.names import NOTHING, followed, keep_address
+from plcsim.program.structured_text.check.standard_names import standard_name
 from plcsim.program.structured_text.check.typed import (
+    PLACES,
     Binary,
     Bit,
     Constant,
@@ -38,7 +40,7 @@ from st_types.types.derived import (
     StructType,
     WStringType,
 )
-from st_types.types.elementary import ELEMENTARY
+from st_types.types.elementary import BYTE, DWORD, ELEMENTARY, WORD
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Value
     from st_types.syntax.expressions import Expression
 
+_PARTS: Final[dict[str, Type]] = {"B": BYTE, "W": WORD, "D": DWORD}
 _LEAST, _BEYOND = -(1 << 63), 1 << 64
 _LITERAL_TYPES: Final[dict[str, Type]] = {**ELEMENTARY, "ANY_INT": ANY_INT, "ANY_REAL": ANY_REAL}
 
@@ -125,8 +128,10 @@ class ExpressionChecker:
             return self._struct_member(node, value, data_type)
         if data_type is VOID:
             return NOTHING
-        if name.isdecimal() or name[:2].upper() == "%X":
-            return self._bit(node, value, int(name.removeprefix("%").lstrip("xX")))
+        if name.isdecimal():
+            return self._bit(node, value, int(name))
+        if name[0] == "%":
+            return self._part(node, value)
         if kind_of(data_type) is Kind.INTEGER:
             return self._named_bit(node, value)
         message = f"{data_type} has no members"
@@ -154,7 +159,7 @@ class ExpressionChecker:
     def _struct_member(
         self, node: syntax.MemberAccess, value: Value, data_type: StructType[Any]
     ) -> Value:
-        spelling = data_type.spelling(node.name)
+        spelling = self.spelling_of(data_type, node.name)
         if spelling is None:
             near = self.findings.near(node.name, (member.name for member in data_type.members))
             message = f"{data_type} has no member {node.name}{near}"
@@ -167,6 +172,13 @@ class ExpressionChecker:
         else:
             message = f"{node.name} is declared as {spelling}"
             self.findings.warning(node, Code.OTHER_CASE, message)
+        return found
+
+    def spelling_of(self, data_type: StructType[Any], name: str) -> str | None:
+        """Return how a member is declared; standard files know some by the norm's own names."""
+        found = data_type.spelling(name)
+        if found is None and not self.names.scope.dialect.case_sensitive:
+            found = standard_name(data_type, name)
         return found
 
     def member_of(self, value: Value, data_type: StructType[Any], name: str) -> Value:
@@ -182,6 +194,27 @@ class ExpressionChecker:
         message = f"{value.type} has no members, and no constant is called {node.name}"
         self.error(node, Code.NO_MEMBERS, message, _pointer_hint(value.type))
         return NOTHING
+
+    def _part(self, node: syntax.MemberAccess, value: Value) -> Value:
+        """Check ``.%X3``, ``.%B1``, ``.%W0`` and ``.%D0``: a part of an integer."""
+        letter, digits = node.name[1:2].upper(), node.name[2:]
+        if letter == "X" and digits.isdecimal():
+            return self._bit(node, value, int(digits))
+        part = _PARTS.get(letter)
+        if part is None or not digits.isdecimal():
+            message = f"{node.name} is no part of an integer; %X0, %B0, %W0 and %D0 are"
+            self.error(node, Code.WRONG_BIT, message)
+            return NOTHING
+        count = value.type.size // part.size if kind_of(value.type) is Kind.INTEGER else 0
+        if not int(digits) < count:
+            has = f"has no {node.name}"
+            self.error(node, Code.WRONG_BIT, f"{value.type} {has}")
+            return NOTHING
+        if not isinstance(value, PLACES) or isinstance(value, Bit):
+            self.error(node, Code.NO_VARIABLE, "only a variable has parts")
+            return NOTHING
+        keep_address(value)
+        return Member(part, value, int(digits) * part.size)
 
     def _bit(self, node: syntax.MemberAccess, value: Value, number: int) -> Value:
         kind = kind_of(value.type)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text.check.kinds import VOID, Kind, kind_of, plain
-from plcsim.program.structured_text.check.typed import Constant, Symbol, Target, Variable
+from plcsim.program.structured_text.check.typed import (
+    Bit,
+    Constant,
+    Element,
+    Member,
+    Symbol,
+    Target,
+    Variable,
+)
 from plcsim.program.structured_text.codes import Code
 from st_types.resolve.constants import UnknownValueError
 from st_types.resolve.index import VariableEntry
@@ -192,3 +200,17 @@ class Names:
         assert value is not None
         assert data_type is not None
         return Constant(plain(data_type), value.value)
+
+
+def root_of(value: Value) -> Any:
+    """Return the variable that a place is in, None if it is reached by an address."""
+    while isinstance(value, Member | Element | Bit):
+        value = value.base
+    return value.symbol if isinstance(value, Variable) else None
+
+
+def keep_address(value: Value) -> None:
+    """Note that the address of a place is known from now on."""
+    symbol = root_of(value)
+    if symbol is not None:
+        symbol.has_address = True

@@ -73,7 +73,7 @@ def unit_scope(unit: ProgramUnit, file: StructuredTextFile, outer: Scope) -> Sco
     if not unit.blocks:
         return None
     declared = DeclarationFile(unit.blocks, "", file.tokens, file.diagnostics)
-    return Scope(unit.name, [declared], (outer,), dialect=outer.dialect)
+    return Scope(unit.name, [declared], (outer,), dialect=outer.dialect, strict=outer.strict)
 
 
 def is_meant(unit: ProgramUnit, only: str) -> bool:
@@ -180,6 +180,7 @@ class _ProgramChecker:
         self._owner = owner = self._program
         scope = unit_scope(unit, self._file, self._scope)
         if scope is not None:
+            scope.check()
             self.symbols.storages[scope] = "program"
             self._owner = owner = _Owner(scope, actions=owner.actions)
         self._parts(unit.parts, owner)

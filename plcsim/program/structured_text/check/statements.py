@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
 
-_LEAVING = (typed.Exit, typed.Continue, typed.Return)
+_LEAVING = (typed.Exit, typed.Continue, typed.Return, typed.Jump)
 
 
 class StatementChecker(BlockChecker):
@@ -44,14 +44,22 @@ class StatementChecker(BlockChecker):
         self.called_actions: set[str] = set()
         self._actions = actions
         self._loops = 0
+        self._labels: frozenset[str] = frozenset()
+        self._placed: set[str] = set()
+        self._key = names.scope.dialect.key
 
     def statements(self, nodes: Sequence[tree.Statement]) -> list[Statement]:
         """Return the checked statements."""
         found: list[Statement] = []
+        labels = self._labels
+        own = {self._key(each.label) for each in nodes if type(each) is tree.LabelStatement}
+        self._labels = labels | own
         for node in nodes:
-            if found and isinstance(found[-1], _LEAVING):
+            is_left = found and isinstance(found[-1], _LEAVING)
+            if is_left and type(node) is not tree.LabelStatement:
                 self.findings.warning(node, Code.UNREACHABLE, "this is never reached")
             _RULES[type(node)](self, node, found)
+        self._labels = labels
         return found
 
     # Assignments
@@ -270,11 +278,23 @@ class StatementChecker(BlockChecker):
     def _return(self, node: tree.ReturnStatement, into: list[Statement]) -> None:
         into.append(typed.Return(self.findings.line(node)))
 
-    def _jump(self, node: tree.JumpStatement, _into: list[Statement]) -> None:
-        self.error(node, Code.NOT_SUPPORTED, f"JMP {node.label} is not supported")
+    def _jump(self, node: tree.JumpStatement, into: list[Statement]) -> None:
+        """Check a jump: it leads to its own list of statements, or out to one around it."""
+        label = self._key(node.label)
+        if label in self._labels:
+            into.append(typed.Jump(self.findings.line(node), label))
+            return
+        near = self.findings.near(node.label, self._labels)
+        message = f"no label {node.label} is here or around{near}"
+        self.error(node, Code.UNKNOWN_NAME, message, "a jump does not lead into a statement")
 
-    def _mark(self, node: tree.LabelStatement, _into: list[Statement]) -> None:
-        self.error(node, Code.NOT_SUPPORTED, f"the label {node.label} is not supported")
+    def _mark(self, node: tree.LabelStatement, into: list[Statement]) -> None:
+        label = self._key(node.label)
+        if label in self._placed:
+            self.error(node, Code.DECLARED_TWICE, f"the label {node.label} is there twice")
+            return
+        self._placed.add(label)
+        into.append(typed.Label(self.findings.line(node), label))
 
 
 _VENDOR_RULES: dict[str, Callable[[StatementChecker, tree.Assignment, int], Statement]] = {

@@ -351,6 +351,22 @@ class Return:
     line: int
 
 
+@dataclass(slots=True, eq=False)
+class Jump:
+    """``JMP label``: to a `Label` of this list of statements or of one around it."""
+
+    line: int
+    label: str
+
+
+@dataclass(slots=True, eq=False)
+class Label:
+    """``label:``."""
+
+    line: int
+    label: str
+
+
 Statement = (
     Assign
     | Chain
@@ -366,6 +382,8 @@ Statement = (
     | Exit
     | Continue
     | Return
+    | Jump
+    | Label
 )
 
 BodyKind = Literal["unit", "action", "block", "function"]

@@ -71,6 +71,14 @@ class BitLowering(ScalarLowering):
         )
         return after([*before, *more], narrowed(found, node.type))
 
+    def _bcd(self, node: typed.Builtin) -> ir.Expression:
+        """TO_BCD and FROM_BCD; what does not fit into the digits is lost."""
+        (argument,) = node.arguments
+        bits = node.type if node.name == "TO_BCD" else argument.type
+        before, kept = self.kept(self.operand(argument, "i32"))
+        make = bcd_of if node.name == "TO_BCD" else number_of
+        return after(before, narrowed(make(kept, 2 * min(bits.size, 4)), node.type))
+
     def _bit_function(self, node: typed.Builtin) -> ir.Expression:
         """BIT_SET, BIT_CLR and BIT_TST."""
         data_type = node.arguments[0].type
@@ -86,6 +94,31 @@ class BitLowering(ScalarLowering):
             return narrowed_to(ir.Binary(value_type, "or", value, mask), node.type)
         mask = ir.Binary(value_type, "xor", mask, ir.Const(value_type, -1))
         return narrowed_to(ir.Binary(value_type, "and", value, mask), node.type)
+
+
+def bcd_of(value: ir.Expression, digits: int) -> ir.Expression:
+    """Return a number (an i32 without a sign) as digits of four bits."""
+    found = _digit(value, 0)
+    for place in range(1, digits):
+        shifted = ir.Binary("i32", "shl", _digit(value, place), ir.Const("i32", 4 * place))
+        found = ir.Binary("i32", "or", found, shifted)
+    return found
+
+
+def _digit(value: ir.Expression, place: int) -> ir.Expression:
+    scaled = ir.Binary("i32", "div_u", value, ir.Const("i32", 10**place)) if place else value
+    return ir.Binary("i32", "rem_u", scaled, ir.Const("i32", 10))
+
+
+def number_of(value: ir.Expression, digits: int) -> ir.Expression:
+    """Return the number that digits of four bits stand for."""
+    found: ir.Expression = ir.Const("i32", 0)
+    for place in range(digits):
+        shifted = ir.Binary("i32", "shr_u", value, ir.Const("i32", 4 * place))
+        digit = ir.Binary("i32", "and", shifted, ir.Const("i32", 15))
+        part = ir.Binary("i32", "mul", digit, ir.Const("i32", 10**place))
+        found = ir.Binary("i32", "add", found, part)
+    return found
 
 
 def narrowed_to(value: ir.Expression, data_type: Type) -> ir.Expression:

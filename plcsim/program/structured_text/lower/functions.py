@@ -217,5 +217,6 @@ _BUILTINS: dict[str, Callable[[FunctionLowering, typed.Builtin], ir.Expression]]
     "MUX": FunctionLowering._multiplex,
     **dict.fromkeys(["SHL", "SHR", "ASR"], FunctionLowering._shift),
     **dict.fromkeys(["ROL", "ROR"], FunctionLowering._rotate),
+    **dict.fromkeys(["TO_BCD", "FROM_BCD"], FunctionLowering._bcd),
     **dict.fromkeys(["BIT_SET", "BIT_CLR", "BIT_TST"], FunctionLowering._bit_function),
 }

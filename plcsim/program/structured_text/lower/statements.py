@@ -42,14 +42,47 @@ class StatementLowering(FunctionLowering):
         self._result = result
         self._loops: list[tuple[int, int]] = []
         self._continued: set[int] = set()
+        self._jumps: dict[str, tuple[int, int, int]] = {}
 
     def statements(self, nodes: Sequence[Statement]) -> list[ir.Statement]:
         """Return the lowered statements."""
+        if any(type(node) is typed.Label for node in nodes):
+            return self._with_labels(nodes)
         found: list[ir.Statement] = []
         for node in nodes:
             self.line = node.line
             _RULES[type(node)](self, node, found)
         return found
+
+    def _with_labels(self, nodes: Sequence[Statement]) -> list[ir.Statement]:
+        """Lower a list with labels: a loop that goes on at the part that a number tells.
+
+        ``Loop { Block { Block { Switch(part) } part 0 } part 1; Break }``
+        """
+        part, loop = self.function.local("i32"), self.function.label()
+        line = nodes[0].line
+        labels = [node.label for node in nodes if isinstance(node, typed.Label)]
+        outer = dict(self._jumps)
+        self._jumps |= {label: (part, number, loop) for number, label in enumerate(labels, 1)}
+        places = [index for index, node in enumerate(nodes) if isinstance(node, typed.Label)]
+        starts, ends = [0, *(place + 1 for place in places)], [*places, len(nodes)]
+        parts = [self.statements(nodes[a:b]) for a, b in zip(starts, ends, strict=True)]
+        self._jumps = outer
+        blocks = [self.function.label() for _ in parts]
+        cases = [
+            ir.Case(line, [(number, number)], [ir.Break(line, block)])
+            for number, block in enumerate(blocks)
+        ]
+        found: list[ir.Statement] = [ir.Switch(line, ir.Local("i32", part), cases)]
+        for block, statements in zip(blocks, parts, strict=True):
+            found = [ir.Block(line, block, found), *statements]
+        start = ir.SetLocal(line, part, ir.Const("i32", 0))
+        return [start, ir.Loop(line, loop, [*found, ir.Break(line, loop)])]
+
+    def _jump(self, node: typed.Jump, into: list[ir.Statement]) -> None:
+        part, number, loop = self._jumps[node.label]
+        into.append(ir.SetLocal(node.line, part, ir.Const("i32", number)))
+        into.append(ir.Continue(node.line, loop))
 
     # Assignments
 
@@ -378,4 +411,5 @@ _RULES: dict[type, Callable[[StatementLowering, Any, list[ir.Statement]], None]]
     typed.Exit: StatementLowering._exit,
     typed.Continue: StatementLowering._continue,
     typed.Return: StatementLowering._return,
+    typed.Jump: StatementLowering._jump,
 }

@@ -23,6 +23,7 @@ from st_types.types.derived import (
     ReferenceType,
     StructType,
     SubrangeType,
+    UnionType,
 )
 from st_types.types.elementary import ELEMENTARY
 from st_types.types.views import type_of
@@ -92,6 +93,8 @@ def test_special_types_are_described() -> None:
     low = SubrangeType("Low", INT, 0, 9)
     assert describe_type(low) == {"subrange": "Low", "of": "INT", "bounds": [0, 9]}
     assert str(type_from(describe_type(low))) == "Low"
+    union = UnionType("U", [Member("a", INT), Member("b", ELEMENTARY["LINT"])])
+    assert type_from(describe_type(union)).offsets == (0, 0)
     assert describe_type(ReferenceType(INT)) == "UDINT"
     assert describe_type(AliasType("Speed", INT)) == "INT"
 

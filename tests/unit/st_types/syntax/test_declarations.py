@@ -212,7 +212,6 @@ def test_hostile_text_takes_linear_time(unit: str, monkeypatch: pytest.MonkeyPat
             "FUNCTION_BLOCK F METHOD M VAR x : INT; END_VAR END_METHOD END_FUNCTION_BLOCK",
             "1:18: error: METHOD",
         ),
-        ("TYPE U : UNION a : INT; b : REAL; END_UNION; END_TYPE", "1:10: error: UNION"),
         ("CLASS without an end", "1:1: error: CLASS"),
     ],
 )

@@ -10,6 +10,7 @@ from st_types import (
     BOOL,
     DATE_AND_TIME,
     DINT,
+    DWORD,
     ENUM,
     INT,
     LINT,
@@ -26,6 +27,7 @@ from st_types import (
     DataBlock,
     DeclarationError,
     Struct,
+    Union,
     ValueRangeError,
     var,
     var_in_out,
@@ -41,6 +43,7 @@ from st_types.types.derived import (
     Section,
     StructType,
     SubrangeType,
+    UnionType,
 )
 from st_types.types.values import decode, encode
 from st_types.types.views import address_of, assign, context_of, reset, type_of, view_class
@@ -529,3 +532,23 @@ def test_elements_and_enumerations_tell_what_they_cannot_take():
         assert str(raised.value) == error
     cell.bits[1] = 1
     assert list(cell.bits) == [False, True]
+
+
+def test_the_members_of_a_union_are_views_of_one_place():
+    inner = StructType("P", [Member("x", INT), Member("y", INT, 7)])
+    members = [Member("real", REAL, 1.0), Member("bits", DWORD, 5), Member("p", inner)]
+    union = UnionType("U", members)
+    assert (union.size, union.alignment, union.offsets) == (4, 4, (0, 0, 0))
+    view = view_class(union)()
+    assert (view.real, view.bits, view.p.y) == (1.0, 0x3F800000, 0x3F80)
+    view.p.x = -1
+    assert view.bits == 0x3F80FFFF
+    assert decode(union, encode(union, {"bits": 3}))["p"] == {"x": 3, "y": 0}
+
+
+def test_a_class_declares_a_union():
+    class Both(Union):
+        real = var(REAL, 2.0)
+        bits = var(DWORD)
+
+    assert Both().bits == 0x40000000

@@ -92,6 +92,16 @@ def test_a_member_does_not_hide_what_members_below_it_need() -> None:
     assert module.S().a[1] == module.S().b == 0
 
 
+def test_a_union_and_a_struct_that_extends_another_one() -> None:
+    module = check(
+        table_of(
+            "TYPE U : UNION r : REAL := 1.0; d : UDINT; END_UNION; Base : STRUCT x : INT := 3; "
+            "END_STRUCT; More EXTENDS Base : STRUCT u : U; END_STRUCT; END_TYPE"
+        )
+    )
+    assert (module.More().x, module.More().u.d) == (3, 0x3F800000)
+
+
 def test_names_that_python_cannot_have() -> None:
     module = check(table_of("TYPE class : INT; END_TYPE"))
     assert module.class_.name == "class"
