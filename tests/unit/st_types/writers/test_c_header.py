@@ -60,7 +60,8 @@ def check(folder: Path, table: Scope, *options: str) -> None:
 
 
 EVERY_KIND = """
-TYPE Both : UNION r : REAL; b : ARRAY[0..4] OF USINT; END_UNION; Extended EXTENDS Simple0 : STRUCT more : BOOL; END_STRUCT
+TYPE Both : UNION r : REAL; b : ARRAY[0..4] OF USINT; END_UNION;
+Extended EXTENDS Simple0 : STRUCT more : BOOL; END_STRUCT
 Simple0 : STRUCT n : INT; u : Both; END_STRUCT; END_TYPE
 TYPE
     Mode : (off := -1, auto := 16#10, on);
