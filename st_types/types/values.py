@@ -156,8 +156,25 @@ def _array(data_type: ArrayType, value: object) -> bytes:  # type: ignore[type-a
         raise ValueRangeError(f"{value!r} is not a list of values for {data_type}.")
     if len(value) > data_type.count:
         raise ValueRangeError(f"{len(value)} values are too many for {data_type}.")
-    given = b"".join(_named(f"[{i}]", data_type.element, v) for i, v in enumerate(value))
+    given = _packed(data_type.element, value)
+    if given is None:
+        given = b"".join(_named(f"[{i}]", data_type.element, v) for i, v in enumerate(value))
     return given + encode(data_type.element, None) * (data_type.count - len(value))
+
+
+def _packed(element: DataType[object], values: Sequence[object]) -> bytes | None:
+    """Return numbers as bytes in one go, None where each of them needs a look."""
+    if not isinstance(element, ElementaryType) or not values:
+        return None
+    kinds = set(map(type, values))
+    if element.kind is Kind.BOOL:
+        return bytes(values) if kinds == {bool} else None  # type: ignore[arg-type]  # all are bool
+    if not kinds <= ({int, float} if element.kind is Kind.REAL else {int}):
+        return None
+    try:
+        return struct.pack(f"<{len(values)}{element.code}", *values)
+    except (OverflowError, struct.error):
+        return None
 
 
 @encode.register
@@ -217,6 +234,8 @@ def decode(data_type: DataType[object], data: bytes) -> object:
             return data.split(b"\0", 1)[0].decode("latin-1")
         case WStringType():
             return decode_wstring(data)
+        case ArrayType(element=ElementaryType(kind=kind, code=code), count=count):
+            return list(struct.unpack(f"<{count}{'?' if kind is Kind.BOOL else code}", data))
         case ArrayType(element=element):
             return [
                 decode(element, data[i * element.size : (i + 1) * element.size])
