@@ -12,6 +12,7 @@ from plcsim.project.extension import Attachment, Extension
 from plcsim.recorder.journal.clock import RecordedClock
 from plcsim.recorder.journal.journal import Journal
 from plcsim.recorder.journal.network import RecordedNetwork
+from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.tape import Tape
 from plcsim.recorder.settings import RecordProject, read_settings
 from plcsim.shared_image.events import EventKind
@@ -26,12 +27,13 @@ if TYPE_CHECKING:
     from plcsim.network import Network
     from plcsim.recorder.bag.head import Head
     from plcsim.recorder.bag.writing import Writing
-    from plcsim.recorder.journal.record import Record
     from plcsim.settings.table import Table
     from plcsim.shared_image.stream import StreamWriter
 
 SOURCES: Final = frozenset((".py", ".st", ".c", ".h", ".typ", ".var", ".fun", ".toml"))
 """Files that a run depends on, by their ending."""
+
+_RECORD: Final = EventKind.RECORD.value
 
 
 class RecordExtension(Extension):
@@ -140,10 +142,10 @@ class _Sender:
         """Send into a stream from now on."""
         self._stream = stream
 
-    def send(self, record: Record) -> None:
+    def send(self, time_ns: int, record: bytes) -> None:
         """Send a record; one that nobody reads in time is lost, and counted."""
         if self._stream is not None:
-            self._stream.write(EventKind.RECORD.value, record.time_ns, record.to_bytes())
+            self._stream.write(_RECORD, time_ns, record)
 
 
 class _InScan:
@@ -166,10 +168,10 @@ class _InScan:
         controller.logbook.follow(self._log)
         controller.follow_steps(self._stepped)
 
-    def _write(self, record: Record) -> None:
+    def _write(self, _time_ns: int, record: bytes) -> None:
         if self._writing is not None:
             try:
-                self._writing.record(self._number, record)
+                self._writing.record(self._number, record_of(record))
             except OSError as err:
                 self._give_up(err)
             self._number += 1

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 _HEAD = struct.Struct("<IIQq")
 """Bytes of the record, itself and padding included; kind and bytes of padding; number; time."""
 
+_HEAD_SIZE = _HEAD.size
+
 _SIZE = struct.Struct("<I")
 """The first field; 0 for what fills the end of the ring."""
 
@@ -52,7 +54,7 @@ class StreamWriter:
     def __init__(self, cells: memoryview[int], ring: memoryview[int], at: StreamCells) -> None:
         self._cells = cells
         self._ring = ring
-        self._at = at
+        self._at_head, self._at_tail, self._at_records, self._at_too_long = at
         self._size = len(ring)
         self._head = cells[at.head]
         self._tail = cells[at.tail]
@@ -60,20 +62,19 @@ class StreamWriter:
 
     def write(self, kind: int, time_ns: int, data: bytes) -> None:
         """Add a record; one that is longer than half the stream is lost, and counted."""
-        padding = -len(data) % 8
-        size = _HEAD.size + len(data) + padding
+        count = len(data)
+        padding = -count % 8
+        size = _HEAD_SIZE + count + padding
         if 2 * size > self._size:
-            self._cells[self._at.too_long] += 1
+            self._cells[self._at_too_long] += 1
             return
         start = self._make_room(size)
-        _HEAD.pack_into(
-            self._ring, start, size, padding << _KIND_BITS | kind, self._records, time_ns
-        )
-        self._ring[start + _HEAD.size : start + size - padding] = data
-        self._records += 1
-        self._head += size
-        self._cells[self._at.records] = self._records
-        self._cells[self._at.head] = self._head
+        ring, cells, records = self._ring, self._cells, self._records
+        _HEAD.pack_into(ring, start, size, padding << _KIND_BITS | kind, records, time_ns)
+        start += _HEAD_SIZE
+        ring[start : start + count] = data
+        self._records = cells[self._at_records] = records + 1
+        self._head = cells[self._at_head] = self._head + size
 
     def _make_room(self, size: int) -> int:
         """Let go of the oldest records that lie where the next one shall; return its place."""
@@ -84,7 +85,7 @@ class StreamWriter:
             while self._tail < oldest:
                 offset = self._tail % self._size
                 self._tail += _SIZE.unpack_from(self._ring, offset)[0] or self._size - offset
-            self._cells[self._at.tail] = self._tail
+            self._cells[self._at_tail] = self._tail
         if filling:
             _SIZE.pack_into(self._ring, start, 0)
             self._head += filling

@@ -47,25 +47,24 @@ class Record(NamedTuple):
     messages: bytes
     variables: bytes
 
-    def to_bytes(self) -> bytes:
-        """Return the record as `record_of` reads it."""
-        clock = self.clock
-        head = _HEAD.pack(
-            self.step,
-            self.task_class,
-            len(clock),
-            len(self.network),
-            len(self.writes),
-            len(self.messages),
-            self.cycle,
-            self.time_ns,
-        )
-        parts = (head, clock, self.network, self.writes, self.messages, self.variables)
-        return b"".join(parts)
+
+def record_head(
+    step: int, task_class: int, sizes: tuple[int, int, int, int], cycle: int, time_ns: int
+) -> bytes:
+    """Return what stands before clock, network, writes, messages and variables of a `Record`.
+
+    Args:
+        step: as of `Record`; task_class, cycle, time_ns too.
+        task_class: see there.
+        sizes: bytes of clock, network, writes and messages.
+        cycle: see there.
+        time_ns: see there.
+    """
+    return _HEAD.pack(step, task_class, *sizes, cycle, time_ns)
 
 
 def record_of(data: bytes) -> Record:
-    """Return the record of `Record.to_bytes`."""
+    """Return the record of `plcsim.recorder.journal.journal.Journal.take`."""
     step, task_class, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
     at = _HEAD.size
     parts = []
@@ -95,9 +94,9 @@ class Packet(NamedTuple):
     data: bytes
 
 
-def packet(topic: int, data: bytes | memoryview, *, is_topic: bool = False) -> bytes:
-    """Return a `Packet` as `packets` reads it."""
-    return _PACKET.pack(topic, is_topic, len(data)) + data
+def packet_head(topic: int, size: int, *, is_topic: bool = False) -> bytes:
+    """Return what stands before the ``size`` bytes of a `Packet`."""
+    return _PACKET.pack(topic, is_topic, size)
 
 
 def packets(messages: bytes) -> Iterator[Packet]:

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.task import TaskClass
     from plcsim.recorder.journal.journal import Journal
-    from plcsim.recorder.journal.record import Record
 
 MOST_VARIABLES: Final = 256 * 1024
 """Bytes; a record of a project with more has no variables."""
@@ -26,11 +25,11 @@ class Tape:
     Args:
         controller: that is recorded; its clock and network write into the journal.
         journal: what they write into.
-        write: takes each record.
+        write: takes the time and the bytes of each record (`record_of`).
     """
 
     def __init__(
-        self, controller: Controller, journal: Journal, write: Callable[[Record], None]
+        self, controller: Controller, journal: Journal, write: Callable[[int, bytes], None]
     ) -> None:
         self._controller = controller
         self._journal = journal
@@ -54,18 +53,11 @@ class Tape:
         self._journal.wrote(0, encode_forces(list(self._controller.forces)))
 
     def _publish(self, task_class: TaskClass) -> None:
-        release_ns = self._controller.context.release_ns
-        self._write(
-            self._journal.take(
-                CYCLE,
-                task_class.number,
-                task_class.cycles,
-                release_ns,
-                b"".join(self._views),
-            )
-        )
+        time_ns, views = self._controller.context.release_ns, self._views
+        number, cycles = task_class.number, task_class.cycles
+        self._write(time_ns, self._journal.take(CYCLE, number, cycles, time_ns, views))
 
     def _stepped(self, step: Step, until_ns: int, cycles: int) -> None:
         time_ns = self._controller.clock.stamp_ns()
         limits = LIMITS.pack(until_ns, cycles) if step is Step.RUN else b""
-        self._write(self._journal.take(step.value, 0, 0, time_ns, limits))
+        self._write(time_ns, self._journal.take(step.value, 0, 0, time_ns, (limits,)))

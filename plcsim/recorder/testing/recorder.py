@@ -12,12 +12,12 @@ from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.journal import Journal
+from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.tape import Tape
 from plcsim.recorder.replay.replay import Replay
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
-    from plcsim.recorder.journal.record import Record
     from plcsim.testing.plc import Plc
 
 __tracebackhide__ = True
@@ -36,8 +36,11 @@ class Recorder:
         self._plc = plc
         self._folder = folder
         self._update = update
-        self._records: list[Record] = []
-        Tape(plc.controller, Journal(), self._records.append)
+        self._records: list[bytes] = []
+        Tape(plc.controller, Journal(), self._keep)
+
+    def _keep(self, _time_ns: int, record: bytes) -> None:
+        self._records.append(record)
 
     def save(self, file: str | Path) -> Path:
         """Write what was recorded so far into a bag; one that is there is replaced.
@@ -61,7 +64,7 @@ class Recorder:
         )
         writing = Writing(path, head, Limits())
         for number, record in enumerate(self._records):
-            writing.record(number, record)
+            writing.record(number, record_of(record))
         writing.close()
         return path
 

@@ -2,6 +2,7 @@ from plcsim.core.clock import VirtualClock
 from plcsim.recorder.journal.clock import RecordedClock, ReplayClock
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
+from plcsim.recorder.journal.record import record_of
 
 
 def ask(clock: RecordedClock | ReplayClock) -> list[int]:
@@ -13,7 +14,7 @@ def ask(clock: RecordedClock | ReplayClock) -> list[int]:
 def test_a_replay_tells_the_recorded_times() -> None:
     journal = Journal()
     recorded = ask(RecordedClock(VirtualClock(), journal))
-    feed = Feed([journal.take(0, 1, 1, 1, b"")])
+    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
 
     clock = ReplayClock(feed, is_virtual=True)
 

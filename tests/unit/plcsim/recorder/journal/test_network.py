@@ -6,6 +6,7 @@ from typing import Any
 from plcsim.network import Address, Network, Option, Outcome, VirtualNetwork
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
+from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.network import RecordedNetwork, ReplayNetwork
 
 SERVER, CLIENT = "192.168.0.1", "192.168.0.2"
@@ -59,7 +60,7 @@ def test_a_replay_answers_what_was_recorded() -> None:
 
     hosts = [RecordedNetwork(net.host(ip), journal) for ip in (SERVER, CLIENT)]
     recorded = talk(*hosts, wait)
-    feed = Feed([journal.take(0, 1, 1, 1, b"")])
+    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
 
     repeated = talk(ReplayNetwork(feed), ReplayNetwork(feed), lambda: None)
 

@@ -6,7 +6,8 @@ from plcsim.recorder.journal.record import (
     Packet,
     Record,
     entries,
-    packet,
+    packet_head,
+    record_head,
     packets,
     record_of,
 )
@@ -26,7 +27,10 @@ U32 = st.integers(0, (1 << 32) - 1)
     )
 )
 def test_a_record_is_what_its_bytes_say(record: Record) -> None:
-    assert record_of(record.to_bytes()) == record
+    step, task_class, cycle, time_ns, *parts = record
+    clock, network, writes, messages, _ = map(len, parts)
+    head = record_head(step, task_class, (clock, network, writes, messages), cycle, time_ns)
+    assert record_of(b"".join((head, *parts))) == record
 
 
 @given(st.lists(st.builds(Entry, U32, U32, st.binary(max_size=20)), max_size=5))
@@ -36,6 +40,8 @@ def test_entries_are_read_one_after_another(written: list[Entry]) -> None:
 
 @given(st.lists(st.builds(Packet, st.integers(0, 65535), st.booleans(), st.binary()), max_size=5))
 def test_packets_are_read_one_after_another(sent: list[Packet]) -> None:
-    data = b"".join(packet(each.topic, each.data, is_topic=each.is_topic) for each in sent)
+    data = b"".join(
+        packet_head(each.topic, len(each.data), is_topic=each.is_topic) + each.data for each in sent
+    )
 
     assert list(packets(data)) == sent
