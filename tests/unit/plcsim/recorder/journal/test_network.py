@@ -6,8 +6,8 @@ from typing import Any
 from plcsim.network import Address, Network, Option, Outcome, VirtualNetwork
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
-from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.network import RecordedNetwork, ReplayNetwork
+from plcsim.recorder.journal.record import record_of
 
 SERVER, CLIENT = "192.168.0.1", "192.168.0.2"
 

@@ -7,8 +7,8 @@ from plcsim.recorder.journal.record import (
     Record,
     entries,
     packet_head,
-    record_head,
     packets,
+    record_head,
     record_of,
 )
 
