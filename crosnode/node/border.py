@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from plcsim.core.traffic import Topic, Traffic
 
 
@@ -16,11 +18,22 @@ class Border:
         topic: what they go over.
     """
 
-    __slots__ = ("_followers", "_topic")
+    __slots__ = ("_followers", "_topic", "_traffic")
 
     def __init__(self, traffic: Traffic | None, topic: Topic) -> None:
+        self._traffic = traffic
         self._followers = () if traffic is None else traffic.followers
         self._topic = topic
+
+    def open(self, inlet: Callable[[bytes], None]) -> None:
+        """Take messages that are handed in, past the network."""
+        if self._traffic is not None:
+            self._traffic.inlets[self._topic.node, self._topic.name] = inlet
+
+    def close(self) -> None:
+        """Take no more."""
+        if self._traffic is not None:
+            self._traffic.inlets.pop((self._topic.node, self._topic.name), None)
 
     def cross(self, body: bytes | memoryview) -> None:
         """Tell of a message; its bytes must not change afterwards."""

@@ -12,7 +12,7 @@ from crosnode.tcpros import HeaderReceived, PublisherConnection, TypeInfo
 from crosnode.transport.tcpip_socket import AREA_SIZE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from crosnode.messages import Message, MessageType
     from crosnode.node.border import Border
@@ -37,9 +37,11 @@ class Publisher:
         latching: whether a new subscriber gets the last message at once.
         queue_size: messages that wait for each subscriber; the oldest is dropped.
         sent: messages sent so far.
-        bytes_sent: bytes handed to subscribers so far.
+        bytes_sent: bytes sent to subscribers so far.
         links: connections to subscribers.
         registration: with the master.
+        hand_over: asked with the subscriber's name and the message before it is sent; where it
+            returns True the subscriber has it already, past the network.
     """
 
     def __init__(
@@ -60,6 +62,7 @@ class Publisher:
         self.queue_size = queue_size
         self.sent = 0
         self.bytes_sent = 0
+        self.hand_over: Callable[[str, bytes | memoryview], bool] | None = None
         self.links: dict[PeerLink, SubscriberLink] = {}
         DropOldestQueue[bytes](queue_size)  # a wrong size is an error now, not in the cycle
         self._latched: memoryview | bytes | None = None
@@ -103,9 +106,11 @@ class Publisher:
         self._border.cross(body)
         if self.latching:
             self._latched = body
+        hand_over = self.hand_over
         for link, owner in list(self.links.items()):
-            owner.send(link, body)
-        self.bytes_sent += len(body) * len(self.links)
+            if hand_over is None or not hand_over(owner.subscriber, body):
+                owner.send(link, body)
+                self.bytes_sent += len(body)
 
     def tick(self, now_ns: int) -> None:
         """Put a message into the program's queue when the loop period is over."""

@@ -27,10 +27,10 @@ Each has its part in every step, and a controller has fewer sockets by default.
 
 
 class QueuedMessage(NamedTuple):
-    """A message as it came, and where from."""
+    """A message as it came, and where from; None for one that was handed in."""
 
     body: bytes | memoryview
-    peer: PublisherLink
+    peer: PublisherLink | None
 
 
 class Subscriber:
@@ -65,6 +65,7 @@ class Subscriber:
         self.tcp_nodelay = tcp_nodelay
         self.core = core
         self._border = border
+        border.open(self.take)
         self._is_overtaken = False
         self._has_unnamed = False
 
@@ -84,7 +85,8 @@ class Subscriber:
             except DecodeError as error:
                 self.bad_messages += 1
                 self.core.tell(StatusKind.BAD_MESSAGE, self.topic, str(error))
-                packet.peer.drop(str(error))
+                if packet.peer is not None:
+                    packet.peer.drop(str(error))
         return None
 
     def pop_raw(self) -> bytes | memoryview | None:
@@ -96,6 +98,11 @@ class Subscriber:
         """Put a message into the program's queue."""
         self._border.cross(body)
         self.queue.push(QueuedMessage(body, publisher))
+
+    def take(self, body: bytes) -> None:
+        """Put a message into the program's queue that came past the network, from a recording."""
+        self._border.cross(body)
+        self.queue.push(QueuedMessage(body, None))
 
     def registered(self, uris: Value) -> None:
         """Take the publishers from the answer to the registration.
@@ -133,6 +140,7 @@ class Subscriber:
 
     def close(self) -> None:
         """Part from all publishers."""
+        self._border.close()
         for peer in self.peers.values():
             peer.leave()
         self.peers.clear()

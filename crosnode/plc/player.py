@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import CrosnodeError
@@ -11,12 +12,16 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
     from crosnode.node import CrosNode, Publisher
+    from plcsim.core.traffic import Traffic
     from plcsim.recorder.bag.reading import BagReader, Message, Topic
 
 OWN: Final = "/plcsim/"
 """Topics of plcsim's own recordings begin so."""
 
 QUEUE: Final = 1000
+
+ROUND_NS: Final = 50_000_000
+"""Between two rounds of a player's node that hands its messages over."""
 
 
 class Player:
@@ -26,6 +31,8 @@ class Player:
         bag: that is played.
         node: publishes; its types may learn those of the bag.
         topics: that are played; none for all but those of plcsim's own.
+        traffic: of the controller whose programs get the messages at once, past the network, when
+            they are connected; None where all go over the network.
 
     Attributes:
         publishers: by topic.
@@ -37,8 +44,15 @@ class Player:
             programs, or the bag is damaged.
     """
 
-    def __init__(self, bag: BagReader, node: CrosNode, topics: Collection[str] = ()) -> None:
+    def __init__(
+        self,
+        bag: BagReader,
+        node: CrosNode,
+        topics: Collection[str] = (),
+        traffic: Traffic | None = None,
+    ) -> None:
         self._bag = bag
+        self._traffic = traffic
         known = {topic.name: topic for topic in bag.topics}
         if missing := sorted(set(topics) - set(known)):
             raise RecordingError(f"{bag.path}: has no topic {missing[0]}")
@@ -50,6 +64,7 @@ class Player:
         self._node = node
         self.publishers = {topic.name: self._publisher(topic) for topic in chosen}
         self.sent = 0
+        self._next_round_ns = 0
         self.is_over = False
         self._messages: Iterator[Message] = bag.messages(self.publishers)
         self._next: Message | None = None
@@ -66,11 +81,14 @@ class Player:
                     f"{self._bag.path}: {topic.name}: {short} has the MD5 sum {topic.digest} in "
                     f"the bag, and {kind.md5sum} here"
                 )
-            return self._node.register_publisher(
+            made = self._node.register_publisher(
                 topic.name, short, queue_size=QUEUE, latching=topic.is_latching
             )
         except CrosnodeError as error:
             raise RecordingError(f"{self._bag.path}: {topic.name}: {error}") from None
+        if self._traffic is not None:
+            made.hand_over = partial(_hand_in, self._traffic, made.topic)
+        return made
 
     def start(self, now_ns: int) -> None:
         """Let the first message of the bag fall on ``now_ns``."""
@@ -85,7 +103,18 @@ class Player:
         return self._start_ns + self._next.time_ns - self._first_ns
 
     def step(self, now_ns: int) -> None:
-        """Send what is due."""
+        """Send what is due; the node itself goes round only now and then, or when it has sent."""
+        before = self._sent_by_network
+        self._send_due(now_ns)
+        if self._sent_by_network != before or now_ns >= self._next_round_ns:
+            self._next_round_ns = now_ns + ROUND_NS
+            self._node.do_events_loop()
+
+    @property
+    def _sent_by_network(self) -> int:
+        return sum(each.bytes_sent for each in self.publishers.values())
+
+    def _send_due(self, now_ns: int) -> None:
         while (due_ns := self.due_ns) is not None and due_ns <= now_ns:
             message = self._next
             assert message is not None
@@ -96,3 +125,7 @@ class Player:
     def _advance(self) -> None:
         self._next = next(self._messages, None)
         self.is_over = self._next is None
+
+
+def _hand_in(traffic: Traffic, topic: str, node: str, body: bytes | memoryview) -> bool:
+    return traffic.hand_in(node, topic, bytes(body))

@@ -246,14 +246,14 @@ class Ros:
         try:
             with open_bag(Path(bag)) as reader:
                 wanted = topics or self._subscribed({topic.name for topic in reader.topics})
-                player = Player(reader, player_node, wanted)
+                player = Player(reader, player_node, wanted, self._context.traffic)
                 heard = [p for n, p in player.publishers.items() if n in self._heard()]
                 self._until(
                     "subscribers of the bag's topics", lambda: all(p.subscribers for p in heard)
                 )
                 plc.advance(SETTLING * plc.cycle_ns)  # the subscriber has to see the connection too
                 player.start(plc.clock.now_ns())
-                host.step = partial(_play, player, player_node, plc)
+                host.step = lambda: player.step(plc.clock.now_ns())
                 plc.advance(reader.end_ns - reader.start_ns + plc.cycle_ns, lambda: player.is_over)
                 plc.cycles(1)
                 return player.sent
@@ -328,11 +328,6 @@ class Ros:
         for host in self._hosts:
             host.context.release_ns = now_ns
             host.step()
-
-
-def _play(player: Player, node: CrosNode, plc: Plc) -> None:
-    player.step(plc.clock.now_ns())
-    node.do_events_loop()
 
 
 class _Host:

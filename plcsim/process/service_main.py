@@ -25,6 +25,10 @@ from plcsim.shared_image.status_page import ServiceState, StatusPage
 if TYPE_CHECKING:
     from types import FrameType
 
+HELD_BACK = (signal.SIGTERM, signal.SIGINT)
+"""The supervisor starts this process with these signals blocked: it may be asked to end before it
+has begun, and has to record what is left all the same."""
+
 PATIENCE_S = 5.0
 """The scan process has made the file of the image; it may take so long to lay it out."""
 
@@ -96,8 +100,9 @@ class Service:
         self.is_stopping = False
         self._number = order.number
         self._told: tuple[ServiceState, str] | None = None
-        for number in (signal.SIGTERM, signal.SIGINT):
+        for number in HELD_BACK:
             signal.signal(number, self._ask)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
         self.image = _open_image(order)
         self.given: Any = self.image.directory.services[order.table]
 

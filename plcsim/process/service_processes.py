@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 from plcsim.core.backoff import Backoff
-from plcsim.process.service_main import ServiceOrder
+from plcsim.process.service_main import HELD_BACK, ServiceOrder
 from plcsim.project.extension import extensions, services_of
 from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.guest import tidy
@@ -71,14 +72,18 @@ class _Service:
 
     def _start(self) -> None:
         order = self.order
-        self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
-            [sys.executable, "-P", "-m", MAIN, self._module, order.to_json()],
-            pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
-            process_group=0,
-            stdin=subprocess.DEVNULL,
-            stdout=self._output.fds[0],
-            stderr=self._output.fds[1],
-        )
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
+        try:
+            self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
+                [sys.executable, "-P", "-m", MAIN, self._module, order.to_json()],
+                pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
+                process_group=0,
+                stdin=subprocess.DEVNULL,
+                stdout=self._output.fds[0],
+                stderr=self._output.fds[1],
+            )
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         self.starts += 1
 
     @property
@@ -127,7 +132,7 @@ class ServiceProcesses:
         self, settings: Mapping[str, Any], page: StatusPage, output: Output, *, quiet: bool = False
     ) -> None:
         self.image_fd = make_file()
-        self._is_laid_out = False
+        self._is_laid_out = self._is_closed = False
         self._image: ImageReader | None = None
         self._tidy_ns = 0
         modules = services_of(settings)
@@ -147,9 +152,7 @@ class ServiceProcesses:
 
     def tend(self, now_ns: int) -> None:
         """Start what is not running, once the scan process has laid the image out."""
-        if not self._is_laid_out:
-            self._is_laid_out = os.fstat(self.image_fd).st_size > HEADER_SIZE
-        if not self._is_laid_out:
+        if not self._is_laid_out_now():
             return
         for service in self._services:
             service.tend(now_ns)
@@ -157,6 +160,11 @@ class ServiceProcesses:
             self._tidy_ns = now_ns + TIDY_NS
             if self.image is not None:
                 tidy(self.image, self.image_fd)
+
+    def _is_laid_out_now(self) -> bool:
+        if not self._is_laid_out:
+            self._is_laid_out = os.fstat(self.image_fd).st_size > HEADER_SIZE
+        return self._is_laid_out
 
     @property
     def image(self) -> ImageReader | None:
@@ -187,7 +195,16 @@ class ServiceProcesses:
         return [service.order.table for service in self._services if service.never_served]
 
     def close(self) -> None:
-        """End all services and give the descriptors back."""
+        """End all services and give the descriptors back.
+
+        One that was never started, in a very short run, is started: a recorder has work to do.
+        """
+        if self._is_closed:
+            return
+        self._is_closed = True
+        for service in self._services:
+            if not service.starts and self._is_laid_out_now():
+                service.tend(0)
         for service in self._services:
             service.stop()
         for fd in (self.image_fd, *self.wake_fds):

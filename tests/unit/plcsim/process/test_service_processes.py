@@ -14,6 +14,19 @@ from plcsim.project.extension import Extension
 from plcsim.shared_image.layout import HEADER_SIZE
 from plcsim.shared_image.status_page import ServiceState, StatusPage
 
+UNTIL_ASKED = """
+import signal, time
+signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGTERM])
+time.sleep(60)
+"""
+
+IN_ORDER = """
+import signal
+from pathlib import Path
+signal.sigwait([signal.SIGTERM])  # blocked, or this process is no more
+Path(__file__).with_name("recorded").touch()
+"""
+
 
 class Web(Extension):
     """The extension of the table [web]."""
@@ -21,7 +34,7 @@ class Web(Extension):
 
 @pytest.fixture
 def processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ServiceProcesses]:
-    (tmp_path / "main_for_tests.py").write_text("import time\ntime.sleep(60)\n")
+    (tmp_path / "main_for_tests.py").write_text(UNTIL_ASKED)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setattr(module, "MAIN", "main_for_tests")
     monkeypatch.setattr(module, "services_of", lambda settings: settings)
@@ -94,3 +107,20 @@ def test_a_service_that_ends_without_having_served_never_served(
     assert processes.never_served == []
     page.note_service(0, ServiceState.FAILING)
     assert processes.never_served == []  # it has served before
+
+
+@pytest.mark.parametrize("is_started", [True, False])
+def test_a_service_that_is_asked_to_end_before_it_has_begun_does_its_work(
+    processes: ServiceProcesses, tmp_path: Path, *, is_started: bool
+) -> None:
+    (tmp_path / "main_for_tests.py").write_text(IN_ORDER)
+    os.ftruncate(processes.image_fd, HEADER_SIZE + 1)
+    if is_started:
+        processes.tend(0)
+    fd = processes.image_fd
+
+    processes.close()
+
+    assert (tmp_path / "recorded").exists()
+    with pytest.raises(OSError, match="Bad file descriptor"):
+        os.fstat(fd)

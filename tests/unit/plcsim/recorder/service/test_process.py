@@ -38,7 +38,7 @@ def project(tmp_path: Path) -> Path:
     return folder
 
 
-def run(project: Path, look: Any = lambda _: None, for_ns: int = 4_000_000_000) -> dict[str, Any]:
+def run(project: Path, look: Any = lambda _: None, for_ns: int = 500_000_000) -> dict[str, Any]:
     with Supervisor(read_project(project), for_ns=for_ns, quiet=True) as supervisor:
         return supervisor.wait(lambda: look(supervisor))
 
