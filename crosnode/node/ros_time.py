@@ -85,7 +85,8 @@ class RosTime:
         try:
             self._simulated_ns = clock.message_type.decode(packet.body).clock.to_ns()
         except DecodeError as error:
-            packet.peer.drop(str(error))
+            if packet.peer is not None:
+                packet.peer.drop(str(error))
 
     def _ask(self) -> None:
         question = self._question
