@@ -6,11 +6,13 @@ so nobody needs a compiler to use it. Its data always lies in the same page of P
 
 from __future__ import annotations
 
+import errno
 import hashlib
+import re
 import sys
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NoReturn
+from typing import TYPE_CHECKING, Any, Final, NoReturn, Protocol
 
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.module import CModule
@@ -19,6 +21,8 @@ from plcsim.machine.errors import FaultKind, MachineError, MachineFault
 from plcsim.machine.shared_module import read_shared
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from plcsim.machine import Extern, Machine
     from plcsim.machine.shared_module import SharedModule
 
@@ -38,8 +42,39 @@ STAMP: Final = "plcsim.sources"
 STACK_SIZE: Final = 0x4_0000
 """Bytes of the stack that the library and all programs in C share."""
 
+LONGEST_PATH: Final = 259
+"""Bytes of the path of a file."""
+
 _STDERR = 2
 _LONGEST_REASON = 500
+
+
+class Files(Protocol):
+    """The files that fopen and its relations find.
+
+    All raise OSError for what cannot be done. A file is a number that `open` gives.
+    """
+
+    def open(self, path: bytes, flags: int) -> int:
+        """Open a file; flags are those of libc/src/host.h."""
+
+    def close(self, file: int) -> None:
+        """Close it."""
+
+    def read(self, file: int, address: int, count: int, place: int) -> int:
+        """Read bytes into memory; return how many there were."""
+
+    def write(self, file: int, address: int, count: int, place: int) -> int:
+        """Write bytes of memory; return how many."""
+
+    def size(self, file: int) -> int:
+        """Return the bytes of a file."""
+
+    def remove(self, path: bytes) -> None:
+        """Delete a file."""
+
+    def rename(self, old: bytes, new: bytes) -> None:
+        """Rename a file."""
 
 
 class _Host:
@@ -47,10 +82,40 @@ class _Host:
 
     def __init__(self, machine: Machine) -> None:
         self._memory = machine.memory
+        self._make = machine.host_function
+        self.files: Files | None = None
         self._functions = {
-            "plc_write": machine.host_function(self._write, "III"),
-            "plc_fault": machine.host_function(self._fault, "I"),
+            "plc_write": self._make(self._write, "III"),
+            "plc_fault": self._make(self._fault, "I"),
+            "plc_file_open": self._of_files(lambda f, p, flags: f.open(self._path(p), flags), 2),
+            "plc_file_close": self._of_files(lambda f, file: f.close(file), 1),
+            "plc_file_read": self._of_files(lambda f, *values: f.read(*values), 4),
+            "plc_file_write": self._of_files(lambda f, *values: f.write(*values), 4),
+            "plc_file_size": self._of_files(lambda f, file: f.size(file), 1),
+            "plc_file_remove": self._of_files(lambda f, p: f.remove(self._path(p)), 1),
+            "plc_file_rename": self._of_files(
+                lambda f, old, new: f.rename(self._path(old), self._path(new)), 2
+            ),
         }
+
+    def _of_files(self, act: Callable[..., int | None], count: int) -> Extern:
+        """Return a function that gives a number, or one of errno.h below 0."""
+
+        def call(*values: int) -> int:
+            if self.files is None:
+                return -_ERRNO["ENODEV"]
+            try:
+                return act(self.files, *values) or 0
+            except OSError as error:
+                return -_ERRNO.get(errno.errorcode.get(error.errno or 0, ""), _ERRNO["EIO"])
+
+        return self._make(call, "I" * count, "i")
+
+    def _path(self, address: int) -> bytes:
+        path = self._memory.string(address, LONGEST_PATH + 1)
+        if len(path) > LONGEST_PATH:
+            raise OSError(errno.ENAMETOOLONG, "path")
+        return path
 
     def variable(self, _name: str) -> int | None:
         return None
@@ -79,8 +144,8 @@ class CLibrary:
         if linked.memory_size > PAGE:
             raise MachineError(f"the C library has {linked.memory_size} bytes of data")
         machine.memory.open_stack(STACK_SIZE)
-        host = _Host(machine)
-        self._module = CModule("C library", linked, machine, host, LIBRARY_AREA)
+        self._host = _Host(machine)
+        self._module = CModule("C library", linked, machine, self._host, LIBRARY_AREA)
         self._externs: dict[str, Extern] = {}
         self.reset()
 
@@ -98,9 +163,20 @@ class CLibrary:
         """Return the address of a variable such as ``errno``, None where there is none."""
         return self._module.address_of(name)
 
+    def use_files(self, files: Files) -> None:
+        """Let fopen and its relations open files; without this there is no device for them."""
+        self._host.files = files
+
     def reset(self) -> None:
         """Forget what it knows from earlier calls, as at a restart of the controller."""
         self._module.reset()
+
+
+_ERRNO: Final = {
+    name: int(number)
+    for name, number in re.findall(r"#define (E\w+) (\d+)", (INCLUDE / "errno.h").read_text())
+}
+"""Numbers of the controller by their names, which the host has other numbers for."""
 
 
 @cache

@@ -16,9 +16,6 @@ if TYPE_CHECKING:
     from plcsim.ansi_c.c_library import CLibrary
     from plcsim.machine import Extern, Machine
 
-HEAP_SIZE: Final = 0x10_0000
-"""Bytes, of a program that does not say how many it needs."""
-
 _STRUCT_SIZE = 0x800  # struct plc_heap, rounded up
 _ALIGNMENT = 8
 _FUNCTIONS: Final = {

@@ -47,11 +47,13 @@ class CBuild(NamedTuple):
         gcc_version: that the sources shall find, such as "6.3.0"; "" for that of the compiler.
         include_folders: that they find headers in.
         options: for the compiler, such as "-D SIMULATION".
+        heap_size: in bytes, of programs and libraries that do not say how many they need.
     """
 
     gcc_version: str = ""
     include_folders: tuple[Path, ...] = ()
     options: str = ""
+    heap_size: int = 1 << 20
 
 
 PLAIN: Final = CBuild()

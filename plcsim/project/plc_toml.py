@@ -7,6 +7,7 @@ that names the file and the field.
 
 from __future__ import annotations
 
+import shlex
 import tomllib
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.memory import DEFAULT_SIZE
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
+from plcsim.library.library import PLAIN
 from plcsim.program.layout import folder_layout, outside_libraries, program_places
 from plcsim.project.automation_studio.layout import ALL_VENDORS, layout_of
 from plcsim.project.automation_studio.logical_view import project_file as automation_studio_file
@@ -24,6 +26,7 @@ from plcsim.project.extension import extensions
 from plcsim.project.project_file import AUTOMATION_STUDIO, find_project
 from plcsim.project.tables import (
     AutomationStudioTable,
+    CTable,
     LibrariesTable,
     PlcSettings,
     ProjectKey,
@@ -36,6 +39,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
     from pathlib import Path
 
+    from plcsim.library.library import CBuild
     from plcsim.program.layout import Layout
     from plcsim.project.automation_studio.reader import AutomationStudioProject
     from plcsim.project.tables import ProgramEntry, TaskClassEntry
@@ -52,7 +56,9 @@ takes costs the host nothing."""
 COMPILING_NS: Final = 300_000_000_000
 """Loading an Automation Studio project may take so long at least, on a slow host too."""
 
-_OWN_TABLES: Final = ("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate")
+_OWN_TABLES: Final = (
+    *("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate", "c"),
+)
 
 
 @dataclass(frozen=True)
@@ -167,6 +173,7 @@ class _Parts:
         self._plc = PlcSettings()
         self._libraries: Mapping[str, Table] = {}
         self._folders = LibrariesTable()
+        self._c = CTable()
 
     def read_settings(self) -> None:
         findings = Findings()
@@ -176,6 +183,8 @@ class _Parts:
             self._libraries = self._top.table("library").tables()
         with findings.gathered():
             self._folders = self._top.table("libraries").read(LibrariesTable)
+        with findings.gathered():
+            self._c = self._top.table("c").read(CTable)
         findings.check()
 
     def project(self) -> Project:
@@ -192,6 +201,7 @@ class _Parts:
         folder = self._file.parent
         sources = [*dict.fromkeys(entry.source for entry in entries)]
         layout = folder_layout(folder, sources, self._folders.folders)
+        layout = replace(layout, c_build=self._c_build(PLAIN))
         name = self._plc.name or folder.resolve().name
         return Project(folder, name, self._plc, classes, layout, self._libraries)
 
@@ -224,7 +234,9 @@ class _Parts:
         stubs = self._folders.stub
         names = frozenset([ALL_VENDORS] if stubs is None else (name.lower() for name in stubs))
         layout = layout_of(found, self._file.parent, tasks, names)
-        layout = replace(layout, simulate=_simulated(self._top.table("simulate")))
+        c_build = self._c_build(layout.c_build)
+        simulate = _simulated(self._top.table("simulate"))
+        layout = replace(layout, c_build=c_build, simulate=simulate)
         return Project(
             self._file.parent,
             self._plc.name or found.name,
@@ -233,6 +245,14 @@ class _Parts:
             self._with_own(layout, tables),
             self._libraries,
             automation_studio=found,
+        )
+
+    def _c_build(self, given: CBuild) -> CBuild:
+        """Return how C is compiled: as its project says, and what [c] adds."""
+        return given._replace(
+            include_folders=(*self._c.include, *given.include_folders),
+            options=" ".join([given.options, shlex.join(self._c.options)]).strip(),
+            heap_size=self._c.heap,
         )
 
     def _memory_size(self) -> int:

@@ -29,6 +29,10 @@ LAST_CPU: Final = 1023
 LAST_SECOND: Final = 4_102_444_799
 """The last second of 2099, the largest DATE_AND_TIME of the controller."""
 
+HEAP_UNIT: Final = 1 << 10
+DEFAULT_HEAP: Final = 1 << 20
+"""Bytes of the heap of a program in C."""
+
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
@@ -148,6 +152,21 @@ class LibrariesTable:
 
     folders: tuple[Annotated[Path, PathTo("folder")], ...] = ()
     stub: tuple[str, ...] | None = None
+
+
+@settings
+class CTable:
+    """Table [c]: how programs and libraries in C are compiled.
+
+    Attributes:
+        include: further folders of headers; a relative path begins at the project's folder.
+        options: for the compiler, such as "-DSIMULATION=1".
+        heap: bytes of the heap of a program or library that does not say how many it needs.
+    """
+
+    include: tuple[Annotated[Path, PathTo("folder")], ...] = ()
+    options: tuple[str, ...] = ()
+    heap: Annotated[int, Size(HEAP_UNIT, MAX_SIZE, unit=HEAP_UNIT)] = DEFAULT_HEAP
 
 
 @settings

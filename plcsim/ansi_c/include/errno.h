@@ -13,7 +13,11 @@ extern int errno;
 #define ENOENT 2
 #define EINTR 4
 #define EIO 5
+#define ENXIO 6
+#define E2BIG 7
+#define ENOEXEC 8
 #define EBADF 9
+#define ECHILD 10
 #define EAGAIN 11
 #define EWOULDBLOCK EAGAIN
 #define ENOMEM 12
@@ -21,13 +25,18 @@ extern int errno;
 #define EFAULT 14
 #define EBUSY 16
 #define EEXIST 17
+#define EXDEV 18
 #define ENODEV 19
 #define ENOTDIR 20
 #define EISDIR 21
 #define EINVAL 22
 #define ENFILE 23
 #define EMFILE 24
+#define ENOTTY 25
+#define EFBIG 27
 #define ENOSPC 28
+#define ESPIPE 29
+#define EROFS 30
 #define EPIPE 32
 #define EDOM 33
 #define ERANGE 34
@@ -40,6 +49,15 @@ extern int errno;
 #define ENOTCONN 128
 #define EISCONN 127
 #define ENOTSUP 134
+#define ENOTEMPTY 90
+#define ENAMETOOLONG 91
+#define EADDRINUSE 112
+#define EADDRNOTAVAIL 125
+#define ECONNABORTED 113
+#define ENOBUFS 105
+#define ENOTSOCK 108
+#define EPROTO 71
+#define EILSEQ 138
 #define EOVERFLOW 139
 
 #ifdef __cplusplus

@@ -33,6 +33,7 @@ long long strtoll(const char *text, char **end, int base);
 unsigned long long strtoull(const char *text, char **end, int base);
 float strtof(const char *text, char **end);
 double strtod(const char *text, char **end);
+long double strtold(const char *text, char **end);
 
 int abs(int value);
 long labs(long value);
@@ -53,7 +54,20 @@ void *bsearch(const void *key, const void *area, size_t count, size_t size,
 void abort(void) __attribute__((noreturn));
 void exit(int status) __attribute__((noreturn));
 
-char *getenv(const char *name);
+void _Exit(int status) __attribute__((noreturn));
+int atexit(void (*function)(void)); /* never called: a program does not exit */
+
+char *getenv(const char *name); /* NULL */
+long random(void);
+void srandom(unsigned seed);
+char *itoa(int value, char *text, int base);
+char *utoa(unsigned value, char *text, int base);
+
+int mblen(const char *text, size_t size);
+int mbtowc(wchar_t *character, const char *text, size_t size);
+int wctomb(char *text, wchar_t character);
+size_t mbstowcs(wchar_t *target, const char *source, size_t count);
+size_t wcstombs(char *target, const wchar_t *source, size_t size);
 
 #ifdef __cplusplus
 }

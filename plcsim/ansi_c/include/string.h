@@ -35,7 +35,16 @@ size_t strspn(const char *text, const char *accepted);
 size_t strcspn(const char *text, const char *rejected);
 char *strtok(char *text, const char *separators);
 char *strtok_r(char *text, const char *separators, char **rest);
+char *strsep(char **rest, const char *separators);
+char *strcasestr(const char *text, const char *part);
+char *stpncpy(char *target, const char *source, size_t count);
+void *mempcpy(void *target, const void *source, size_t count);
+void *memccpy(void *target, const void *source, int last, size_t count);
+void *memmem(const void *area, size_t size, const void *part, size_t length);
+void *memrchr(const void *area, int value, size_t count);
 char *strerror(int number);
+int strerror_r(int number, char *text, size_t size);
+char *strsignal(int number);
 char *strdup(const char *text); /* on the heap */
 char *strndup(const char *text, size_t most);
 size_t strlcpy(char *target, const char *source, size_t size);

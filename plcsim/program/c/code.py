@@ -41,7 +41,9 @@ def load(source: ProgramSource) -> CCode:
         raise ConfigurationError(
             f"{source.folder}: no function of the program is marked _INIT, _CYCLIC or _EXIT"
         )
-    return CCode(compiled, source.scope, variables_of(source.name, source.scope.variables))
+    heap_size = source.declarations.layout.c_build.heap_size
+    variables = variables_of(source.name, source.scope.variables)
+    return CCode(compiled, source.scope, variables, heap_size)
 
 
 class CCode:
@@ -51,9 +53,13 @@ class CCode:
         compiled: its module.
         scope: in which its names are looked up.
         variables: types of its variables and constants.
+        heap_size: in bytes, of its heap where it does not say itself.
     """
 
-    def __init__(self, compiled: Compiled, scope: Scope, variables: Variables) -> None:
+    def __init__(
+        self, compiled: Compiled, scope: Scope, variables: Variables, heap_size: int
+    ) -> None:
+        self._default_heap = heap_size
         self._module = compiled.module
         self._scope = scope
         self._variables = variables
@@ -63,7 +69,7 @@ class CCode:
         """Return a task with variables, data and a heap of its own."""
         variables, constants = self._variables.allocate(site.memory, name)
         own = [variables] if constants is None else [variables, constants]
-        size = heap_size_of(self._module)
+        size = heap_size_of(self._module, self._default_heap)
         surroundings = ProgramSurroundings(name, site, self._scope, own, size)
         module = CModule(name, self._module, site.machine, surroundings)
         compiled = CompiledPrograms.of(site)

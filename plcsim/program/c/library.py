@@ -80,7 +80,8 @@ class CLibraryCode:
     def _placed(self, site: Site) -> CModule:
         name = f"library {self._library.name}"
         scope = self._library.scope
-        surroundings = ProgramSurroundings(name, site, scope, (), heap_size_of(self.module))
+        size = heap_size_of(self.module, self._library.c_build.heap_size)
+        surroundings = ProgramSurroundings(name, site, scope, (), size)
         module = CModule(name, self.module, site.machine, surroundings)
         CompiledPrograms.of(site).locate_by(name, locator(module))
 

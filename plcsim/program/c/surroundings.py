@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.c_library import CLibrary
-from plcsim.ansi_c.heap import HEAP_SIZE, Heap, is_of_heap
+from plcsim.ansi_c.heap import Heap, is_of_heap
 from plcsim.library.executable import Compiled
 from plcsim.machine.placement import Placement, initial_values
+from plcsim.program.c.files import DeviceFiles
 from plcsim.program.compiled import CompiledPrograms
 from st_types.types.derived import StructType
 
@@ -48,7 +49,7 @@ class ProgramSurroundings:
         for tag in reversed((*own, *site.shared)):
             self._variables |= _addresses(tag)
         self._heap_size = heap_size
-        self._library = site.machine.shared(CLibrary)
+        self._library = _library(site)
         self._compiled = CompiledPrograms.of(site)
         self.heap: Heap | None = None
 
@@ -101,6 +102,18 @@ class ProgramSurroundings:
             self.heap.reset()
 
 
+def _library(site: Site) -> CLibrary:
+    """Return the C library of a controller, which finds the files of its devices."""
+    library = site.machine.shared(CLibrary)
+    if site.context.settings(DeviceFiles) is None:
+        files = DeviceFiles(site.context)
+        site.context.give_settings(files)
+        library.use_files(files)
+        site.memory.at_boot(files.close_all)
+        site.memory.at_boot(library.reset)
+    return library
+
+
 def _addresses(tag: Tag) -> dict[str, int]:
     kind = tag.data_type
     assert isinstance(kind, StructType)
@@ -115,13 +128,18 @@ class _Zeros(dict[str, int]):
         return 0
 
 
-def heap_size_of(module: SharedModule) -> int:
-    """Return the size that a program wants its heap to have, in bytes."""
+def heap_size_of(module: SharedModule, default: int) -> int:
+    """Return the size that a program wants its heap to have, in bytes.
+
+    Args:
+        module: its module.
+        default: where it does not say.
+    """
     offsets = [module.variables[n] for n in HEAP_SIZE_NAMES if n in module.variables]
     for address, content in (
         initial_values(module, Placement(0, 0, _Zeros(), _Zeros())) if offsets else ()
     ):
         at = offsets[0] - address
         if 0 <= at <= len(content) - 4:
-            return int.from_bytes(content[at : at + 4], "little") or HEAP_SIZE
-    return HEAP_SIZE
+            return int.from_bytes(content[at : at + 4], "little") or default
+    return default

@@ -42,6 +42,14 @@ static const struct {
 	{ENOTCONN, "not connected"},
 	{EISCONN, "connected already"},
 	{ENOTSUP, "not supported"},
+	{ENXIO, "no such device or address"},
+	{E2BIG, "too long"},
+	{EXDEV, "on another device"},
+	{EFBIG, "file too large"},
+	{EROFS, "read-only"},
+	{ENAMETOOLONG, "name too long"},
+	{ENOTEMPTY, "folder not empty"},
+	{EILSEQ, "no character"},
 	{EOVERFLOW, "value too large for its type"},
 };
 
@@ -51,6 +59,11 @@ char *strerror(int number)
 		if (texts[i].number == number)
 			return (char *)texts[i].text;
 	return (char *)"unknown error";
+}
+
+int strerror_r(int number, char *text, size_t size)
+{
+	return strlcpy(text, strerror(number), size) < size ? 0 : ERANGE;
 }
 
 void plc_assert(const char *text) __attribute__((noreturn));

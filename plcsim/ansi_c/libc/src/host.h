@@ -15,6 +15,23 @@ void plc_write(int file, const char *text, size_t length);
 /* Ends the unit as a fault with a reason. */
 void plc_fault(const char *reason) __attribute__((noreturn));
 
+/* Files, on the file devices of the controller. All return a number of errno.h, below 0, for what
+ * they could not do. Places in a file are counted in bytes from its beginning. */
+
+#define PLC_READ 1
+#define PLC_WRITE 2
+#define PLC_CREATE 4
+#define PLC_TRUNCATE 8
+#define PLC_EXCLUSIVE 16
+
+int plc_file_open(const char *path, int flags); /* returns a number for the file, from 0 */
+int plc_file_close(int file);
+int plc_file_read(int file, void *area, size_t count, size_t place); /* returns bytes read */
+int plc_file_write(int file, const void *area, size_t count, size_t place);
+int plc_file_size(int file);
+int plc_file_remove(const char *path);
+int plc_file_rename(const char *from, const char *to);
+
 #ifdef __cplusplus
 }
 #endif

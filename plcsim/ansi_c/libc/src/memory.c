@@ -74,3 +74,34 @@ void *memchr(const void *area, int value, size_t count)
 			return (void *)at;
 	return 0;
 }
+
+void *memrchr(const void *area, int value, size_t count)
+{
+	const byte *first = area;
+	while (count--)
+		if (first[count] == (byte)value)
+			return (void *)(first + count);
+	return 0;
+}
+
+void *mempcpy(void *target, const void *source, size_t count)
+{
+	return (byte *)memcpy(target, source, count) + count;
+}
+
+void *memccpy(void *target, const void *source, int last, size_t count)
+{
+	const byte *found = memchr(source, last, count);
+	if (!found)
+		return memcpy(target, source, count), (void *)0;
+	return mempcpy(target, source, (size_t)(found - (const byte *)source) + 1);
+}
+
+void *memmem(const void *area, size_t size, const void *part, size_t length)
+{
+	const byte *at = area;
+	for (; length <= size; at++, size--)
+		if (!memcmp(at, part, length))
+			return (void *)at;
+	return 0;
+}

@@ -221,4 +221,5 @@ float strtof(const char *text, char **end)
 	return negative ? -value : value;
 }
 
+long double strtold(const char *text, char **end) { return strtod(text, end); }
 double atof(const char *text) { return strtod(text, 0); }

@@ -18,13 +18,13 @@ struct target {
 	size_t size; /* of the area, without the terminating zero */
 	size_t used; /* bytes in the area */
 	size_t count; /* bytes written at all */
-	int file; /* 0 for none */
+	FILE *file; /* NULL for none */
 };
 
 static void flush(struct target *to)
 {
 	if (to->used)
-		plc_write(to->file, to->area, to->used);
+		fwrite(to->area, 1, to->used, to->file);
 	to->used = 0;
 }
 
@@ -466,7 +466,7 @@ int vsprintf(char *text, const char *format, va_list values)
 int vfprintf(FILE *file, const char *format, va_list values)
 {
 	char area[BUFSIZ];
-	struct target to = {area, sizeof area, 0, 0, (int)(size_t)file};
+	struct target to = {area, sizeof area, 0, 0, file};
 	int count = put_format(&to, format, values);
 	flush(&to);
 	return count;

@@ -174,7 +174,10 @@ static const char *scan(const char *text, const struct item *item, const char *k
 	}
 }
 
-int vsscanf(const char *text, const char *format, va_list given)
+int plc_scan(const char *text, const char *format, va_list given, size_t *length);
+
+/* As vsscanf, and tells how many characters it has taken. */
+int plc_scan(const char *text, const char *format, va_list given, size_t *length)
 {
 	const char *start = text;
 	int count = 0, read = 0;
@@ -218,7 +221,14 @@ int vsscanf(const char *text, const char *format, va_list given)
 		format = *format == '[' ? behind_set(format + 1) : format + 1;
 	}
 	va_end(targets);
+	*length = (size_t)(text - start);
 	return count;
+}
+
+int vsscanf(const char *text, const char *format, va_list targets)
+{
+	size_t length;
+	return plc_scan(text, format, targets, &length);
 }
 
 int sscanf(const char *text, const char *format, ...)

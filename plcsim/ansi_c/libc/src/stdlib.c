@@ -99,3 +99,29 @@ void exit(int status)
 }
 
 char *getenv(const char *name) { return (void)name, (char *)0; }
+
+long random(void) { return rand(); }
+void srandom(unsigned seed) { srand(seed); }
+
+char *utoa(unsigned value, char *text, int base)
+{
+	char digits[32];
+	int count = 0, length = 0;
+	if (base < 2 || base > 36)
+		return *text = 0, text;
+	do
+		digits[count++] = "0123456789abcdefghijklmnopqrstuvwxyz"[value % (unsigned)base];
+	while (value /= (unsigned)base);
+	while (count)
+		text[length++] = digits[--count];
+	text[length] = 0;
+	return text;
+}
+
+char *itoa(int value, char *text, int base)
+{
+	int is_negative = base == 10 && value < 0;
+	*text = '-';
+	utoa(is_negative ? 0u - (unsigned)value : (unsigned)value, text + is_negative, base);
+	return text;
+}

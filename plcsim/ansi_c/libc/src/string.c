@@ -184,3 +184,29 @@ size_t strxfrm(char *target, const char *source, size_t count)
 {
 	return strlcpy(target, source, count);
 }
+
+char *strsep(char **rest, const char *separators)
+{
+	char *text = *rest;
+	if (!text)
+		return 0;
+	char *end = text + strcspn(text, separators);
+	*rest = *end ? end + 1 : 0;
+	*end = 0;
+	return text;
+}
+
+char *strcasestr(const char *text, const char *part)
+{
+	size_t length = strlen(part);
+	for (; strncasecmp(text, part, length); text++)
+		if (!*text)
+			return 0;
+	return (char *)text;
+}
+
+char *stpncpy(char *target, const char *source, size_t count)
+{
+	strncpy(target, source, count);
+	return target + strnlen(source, count);
+}

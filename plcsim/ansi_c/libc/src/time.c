@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 
 #define DAY 86400
@@ -21,6 +22,36 @@ time_t time(time_t *where)
 		*where = now;
 	return now;
 }
+
+int gettimeofday(struct timeval *now, void *zone)
+{
+	if (now) {
+		now->tv_sec = (time_t)(plc_date() / SECOND);
+		now->tv_usec = (suseconds_t)(plc_date() % SECOND / 1000);
+	}
+	if (zone)
+		memset(zone, 0, sizeof(struct timezone));
+	return 0;
+}
+
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+	long long time = clock == CLOCK_REALTIME ? plc_date() : RELEASE;
+	now->tv_sec = (time_t)(time / SECOND);
+	now->tv_nsec = (long)(time % SECOND);
+	return 0;
+}
+
+int clock_getres(clockid_t clock, struct timespec *resolution)
+{
+	(void)clock;
+	if (resolution)
+		*resolution = (struct timespec){0, 1};
+	return 0;
+}
+
+void tzset(void) {}
+time_t timegm(struct tm *date) { return mktime(date); }
 
 clock_t clock(void) { return (clock_t)(plc_date() / (SECOND / CLOCKS_PER_SEC)); }
 double difftime(time_t end, time_t start) { return (double)end - (double)start; }
@@ -104,16 +135,29 @@ static const char *name_of(const char *const *names, int count, int number)
 	return number >= 0 && number < count ? names[number] : "?";
 }
 
-char *asctime(const struct tm *date)
+#define DATE_TEXT 26 /* as POSIX has it */
+
+char *asctime_r(const struct tm *date, char *text)
 {
-	static char text[64];
-	snprintf(text, sizeof text, "%.3s %.3s %2d %02d:%02d:%02d %d\n",
+	snprintf(text, DATE_TEXT, "%.3s %.3s %2d %02d:%02d:%02d %d\n",
 	         name_of(days, 7, date->tm_wday), name_of(months, 12, date->tm_mon), date->tm_mday,
 	         date->tm_hour, date->tm_min, date->tm_sec, date->tm_year + 1900);
 	return text;
 }
 
+char *asctime(const struct tm *date)
+{
+	static char text[DATE_TEXT];
+	return asctime_r(date, text);
+}
+
 char *ctime(const time_t *when) { return asctime(gmtime(when)); }
+
+char *ctime_r(const time_t *when, char *text)
+{
+	struct tm date;
+	return asctime_r(gmtime_r(when, &date), text);
+}
 
 /* Returns the year that a week belongs to (ISO 8601), and its number. */
 static int iso_week(const struct tm *date, int *year)

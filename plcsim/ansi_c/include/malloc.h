@@ -1,0 +1,3 @@
+/* Memory of the heap; see stdlib.h. */
+
+#include <stdlib.h>

@@ -1,0 +1,35 @@
+/* Types of POSIX. */
+
+#ifndef PLCSIM_SYS_TYPES_H
+#define PLCSIM_SYS_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <time.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef long ssize_t;
+typedef long off_t;
+typedef int pid_t;
+typedef unsigned uid_t;
+typedef unsigned gid_t;
+typedef unsigned mode_t;
+typedef long suseconds_t;
+typedef unsigned useconds_t;
+typedef unsigned char u_char;
+typedef unsigned short u_short;
+typedef unsigned u_int;
+typedef unsigned long u_long;
+typedef uint8_t u_int8_t;
+typedef uint16_t u_int16_t;
+typedef uint32_t u_int32_t;
+typedef uint64_t u_int64_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
