@@ -67,6 +67,8 @@ class Body:
             position.
         cases: line of the selector, by the position at which a case of a Switch begins.
         polls: end of each poll of the budget, by its position.
+        finals: identities of the statements after which the function ends.
+        leaves: positions of RETURNs that stand for no statement of the source.
         copies: variables that locals hold here.
         accesses: of the loops around this point, by their identity.
         depth: blocks of WebAssembly around this point.
@@ -88,9 +90,11 @@ class Body:
         "copies",
         "depth",
         "effects",
+        "finals",
         "function",
         "holes",
         "indices",
+        "leaves",
         "line",
         "lines",
         "options",
@@ -121,6 +125,8 @@ class Body:
         self.conditions: dict[int, tuple[int, int]] = {}
         self.cases: dict[int, int] = {}
         self.polls: dict[int, int] = {}
+        self.finals = _finals(function) if function.result is None else frozenset()
+        self.leaves: set[int] = set()
         self.accesses: dict[int, Accesses] = {}
         self.depth = 0
         self.breaks: dict[int, Label] = {}
@@ -200,6 +206,23 @@ class Body:
     def branch(self, opcode: bytes, depth: int) -> None:
         """Append br or br_if to a block that `open` began."""
         self.code += opcode + uleb(self.depth - depth)
+
+
+def _finals(function: ir.Function) -> frozenset[int]:
+    """Return the identities of the statements of choice after which a function ends."""
+    found = set[int]()
+    left_over = [function.body]
+    while left_over:
+        sequence = left_over.pop()
+        last = sequence[-1] if sequence else None
+        if isinstance(last, ir.If):
+            left_over += [last.other, *(arm.body for arm in last.arms)]
+        elif isinstance(last, ir.Switch):
+            left_over += [last.other, *(case.body for case in last.cases)]
+        else:
+            continue
+        found.add(id(last))
+    return frozenset(found)
 
 
 class Label:

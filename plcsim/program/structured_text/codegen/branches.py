@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.machine.opcodes import BLOCK, BR, BR_IF, ELSE, I32_EQZ, IF
+from plcsim.machine.opcodes import BLOCK, BR, BR_IF, ELSE, I32_EQZ, IF, RETURN
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.body import Label
 from plcsim.program.structured_text.codegen.copies import join
@@ -79,7 +79,7 @@ def _chain(body: Body, node: ir.If) -> None:
         body.branch(BR_IF, depth)
         start = body.copies.fork()
         body.statements(body, arm.body)
-        leave(body, end)
+        leave(body, end, node)
         body.close()
         body.copies.known = start
     body.statements(body, node.other)
@@ -88,8 +88,17 @@ def _chain(body: Body, node: ir.If) -> None:
     body.copies.known = end.known
 
 
-def leave(body: Body, end: Label) -> None:
-    """Append a branch to what follows, if some path leads here."""
-    if body.copies.known is not None:
-        end.arrive(body.copies.known)
+def leave(body: Body, end: Label, node: ir.If | ir.Switch) -> None:
+    """Append a branch behind a statement, if some path leads here.
+
+    Behind the last one of a function that is a return: a jump less, and in large state machines
+    the processor has jumps to predict as it has memory for.
+    """
+    if body.copies.known is None:
+        return
+    end.arrive(body.copies.known)
+    if id(node) not in body.finals:
         body.branch(BR, end.depth)
+        return
+    body.leaves.add(len(body.code))
+    body.code += RETURN

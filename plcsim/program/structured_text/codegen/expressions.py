@@ -18,6 +18,7 @@ from plcsim.program.structured_text.codegen.operators import (
     VALUE_TYPES,
 )
 from plcsim.program.structured_text.codegen.places import Indexed, indexed
+from plcsim.program.structured_text.codegen.single import single_calculation, single_comparison
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -55,11 +56,16 @@ def emit(body: Body, expression: ir.Expression) -> None:
         elif kind is ir.Binary:
             left_over += OPERATORS[node.type, node.operator], node.right, node.left
         elif kind is ir.Compare:
+            if node.operands == "f64":
+                node = single_comparison(node)
             left_over += COMPARISONS[node.operands, node.operator], node.right, node.left
         elif kind is ir.Unary:
             left_over += OPERATORS[node.type, node.operator], node.operand
         elif kind is ir.Convert and node.operator not in _REAL_OPERAND:
-            left_over += CONVERSIONS[node.type, node.operator], node.operand
+            if node.operator == "demote_f64" and (same := single_calculation(node)) is not node:
+                left_over.append(same)
+            else:
+                left_over += CONVERSIONS[node.type, node.operator], node.operand
         elif kind is ir.Select:
             left_over += opcodes.SELECT, node.condition, node.other, node.then
         else:

@@ -42,6 +42,7 @@ class Flow:
         self._sequence = sequence
         self._code = body.code
         self._polls = body.polls
+        self._leaves = body.leaves
         self._entry = body.function.line
         self._positions = [position for position, _ in body.lines]
         self._marked = set(self._positions)
@@ -107,7 +108,7 @@ class Flow:
                 index = self._end_of[index] + 1
             elif one.opcode == _BR and one.start not in self._marked:  # else EXIT, CONTINUE
                 index = self._target_of[index]
-            elif one.opcode == _UNREACHABLE:
+            elif one.opcode == _UNREACHABLE or one.start in self._leaves:
                 break
             else:
                 return self.line_at(index)

@@ -63,7 +63,7 @@ def switch(body: Body, node: ir.Switch) -> None:
         body.mark(case.line)
         body.copies.known = None if start is None else start.copy()
         body.statements(body, case.body)
-        leave(body, end)
+        leave(body, end, node)
     body.close()
     body.cases[len(body.code)] = selector_line
     body.copies.known = start

@@ -4,9 +4,10 @@ import struct
 import pytest
 
 from plcsim.core.memory import FIRST
+from plcsim.machine.opcodes import RETURN
 from plcsim.program.structured_text import ir
 
-from .build import load, program, store
+from .build import if_, load, number, program, store
 
 LOWEST, HIGHEST = -(2**31), 2**31 - 1
 
@@ -102,3 +103,17 @@ def test_a_switch_of_which_every_case_returns(compiled):
     machine.run()
     assert machine.read(FIRST, 1) == b"\4"
     assert machine.read(FIRST + 8, 1) == b"\0"
+
+
+def test_what_ends_a_function_returns(compiled):
+    """A jump to its end would be one more for the processor to predict."""
+    cases = [ir.Case(n, [(n, n)], [store(0, n)]) for n in range(8)]
+    switch = ir.Switch(1, load(64), cases, [store(0, 99)])
+    last = compiled(program(switch))
+    before = compiled(program(if_(number(1), [switch]), store(4, 1)))
+    assert last.code.wasm.count(RETURN + b"\x0b") >= len(cases)
+    assert before.code.wasm.count(RETURN + b"\x0b") < len(cases)
+    for machine in (last, before):
+        machine.write(FIRST + 64, b"\5")
+        machine.run()
+        assert machine.read(FIRST, 1) == b"\5"
