@@ -115,12 +115,15 @@ class Player:
         return sum(each.bytes_sent for each in self.publishers.values())
 
     def _send_due(self, now_ns: int) -> None:
-        while (due_ns := self.due_ns) is not None and due_ns <= now_ns:
-            message = self._next
-            assert message is not None
+        if self._start_ns is None:
+            return
+        last_ns, message = now_ns - self._start_ns + self._first_ns, self._next
+        while message is not None and message.time_ns <= last_ns:
             self.publishers[message.topic].send_raw(message.as_ros1)
             self.sent += 1
-            self._advance()
+            message = next(self._messages, None)
+        self._next = message
+        self.is_over = message is None
 
     def _advance(self) -> None:
         self._next = next(self._messages, None)

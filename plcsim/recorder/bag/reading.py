@@ -7,6 +7,7 @@ import struct
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from plcsim.recorder.bag import chunks
 from plcsim.recorder.bag.changes import changed
 from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
@@ -101,6 +102,11 @@ class BagReader:
         if not chosen:
             return
         with _told(self.path):
+            if not self._is_cdr and chunks.is_in_order(self._reader):
+                named = {c.id: (c.topic, c.msgtype) for c in chosen}
+                for number, time_ns, data in chunks.messages(self._reader, named):
+                    yield Message(*named[number], time_ns, data, is_cdr=False)
+                return
             for connection, time_ns, data in self._reader.messages(connections=chosen):
                 yield Message(
                     connection.topic, connection.msgtype, time_ns, bytes(data), self._is_cdr
