@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import faulthandler
 import signal
 import sys
 import threading
 import time
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import CycleTimeViolation
@@ -16,8 +18,20 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
+_OWN_FILES = (__file__, contextlib.__file__)
+
 AGAIN_S = 0.5
 """After this time it is tried again, where the first exception was caught and forgotten."""
+
+TRIES = 3
+"""Code that has caught so many exceptions in a row catches them in a loop, and gets a hail."""
+
+HAIL_S = 20e-6
+"""Between two exceptions of a hail. One raised in what handles the last, or between two rounds of
+the loop, is not caught; with so many, one soon is."""
+
+PATIENCE_S = 3.0
+"""The last resort comes so much later than the limit."""
 
 SOON_S = 0.001
 """An alarm of somebody else that was due meanwhile comes after this time."""
@@ -37,7 +51,15 @@ def time_limit(limit_ns: int) -> Iterator[None]:
         yield
         return
 
-    def end(_number: int, _frame: FrameType | None) -> NoReturn:
+    tries = 0
+
+    def end(_number: int, frame: FrameType | None) -> None:
+        nonlocal tries
+        if frame is not None and frame.f_code.co_filename in _OWN_FILES:
+            return  # the block has ended meanwhile
+        tries += 1
+        if tries == TRIES:
+            signal.setitimer(signal.ITIMER_REAL, HAIL_S, HAIL_S)
         raise CycleTimeViolation(f"did not return within {format_duration(limit_ns)}")
 
     handler = signal.signal(signal.SIGALRM, end)
@@ -51,3 +73,17 @@ def time_limit(limit_ns: int) -> Iterator[None]:
         if due_s:
             left_s = due_s - (time.monotonic() - start)
             signal.setitimer(signal.ITIMER_REAL, max(SOON_S, left_s), interval_s)
+
+
+@contextmanager
+def last_resort(limit_ns: int) -> Iterator[None]:
+    """End this process when the block has not ended some seconds after `time_limit` would end it.
+
+    No exception reaches code that does not return from one call into a library in C. The stack,
+    with file and line, goes to standard error, and the exit code is 1.
+    """
+    faulthandler.dump_traceback_later(limit_ns / 1e9 + PATIENCE_S, exit=True)
+    try:
+        yield
+    finally:
+        faulthandler.cancel_dump_traceback_later()

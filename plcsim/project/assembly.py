@@ -127,13 +127,20 @@ def load(project: Project, *, watched: bool = False) -> Application:
     except CycleTimeViolation as error:
         loader.unload()
         limit = format_duration(project.load_timeout_ns)
-        location = location_of(error) or project.folder
+        location = location_of(_first(error)) or project.folder
         raise ConfigurationError(
             f"{location}: the programs were not loaded within {limit}"
         ) from None
     except BaseException:
         loader.unload()
         raise
+
+
+def _first(error: BaseException) -> BaseException:
+    """Return the error in whose handling others like it were raised: it knows the line."""
+    while isinstance(error.__context__, CycleTimeViolation):
+        error = error.__context__
+    return error
 
 
 def placed(application: Application) -> Application:

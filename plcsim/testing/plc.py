@@ -14,6 +14,7 @@ from plcsim.core.logbook import Severity
 from plcsim.core.system import State
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.project.assembly import assemble
+from plcsim.testing.bools import check_bools
 from plcsim.testing.condition import Condition
 from plcsim.testing.costs import Costs, garbage_held
 from plcsim.testing.errors import ControllerFault, ExpectationFailed, PlantError, PlcTestError
@@ -35,7 +36,8 @@ if TYPE_CHECKING:
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
     from plcsim.project.assembly import Application
-    from plcsim.testing.condition import Given
+    from plcsim.testing.bools import check_bools
+from plcsim.testing.condition import Given
 
 __tracebackhide__ = True
 
@@ -90,6 +92,8 @@ class Plc(World, Expectations):
         self.controller = assemble(
             here, clock=self.clock, network=network, image=self.image.of_controller
         )
+        if not realtime:
+            check_bools(self.controller.areas)
         World.__init__(self, Tags(self.controller), self.controller.forces, net, seed)
         Expectations.__init__(self)
         self.costs = Costs(self.controller)

@@ -1,12 +1,14 @@
 """Code that does not return is ended; alarms of others go on."""
 
 import signal
+import subprocess
 import sys
 import threading
 
 import pytest
 
 from plcsim.core.errors import CycleTimeViolation
+from plcsim.host import time_limit as time_limit_module
 from plcsim.host.time_limit import time_limit
 
 SHORT_NS = 20_000_000
@@ -46,6 +48,47 @@ def spin_on():
 def test_what_catches_everything_is_ended_again():
     with pytest.raises(CycleTimeViolation), time_limit(SHORT_NS):
         spin_on()
+
+
+def spin_in_a_handler():
+    while True:
+        try:
+            spin()
+        except:  # noqa: E722  # this is the case
+            pass
+
+
+def spin_in_nested_handlers():
+    while True:
+        try:
+            spin_in_a_handler()
+        except BaseException:
+            continue
+
+
+@pytest.mark.parametrize("act", [spin_in_a_handler, spin_in_nested_handlers])
+def test_what_catches_everything_in_a_loop_is_ended(act, monkeypatch):
+    monkeypatch.setattr(time_limit_module, "AGAIN_S", 0.01)
+    with pytest.raises(CycleTimeViolation), time_limit(SHORT_NS):
+        act()
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+ENDLESS_CALL = """
+from itertools import repeat
+from plcsim.host import time_limit
+time_limit.PATIENCE_S = 0.05
+with time_limit.last_resort(10_000_000), time_limit.time_limit(10_000_000):
+    all(repeat(1))
+"""
+
+
+def test_the_last_resort_ends_what_stays_in_one_call():
+    done = subprocess.run(
+        [sys.executable, "-c", ENDLESS_CALL], capture_output=True, text=True, timeout=30
+    )
+    assert done.returncode == 1
+    assert 'File "<string>", line 6 in <module>' in done.stderr
 
 
 def test_what_returns_is_left_alone(alarms):
