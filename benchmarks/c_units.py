@@ -30,7 +30,7 @@ from _outcome import (
     write_json,
 )
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.module import CModule
 from plcsim.ansi_c.toolchain import find_toolchain
@@ -83,7 +83,7 @@ def kernels(name: str, folder: Path, machine: Machine) -> dict[str, Callable[[in
         raise SystemExit("gcc is not installed")
     command = [gcc, "-O2", "-fPIC", "-shared", "-o", str(native), str(source)]
     subprocess.run(command, check=True)  # a compiler
-    built = build(Order(name, [source], [INCLUDE]), find_toolchain(), CodeCache(None))
+    built = build(BuildOrder(name, [source], [INCLUDE]), find_toolchain(), CodeCache(None))
     module = CModule(name, read_shared(built.wasm), machine, Nothing())
     module.reset()
     return {"gcc -O2": ctypes.CDLL(str(native)).run, "unit": module.function("run")}
@@ -123,7 +123,7 @@ def compile_ms(folder: Path, rounds: int) -> tuple[float, float]:
     file = folder / "unit.c"
     file.write_text(unit_of_100_lines())
     (folder / "AsDefault.h").write_text("")
-    order = Order("unit", [file], [folder, INCLUDE])
+    order = BuildOrder("unit", [file], [folder, INCLUDE])
     toolchain = find_toolchain()
     times: dict[bool, list[float]] = {True: [], False: []}
     for number in range(max(3, rounds // 4)):

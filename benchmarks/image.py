@@ -26,9 +26,9 @@ from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_contr
 from plcsim.shared_image import (
     ImageReader,
     ImageWriter,
-    Sample,
+    SampleCommand,
     Scatter,
-    Store,
+    StoreCommand,
     Write,
 )
 from plcsim.shared_image.layout import make_file
@@ -106,7 +106,7 @@ def costs() -> dict[str, dict[str, float]]:
             "latch_us": quickest_us(lambda w=writer, c=task_class: w.latch(c)),
         }
     for name, count, operation in (
-        ("16 writes of a word", 16, lambda at: Store(at, b"\1\0")),
+        ("16 writes of a word", 16, lambda at: StoreCommand(at, b"\1\0")),
         ("a write of 1,968 coils", 1, lambda at: Scatter(range(at, at + 1968), bytes(1968))),
     ):
         result[name] = _commands(count, operation)
@@ -135,7 +135,7 @@ def _read(fd: int, tags: int, cycles: int, told: Any) -> None:
     first = reader.directory.find("p.words_[0]").address
     count = reader.directory.find("p.count").address
     spans = [(count, 4), *((first + 400 * n, 4) for n in range(tags - 1))]
-    reader.send(Sample(1, 1, 0, spans))
+    reader.send(SampleCommand(1, 1, 0, spans))
     seen: list[int] = []
     deadline = time.monotonic() + cycles / 1000 + 30
     while time.monotonic() < deadline:

@@ -32,9 +32,9 @@ from _statements import write_statements
 
 from plcsim.core.statistics import Summary
 from plcsim.doctor.loops import (
-    Loop,
+    LoopOrder,
+    MeasuredLoop,
     Measurement,
-    Order,
     PythonLoop,
     ScanLoop,
     floor_loop,
@@ -60,7 +60,7 @@ def main() -> int:
     before = print_machine("before")
     rights = probe_rights()
     console.print(f"rights: {', '.join(rights.granted) or 'none'}")
-    order = Order(CYCLE_NS, options.seconds * 1000, rights.complete)
+    order = LoopOrder(CYCLE_NS, options.seconds * 1000, rights.complete)
     with tempfile.TemporaryDirectory(prefix="plcsim-jitter-") as folder:
         loops = (floor_loop(Path(folder)), ScanLoop(Path(folder)), PythonLoop())
         rounds = [_round(i, loops, order, Path(folder)) for i in range(options.rounds)]
@@ -95,7 +95,7 @@ def _options() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _round(number: int, loops: tuple[Loop, ...], order: Order, folder: Path) -> Round:
+def _round(number: int, loops: tuple[MeasuredLoop, ...], order: LoopOrder, folder: Path) -> Round:
     turn = number % len(loops)
     measurements = {loop.name: measure(loop, order) for loop in (*loops[turn:], *loops[:turn])}
     awake = run_project(HERE / "awake", order.cycles // 3, virtual=False)

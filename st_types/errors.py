@@ -42,7 +42,7 @@ class ValueRangeError(TypeSystemError, ValueError):
     """A value does not fit its declared type."""
 
 
-class Severity(StrEnum):
+class DiagnosticSeverity(StrEnum):
     """How bad it is: an error makes the file unusable, a warning does not."""
 
     ERROR = "error"
@@ -65,7 +65,7 @@ class Diagnostic:
         code: names the kind of finding, such as ``ST2001``; empty where kinds have no codes.
     """
 
-    severity: Severity
+    severity: DiagnosticSeverity
     path: str
     line: int
     column: int

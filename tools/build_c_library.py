@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.c_library import BINARY, MUSL, OPTIONS, STAMP, sources, stamp
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.toolchain import find_toolchain
@@ -20,7 +20,7 @@ def main() -> int:
     """Build it."""
     toolchain = find_toolchain()
     built = build(
-        Order("C library", sources(), [MUSL, INCLUDE], OPTIONS), toolchain, CodeCache(None)
+        BuildOrder("C library", sources(), [MUSL, INCLUDE], OPTIONS), toolchain, CodeCache(None)
     )
     for warning in built.warnings:
         print(warning)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from plcsim.program.structured_text.codes import EXPLANATIONS, Code
+from plcsim.program.structured_text.codes import EXPLANATIONS, FindingCode
 
 PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "st-codes.md"
 
@@ -39,7 +39,7 @@ def page() -> str:
         parts.append(f"### {code.value}: {explanation.title}\n\n{explanation.text}\n")
         if explanation.example:
             parts.append(f"```\n{explanation.example}\n```\n")
-    assert len(EXPLANATIONS) == len(Code)
+    assert len(EXPLANATIONS) == len(FindingCode)
     return "\n".join(parts)
 
 

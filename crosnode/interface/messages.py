@@ -25,7 +25,7 @@ from crosnode.interface.interface import (
 from crosnode.node import Publisher, Subscriber
 from crosnode.node.service_caller import ServiceCaller
 from crosnode.node.service_provider import ServiceProvider
-from crosnode.plc.conversion import Surroundings, tag_conversion
+from crosnode.plc.conversion import ConversionContext, tag_conversion
 from plcsim.core.controller import Controller
 from plcsim.core.errors import ConfigurationError
 from plcsim.library.executable import function
@@ -189,7 +189,7 @@ class StructConversions:
         for area in areas:
             struct = struct_at(area.data_type, address - area.address, size)
             if struct is not None:
-                surroundings = Surroundings(msg.types, self.cuts)
+                surroundings = ConversionContext(msg.types, self.cuts)
                 try:
                     made = tag_conversion(surroundings, msg.message_type, struct, struct.name)
                 except ConfigurationError:

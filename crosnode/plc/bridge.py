@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from crosnode.node import CrosNode, Status
-    from crosnode.plc.bridge_topics import Change
+    from crosnode.plc.bridge_topics import StatusChange
     from crosnode.plc.settings import (
         ParameterEntry,
         Publication,
@@ -134,7 +134,7 @@ class Bridge:
                 line += f" ({self._repeated[kind]} so far)"
                 self._controller.log(Severity.WARNING, "ros", line)
 
-    def _log_change(self, change: Change) -> None:
+    def _log_change(self, change: StatusChange) -> None:
         """Tell of values that have become old or good again, or that were cut."""
         self._changes[change.name, change.status] += 1
         count = self._changes[change.name, change.status]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, Any, Final
 
-from crosnode.plc.conversion import Conversion, Surroundings, tag_conversion
+from crosnode.plc.conversion import Conversion, ConversionContext, tag_conversion
 from plcsim.core.errors import ConfigurationError
 from st_types.types.derived import resolve_alias
 from st_types.types.elementary import BOOL
@@ -96,7 +96,7 @@ class TagService:
         if path is None:
             return None
         tag = self._tags.find(path)
-        surroundings = Surroundings(node.types, Counter())
+        surroundings = ConversionContext(node.types, Counter())
         return tag, tag_conversion(surroundings, message_type, tag.data_type, path)
 
     def take(self) -> None:

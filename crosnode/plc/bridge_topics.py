@@ -10,7 +10,7 @@ from crosnode.errors import MessageValueError
 from crosnode.messages import Time
 from crosnode.messages.definition import HEADER
 from crosnode.node.period import Period
-from crosnode.plc.conversion import Surroundings, tag_conversion
+from crosnode.plc.conversion import ConversionContext, tag_conversion
 from plcsim.core.errors import ConfigurationError
 from st_types.errors import ValueRangeError
 from st_types.types.derived import StructType, resolve_alias
@@ -41,7 +41,7 @@ class BridgeStatus(IntEnum):
     """Good, but a list or a text was longer than the tag that took it."""
 
 
-class Change(NamedTuple):
+class StatusChange(NamedTuple):
     """The status of an entry is another one.
 
     Attributes:
@@ -116,7 +116,7 @@ class Outgoing:
         )
         found = self._publisher.message_type
         data_type = self._tag.data_type
-        surroundings = Surroundings(node.types, Counter())
+        surroundings = ConversionContext(node.types, Counter())
         self._conversion = tag_conversion(surroundings, found, data_type, self._tag.path)
         self._status = StatusTag(controller.tags, entry.status)
         self._node = node
@@ -196,7 +196,7 @@ class Incoming:
             topic, entry.type_name, queue_size=1
         )
         found = self._subscriber.message_type
-        surroundings = Surroundings(node.types, self.cuts)
+        surroundings = ConversionContext(node.types, self.cuts)
         self._conversion = tag_conversion(surroundings, found, self._tag.data_type, self._tag.path)
         try:
             encode(self._tag.data_type, self._value_of(found.new()))
@@ -217,7 +217,7 @@ class Incoming:
             self._since_ns = now_ns
             self._received = BridgeStatus.CUT if self.cuts.total() > cuts else BridgeStatus.GOOD
 
-    def look(self) -> Change | None:
+    def look(self) -> StatusChange | None:
         """Tell the tags how good and how old the value is; return a status that is worth a line."""
         age_ns = self._controller.context.release_ns - self._since_ns
         if self._age:
@@ -229,12 +229,12 @@ class Incoming:
             text = f"no publisher, the last message is {age_ns // NS_PER_MS} ms old"
             if self._subscriber.publishers:
                 text = f"no message for {age_ns // NS_PER_MS} ms"
-            return Change(self.name, BridgeStatus.STALE, text)
+            return StatusChange(self.name, BridgeStatus.STALE, text)
         if self._status.status is BridgeStatus.CUT:
             where = ", ".join(f"{path} {count} times" for path, count in self.cuts.items())
-            return Change(self.name, BridgeStatus.CUT, f"longer than what takes it: {where}")
+            return StatusChange(self.name, BridgeStatus.CUT, f"longer than what takes it: {where}")
         if before is BridgeStatus.STALE:
-            return Change(self.name, BridgeStatus.GOOD, "messages come again")
+            return StatusChange(self.name, BridgeStatus.GOOD, "messages come again")
         return None
 
     def _status_now(self, age_ns: int) -> BridgeStatus:

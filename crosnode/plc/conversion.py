@@ -62,7 +62,7 @@ class Conversion(NamedTuple):
     to_tag: Callable[[Any, Plain], Plain]
 
 
-class Surroundings(NamedTuple):
+class ConversionContext(NamedTuple):
     """What conversions need beside the two types.
 
     Attributes:
@@ -75,7 +75,7 @@ class Surroundings(NamedTuple):
 
 
 def tag_conversion(
-    types: Surroundings, message_type: MessageType, data_type: DataType[Any], path: str
+    types: ConversionContext, message_type: MessageType, data_type: DataType[Any], path: str
 ) -> Conversion:
     """Return the conversion between a tag and messages.
 
@@ -112,7 +112,7 @@ def _is_one_value(struct: StructType[Any], fields: tuple[Field, ...]) -> bool:
 
 
 def _structure(
-    types: Surroundings, definition: Definition, struct: StructType[Any], path: str
+    types: ConversionContext, definition: Definition, struct: StructType[Any], path: str
 ) -> Conversion:
     fields = {field.name: field for field in definition.fields}
     parts = {
@@ -141,7 +141,11 @@ def _merged(message: Any, before: Plain, parts: dict[str, Conversion]) -> Plain:
 
 
 def _member(
-    types: Surroundings, field: Field, struct: StructType[Any], data_type: DataType[Any], path: str
+    types: ConversionContext,
+    field: Field,
+    struct: StructType[Any],
+    data_type: DataType[Any],
+    path: str,
 ) -> Conversion:
     """Return the conversion of one member, from and to the dict of all."""
     name, length = field.name, f"{field.name}_length"
@@ -161,7 +165,9 @@ def _member(
     )
 
 
-def _field(types: Surroundings, field: Field, data_type: DataType[Any], path: str) -> Conversion:
+def _field(
+    types: ConversionContext, field: Field, data_type: DataType[Any], path: str
+) -> Conversion:
     if field.is_array != isinstance(data_type, ArrayType):
         raise _misfit(path, data_type, field.declared)
     if not isinstance(data_type, ArrayType):
@@ -184,7 +190,9 @@ def _filled_up(found: Any, before: Plain, inner: Conversion, cut: Cut) -> Plain:
     return [*plain, *before[len(plain) :]]
 
 
-def _element(types: Surroundings, field: Field, data_type: DataType[Any], path: str) -> Conversion:
+def _element(
+    types: ConversionContext, field: Field, data_type: DataType[Any], path: str
+) -> Conversion:
     if field.base in _TIMES:
         return _time(field, data_type, path)
     if not field.is_builtin:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from crosnode.node import CrosNode, Publisher
     from plcsim.core.traffic import Traffic
-    from plcsim.recorder.bag.reading import BagReader, Message, Topic
+    from plcsim.recorder.bag.reading import BagMessage, BagReader, BagTopic
 
 OWN: Final = "/plcsim/"
 """Topics of plcsim's own recordings begin so."""
@@ -66,12 +66,12 @@ class Player:
         self.sent = 0
         self._next_round_ns = 0
         self.is_over = False
-        self._messages: Iterator[Message] = bag.messages(self.publishers)
-        self._next: Message | None = None
+        self._messages: Iterator[BagMessage] = bag.messages(self.publishers)
+        self._next: BagMessage | None = None
         self._first_ns = bag.start_ns
         self._start_ns: int | None = None
 
-    def _publisher(self, topic: Topic) -> Publisher:
+    def _publisher(self, topic: BagTopic) -> Publisher:
         package, _, name = topic.type_name.replace("/msg/", "/").partition("/")
         short = f"{package}/{name}"
         try:

@@ -65,7 +65,7 @@ _LINKER = re.compile(r"^\S*wasm-ld\S*: (?:error|warning): (.*(?:\n>>> .*)*)$", r
 
 
 @dataclass(frozen=True)
-class Order:
+class BuildOrder:
     """What is to be built.
 
     Attributes:
@@ -94,7 +94,7 @@ class Built:
     warnings: list[str] = field(default_factory=list)
 
 
-def build(order: Order, toolchain: Toolchain, cache: CodeCache) -> Built:
+def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
     """Compile and link.
 
     Raises:
@@ -124,7 +124,7 @@ class _Object:
     all of them are still the same, so is the object.
     """
 
-    def __init__(self, source: Path, target: Path, order: Order, toolchain: Toolchain) -> None:
+    def __init__(self, source: Path, target: Path, order: BuildOrder, toolchain: Toolchain) -> None:
         is_c = source.suffix.lower() == ".c"
         self.source = source
         self.file = target.with_suffix(".o")
@@ -211,7 +211,7 @@ def _started(compiled: _Object) -> subprocess.Popen[str]:
 
 
 def _link(
-    order: Order,
+    order: BuildOrder,
     objects: Sequence[_Object],
     toolchain: Toolchain,
     cache: CodeCache,
@@ -247,7 +247,7 @@ def _link(
     return wasm
 
 
-def _linker_findings(order: Order, objects: Sequence[_Object], told: str) -> list[str]:
+def _linker_findings(order: BuildOrder, objects: Sequence[_Object], told: str) -> list[str]:
     """Return what the linker said, with the names of the sources in place of the objects."""
     for compiled in objects:
         told = told.replace(str(compiled.file), str(compiled.source))

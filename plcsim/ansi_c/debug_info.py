@@ -31,7 +31,7 @@ _PLACE: Final = re.compile(rb"(?:\xed\x03.{4})?\x03(.{4})\x22?", re.DOTALL)
 
 
 @dataclass(slots=True)
-class Entry:
+class DebugEntry:
     """A debugging information entry.
 
     Attributes:
@@ -42,7 +42,7 @@ class Entry:
 
     tag: int
     attributes: dict[int, Any]
-    children: list[Entry] = field(default_factory=list)
+    children: list[DebugEntry] = field(default_factory=list)
 
     @property
     def name(self) -> str:
@@ -65,8 +65,8 @@ class DebugInfo:
         self._strings = section(".debug_str")
         self._abbreviations = section(".debug_abbrev")
         self._info = section(".debug_info")
-        self.entries: dict[int, Entry] = {}
-        self.units: list[Entry] = []
+        self.entries: dict[int, DebugEntry] = {}
+        self.units: list[DebugEntry] = []
         reader = Reader(self._info)
         while reader.more:
             start = reader.offset
@@ -75,12 +75,12 @@ class DebugInfo:
                 self._read_unit(reader, start, end)
             reader.offset = end
 
-    def variables(self) -> Iterator[tuple[str, int, Entry]]:
+    def variables(self) -> Iterator[tuple[str, int, DebugEntry]]:
         """Yield name, offset in the module's data and type of each variable that has a place."""
         for unit in self.units:
             yield from self._variables_in(unit)
 
-    def _variables_in(self, parent: Entry) -> Iterator[tuple[str, int, Entry]]:
+    def _variables_in(self, parent: DebugEntry) -> Iterator[tuple[str, int, DebugEntry]]:
         for entry in parent.children:
             if entry.tag == FUNCTION:
                 yield from self._variables_in(entry)
@@ -93,14 +93,14 @@ class DebugInfo:
             if found and kind and declared.name:  # strings in the text have no name
                 yield declared.name, int.from_bytes(found[1], "little"), kind
 
-    def type_of(self, entry: Entry) -> Entry | None:
+    def type_of(self, entry: DebugEntry) -> DebugEntry | None:
         """Return the type of a variable, a member, a pointer, a typedef; None for void."""
         return self.entries.get(entry.attributes.get(TYPE, -1))
 
     def _read_unit(self, reader: Reader, start: int, end: int) -> None:
         abbreviations = self._read_abbreviations(_number(reader, 4))
         reader.bytes(1)  # the size of an address
-        path: list[Entry] = []
+        path: list[DebugEntry] = []
         while reader.offset < end:
             place = reader.offset
             code = reader.uleb()
@@ -110,7 +110,7 @@ class DebugInfo:
                 continue
             tag, has_children, forms = abbreviations[code]
             attributes = {name: self._value(reader, form, start) for name, form in forms}
-            entry = self.entries[place] = Entry(tag, attributes)
+            entry = self.entries[place] = DebugEntry(tag, attributes)
             (path[-1].children if path else self.units).append(entry)
             if has_children:
                 path.append(entry)

@@ -54,7 +54,7 @@ class HeapUse(NamedTuple):
     refused: int
 
 
-class Heap:
+class ProgramHeap:
     """The heap of a program.
 
     Args:

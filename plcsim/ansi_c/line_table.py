@@ -24,7 +24,7 @@ _CONST_ADD, _FIXED_ADVANCE = 8, 9
 _END_SEQUENCE, _SET_ADDRESS = 1, 2
 
 
-class Row(NamedTuple):
+class LineRow(NamedTuple):
     """From ``address`` on, up to the next row, the code belongs to a line; 0 is none."""
 
     address: int
@@ -35,7 +35,7 @@ class Row(NamedTuple):
 class LineTable:
     """All rows of a module, in order of their addresses."""
 
-    def __init__(self, rows: list[Row]) -> None:
+    def __init__(self, rows: list[LineRow]) -> None:
         self._rows = sorted(rows, key=lambda row: (row.address, row.line > 0))
         self._addresses = [row.address for row in self._rows]
 
@@ -52,7 +52,7 @@ def read_line_table(section: bytes) -> LineTable:
     Raises:
         MachineError: it ends in the middle of something.
     """
-    rows: list[Row] = []
+    rows: list[LineRow] = []
     reader = Reader(section)
     while reader.more:
         length = _u32(reader)
@@ -101,7 +101,7 @@ class _Program:
             files.append(posixpath.join(folders[index] if index < len(folders) else "", name))
         return files
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[LineRow]:
         """Run the program."""
         while self._reader.more:
             code = self._reader.byte()
@@ -117,14 +117,14 @@ class _Program:
             else:
                 self._standard(code)
 
-    def _extended(self) -> Iterator[Row]:
+    def _extended(self) -> Iterator[LineRow]:
         reader = self._reader
         end = reader.uleb() + reader.offset
         kind = reader.byte()
         if kind == _SET_ADDRESS:
             self._address = int.from_bytes(reader.bytes(end - reader.offset), "little")
         elif kind == _END_SEQUENCE:
-            yield Row(self._address, "", 0)
+            yield LineRow(self._address, "", 0)
             self._address, self._file, self._line = 0, 1, 1
         reader.offset = end
 
@@ -144,9 +144,9 @@ class _Program:
             for _ in range(self._lengths[code - 1]):
                 reader.uleb()
 
-    def _row(self) -> Row:
+    def _row(self) -> LineRow:
         name = self._files[self._file] if self._file < len(self._files) else ""
-        return Row(self._address, name, self._line)
+        return LineRow(self._address, name, self._line)
 
 
 def _string(reader: Reader) -> str:

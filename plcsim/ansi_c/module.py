@@ -24,7 +24,7 @@ _ALIGNMENT = 16
 """Bytes; of the data of every module, as clang takes it for granted of its stack."""
 
 
-class Surroundings(Protocol):
+class ModuleSurroundings(Protocol):
     """What a module of C finds outside."""
 
     def variable(self, name: str) -> int | None:
@@ -58,7 +58,7 @@ class CModule:
         name: str,
         linked: SharedModule,
         machine: Machine,
-        surroundings: Surroundings,
+        surroundings: ModuleSurroundings,
         address: int | None = None,
     ) -> None:
         self.name = name

@@ -19,12 +19,12 @@ from st_types.types.derived import (
     StructType,
 )
 from st_types.types.elementary import ELEMENTARY
-from st_types.types.layout import Layout
+from st_types.types.layout import StructLayout
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
-    from plcsim.ansi_c.debug_info import Entry
+    from plcsim.ansi_c.debug_info import DebugEntry
     from plcsim.machine.shared_module import SharedModule
     from st_types.resolve.scope import Scope
     from st_types.types.elementary import DataType
@@ -63,11 +63,11 @@ class PlacedType(StructType[object]):
         layout: their offsets, and the size of the whole.
     """
 
-    def __init__(self, name: str, members: Sequence[Member], layout: Layout) -> None:
+    def __init__(self, name: str, members: Sequence[Member], layout: StructLayout) -> None:
         self._given = layout
         super().__init__(name, members)
 
-    def _laid_out(self) -> Layout:
+    def _laid_out(self) -> StructLayout:
         return self._given
 
 
@@ -93,7 +93,7 @@ def own_variables(
         return None
     members = [Member(variable, data_type) for variable, (_, data_type) in found.items()]
     offsets = tuple(offset for offset, _ in found.values())
-    layout = Layout(offsets, module.memory_size, module.memory_alignment)
+    layout = StructLayout(offsets, module.memory_size, module.memory_alignment)
     return PlacedType(name, members, layout)
 
 
@@ -105,12 +105,12 @@ class _Types:
         self._scope = scope
         self._known: dict[int, DataType[object] | None] = {}
 
-    def of(self, entry: Entry, depth: int = 0) -> DataType[object] | None:
+    def of(self, entry: DebugEntry, depth: int = 0) -> DataType[object] | None:
         if id(entry) not in self._known:
             self._known[id(entry)] = None if depth > _DEEPEST else self._made(entry, depth + 1)
         return self._known[id(entry)]
 
-    def _made(self, entry: Entry, depth: int) -> DataType[object] | None:
+    def _made(self, entry: DebugEntry, depth: int) -> DataType[object] | None:
         match entry.tag:
             case dwarf.BASE:
                 sizes = _BY_ENCODING.get(entry.attributes.get(dwarf.ENCODING, 0), {})
@@ -130,7 +130,7 @@ class _Types:
                 return self._struct(entry, depth)
         return None
 
-    def _enumeration(self, entry: Entry) -> DataType[object]:
+    def _enumeration(self, entry: DebugEntry) -> DataType[object]:
         known = self._scope.find_type(entry.name) if entry.name else None
         if isinstance(known, EnumerationType):
             return known
@@ -141,7 +141,7 @@ class _Types:
         }
         return EnumerationType(entry.name or "enum", values) if values else ELEMENTARY["DINT"]
 
-    def _array(self, entry: Entry, depth: int) -> DataType[object] | None:
+    def _array(self, entry: DebugEntry, depth: int) -> DataType[object] | None:
         inner = self.info.type_of(entry)
         counts = [_count(each) for each in entry.children if each.tag == dwarf.SUBRANGE]
         if inner is None or not counts or min(counts) <= 0:
@@ -151,7 +151,7 @@ class _Types:
         element = self.of(inner, depth)
         return None if element is None else ArrayType(element, [(0, n - 1) for n in counts])
 
-    def _is_character(self, entry: Entry) -> bool:
+    def _is_character(self, entry: DebugEntry) -> bool:
         while entry.tag in (dwarf.TYPEDEF, dwarf.CONST, dwarf.VOLATILE):
             inner = self.info.type_of(entry)
             if inner is None:
@@ -159,7 +159,7 @@ class _Types:
             entry = inner
         return entry.name == "char"
 
-    def _struct(self, entry: Entry, depth: int) -> DataType[object] | None:
+    def _struct(self, entry: DebugEntry, depth: int) -> DataType[object] | None:
         size = entry.attributes.get(dwarf.SIZE, 0)
         known = self._scope.find_type(entry.name) if entry.name else None
         if known is not None and known.size == size:
@@ -175,10 +175,10 @@ class _Types:
             return None
         members = [Member(name, data_type) for name, (_, data_type) in found.items()]
         offsets = tuple(offset for offset, _ in found.values())
-        return PlacedType(entry.name or "struct", members, Layout(offsets, size, 4))
+        return PlacedType(entry.name or "struct", members, StructLayout(offsets, size, 4))
 
 
-def _count(subrange: Entry) -> int:
+def _count(subrange: DebugEntry) -> int:
     attributes = subrange.attributes
     if dwarf.COUNT in attributes:
         count: int = attributes[dwarf.COUNT]

@@ -13,8 +13,8 @@ from plcsim.campaign.definition import load_campaign
 from plcsim.campaign.errors import CampaignError
 from plcsim.campaign.order import order_of
 from plcsim.campaign.picture import PICTURE_FILE, draw
-from plcsim.campaign.progress import Progress
-from plcsim.campaign.result import Outcome
+from plcsim.campaign.progress import ProgressBar
+from plcsim.campaign.result import RunOutcome
 from plcsim.campaign.session import Session, results_folder
 from plcsim.campaign.show import (
     causes_of,
@@ -26,7 +26,7 @@ from plcsim.campaign.show import (
 )
 from plcsim.campaign.shrink import shrink
 from plcsim.campaign.single_run import SingleRun
-from plcsim.campaign.store import Examples, Store, read_folder
+from plcsim.campaign.store import Examples, ResultStore, read_folder
 from plcsim.cli.console import CommandConsole
 from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.output_file import check_output, write_output
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-    from plcsim.campaign.result import Order, Result
-    from plcsim.campaign.show import Cause
+    from plcsim.campaign.result import PlannedRun, Result
+    from plcsim.campaign.show import FailureCause
 
 MOST_EXAMPLES: Final = 3
 """Causes of which an example is shown, the most frequent ones."""
@@ -46,12 +46,12 @@ MOST_EXAMPLES: Final = 3
 def run(options: argparse.Namespace) -> int:
     """Do the runs that are not done yet, and show what came of all."""
     session = Session(options.file)
-    store = Store(_folder(options), session.about(), fresh=options.fresh)
+    store = ResultStore(_folder(options), session.about(), fresh=options.fresh)
     console = CommandConsole()
     if store.done:
         console.print(f"{_folder(options)}: {len(store.done)} runs are done already")
     with _cluster(session, options.scheduler, options.processors) as cluster:
-        with Progress(console, session.runs, len(store.done), cluster) as progress:
+        with ProgressBar(console, session.runs, len(store.done), cluster) as progress:
             session.perform(cluster, store, progress.add)
         return _Shown(options, session, console).show(None if options.no_shrink else cluster)
 
@@ -82,7 +82,7 @@ def repeat(options: argparse.Namespace) -> int:
     print_result(CommandConsole(), result)
     if options.csv is not None and single.trace is not None:
         write_output("--csv", options.csv, single.trace.to_csv())
-    return ExitCode.DONE if result.outcome is Outcome.PASSED else ExitCode.FAILED
+    return ExitCode.DONE if result.outcome is RunOutcome.PASSED else ExitCode.FAILED
 
 
 def _folder(options: argparse.Namespace) -> Path:
@@ -142,13 +142,13 @@ class _Shown:
             self._console.print(f"picture: {picture}", soft_wrap=True)
         self._console.print(f"results: {self._folder}", soft_wrap=True)
 
-    def _example(self, cause: Cause, cluster: Cluster | None) -> Result | None:
+    def _example(self, cause: FailureCause, cluster: Cluster | None) -> Result | None:
         """Return the smallest example of a cause, found before or now."""
         known = self._examples.get(cause.text)
         if known is not None or cluster is None:
             return known
 
-        def perform(orders: Sequence[Order]) -> dict[int, Result]:
+        def perform(orders: Sequence[PlannedRun]) -> dict[int, Result]:
             return {result.order.number: result for result in cluster.perform(orders)}
 
         simplest = shrink(cause.failures[0], self._session.campaign.variables, perform)

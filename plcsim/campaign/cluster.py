@@ -13,16 +13,16 @@ from distributed import Client, LocalCluster, as_completed
 from distributed.scheduler import KilledWorker
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Outcome, Result
+from plcsim.campaign.result import Result, RunOutcome
 from plcsim.campaign.workers import Installation, perform, plugin_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.campaign.content import Content
-    from plcsim.campaign.result import Order
+    from plcsim.campaign.result import PlannedRun
 
-    Batch = tuple[Order, ...]
+    Batch = tuple[PlannedRun, ...]
 
 CONNECT_LIMIT_S: Final = 15
 WORKERS_LIMIT_S: Final = 60
@@ -89,7 +89,7 @@ class Cluster:
         """Runs that are done at a time now."""
         return sum(self._client.nthreads().values())
 
-    def perform(self, orders: Iterable[Order]) -> Iterator[Result]:
+    def perform(self, orders: Iterable[PlannedRun]) -> Iterator[Result]:
         """Do runs; yield their results as they come.
 
         Only as many runs as are needed wait at the workers, however many there are.
@@ -122,7 +122,7 @@ class Cluster:
                 losses[first] = losses.get(first, 0) + 1
                 again.append(batch)
             else:
-                yield from (Result(order, Outcome.ERROR, _message(found)) for order in batch)
+                yield from (Result(order, RunOutcome.ERROR, _message(found)) for order in batch)
             submit()
 
     def _submit(self, batch: Batch) -> Any:

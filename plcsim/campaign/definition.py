@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from plcsim.campaign.requirements import Requirement
     from plcsim.campaign.sampling import Sampling
     from plcsim.campaign.search import Falsify
-    from plcsim.campaign.variables import Scalar, Variable
+    from plcsim.campaign.variables import Scalar, VariedVariable
     from plcsim.testing import Plc
 
     Scenario = Callable[[Plc, dict[str, Scalar]], Mapping[str, Scalar] | None]
@@ -51,7 +51,7 @@ class Campaign:
         CampaignError: something of it cannot be.
     """
 
-    variables: Mapping[str, Variable] = field(default_factory=dict)
+    variables: Mapping[str, VariedVariable] = field(default_factory=dict)
     duration: str = ""
     sampling: Sampling | Falsify = field(default_factory=lambda: Random(100))
     require: Sequence[Requirement] = ()

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Order
+from plcsim.campaign.result import PlannedRun
 from plcsim.campaign.search import Falsify
 from plcsim.campaign.store import read_folder
 from plcsim.core.suggestion import did_you_mean
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from plcsim.campaign.variables import Scalar
 
 
-def order_of(options: argparse.Namespace, campaign: Campaign, folder: Path) -> Order:
+def order_of(options: argparse.Namespace, campaign: Campaign, folder: Path) -> PlannedRun:
     """Return the run with a number, with single values changed, or one of given values only.
 
     Raises:
@@ -32,19 +32,19 @@ def order_of(options: argparse.Namespace, campaign: Campaign, folder: Path) -> O
     return replace(order, values=values, seed=order.seed if options.seed is None else options.seed)
 
 
-def _numbered(options: argparse.Namespace, campaign: Campaign, folder: Path) -> Order:
+def _numbered(options: argparse.Namespace, campaign: Campaign, folder: Path) -> PlannedRun:
     if options.number is None:
         values = {name: variable.simplest for name, variable in campaign.variables.items()}
-        return Order(0, campaign.seed, values)
+        return PlannedRun(0, campaign.seed, values)
     if isinstance(campaign.sampling, Falsify):
         return _done(options.number, folder)
     planned = campaign.sampling.plan(campaign.variables, campaign.seed, options.file.parent)
     if not 0 <= options.number < len(planned):
         raise CampaignError(f"{options.number}: runs are numbered from 0 to {len(planned) - 1}")
-    return Order(options.number, campaign.seed + options.number, planned[options.number])
+    return PlannedRun(options.number, campaign.seed + options.number, planned[options.number])
 
 
-def _done(number: int, folder: Path) -> Order:
+def _done(number: int, folder: Path) -> PlannedRun:
     """Return a run of a search: only its results know its values."""
     _, results = read_folder(folder)
     for result in results:

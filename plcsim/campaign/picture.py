@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from plcsim.campaign.result import Outcome
+from plcsim.campaign.result import RunOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -42,7 +42,7 @@ def draw(results: Sequence[Result], file: Path, title: str) -> None:
     figure = Figure(figsize=(size, size * (0.8 if count < 3 else 1)), layout="constrained")
     FigureCanvasAgg(figure)
     figure.suptitle(title)
-    passed = np.array([result.outcome is Outcome.PASSED for result in results])
+    passed = np.array([result.outcome is RunOutcome.PASSED for result in results])
     if count == 1:
         _strip(figure.subplots(), results, names[0], passed)
     elif count == 2:
@@ -134,7 +134,7 @@ def _telling(results: Sequence[Result]) -> list[str]:
 def _difference(results: Sequence[Result], name: str) -> float:
     """Return how far the means of passed and failed runs are apart, in standard deviations."""
     at = _positions(results, name)
-    passed = np.array([result.outcome is Outcome.PASSED for result in results])
+    passed = np.array([result.outcome is RunOutcome.PASSED for result in results])
     if passed.all() or not passed.any() or not at.std():
         return 0.0
     return float(abs(at[passed].mean() - at[~passed].mean()) / at.std())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from rich import progress
 
-from plcsim.campaign.result import Outcome
+from plcsim.campaign.result import RunOutcome
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -20,7 +20,7 @@ PIPE_PERIOD_S: Final = 5.0
 """Between two lines where no terminal is."""
 
 
-class Progress:
+class ProgressBar:
     """A bar on a terminal, a line now and then in a pipe.
 
     Args:
@@ -45,7 +45,7 @@ class Progress:
         )
         self._task = self._bar.add_task("", total=runs, completed=done, rate="", failed=0)
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> ProgressBar:
         """Show it."""
         self._bar.start()
         return self
@@ -66,7 +66,7 @@ class Progress:
     def add(self, result: Result) -> None:
         """Take note of a run that is done."""
         self._new += 1
-        self._failed += result.outcome is not Outcome.PASSED
+        self._failed += result.outcome is not RunOutcome.PASSED
         now_s = time.monotonic()
         rate = f"{self._new / max(now_s - self._started_s, 1e-3):.1f}/s"
         rate += f" on {self._cluster.processors}"

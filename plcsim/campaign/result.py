@@ -14,7 +14,7 @@ _NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][-+]?\d+)?")
 _LONGEST_MESSAGE = 500
 
 
-class Outcome(StrEnum):
+class RunOutcome(StrEnum):
     """How a run ended."""
 
     PASSED = "passed"
@@ -29,7 +29,7 @@ class Outcome(StrEnum):
 
 
 @dataclass(frozen=True)
-class Order:
+class PlannedRun:
     """A run to be done.
 
     Attributes:
@@ -59,8 +59,8 @@ class Result:
         details: the last cycles, where somebody asked for them.
     """
 
-    order: Order
-    outcome: Outcome
+    order: PlannedRun
+    outcome: RunOutcome
     message: str = ""
     requirement: str = ""
     margin: float | None = None
@@ -73,7 +73,7 @@ class Result:
         """What failures are grouped by: the requirement, else the message without its numbers."""
         return (
             ""
-            if self.outcome is Outcome.PASSED
+            if self.outcome is RunOutcome.PASSED
             else self.requirement or without_numbers(self.message)
         )
 

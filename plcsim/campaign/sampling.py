@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.campaign.variables import Scalar, Variable
+    from plcsim.campaign.variables import Scalar, VariedVariable
 
 MOST_RUNS: Final = 1_000_000
 """Runs that a campaign may have; more is taken for a grid that nobody has counted."""
@@ -31,7 +31,9 @@ Values = dict[str, "Scalar"]
 class Sampling(Protocol):
     """Chooses the values of every run."""
 
-    def plan(self, variables: Mapping[str, Variable], seed: int, folder: Path, /) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], seed: int, folder: Path, /
+    ) -> list[Values]:
         """Return the values of each run; files are relative to ``folder``."""
 
 
@@ -45,7 +47,9 @@ class Grid:
 
     steps: int = 5
 
-    def plan(self, variables: Mapping[str, Variable], _seed: int, _folder: Path) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], _seed: int, _folder: Path
+    ) -> list[Values]:
         """Return every combination; the last variable changes fastest."""
         if self.steps < 1:
             raise CampaignError(f"Grid({self.steps}): at least 1 step")
@@ -64,7 +68,9 @@ class Random:
 
     runs: int
 
-    def plan(self, variables: Mapping[str, Variable], seed: int, _folder: Path) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], seed: int, _folder: Path
+    ) -> list[Values]:
         """Return the values of each run."""
         _check_count(self.runs)
         shares = np.random.default_rng(seed).random((self.runs, len(variables)))
@@ -81,7 +87,9 @@ class LatinHypercube:
 
     runs: int
 
-    def plan(self, variables: Mapping[str, Variable], seed: int, _folder: Path) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], seed: int, _folder: Path
+    ) -> list[Values]:
         """Return the values of each run."""
         from scipy.stats import qmc  # noqa: PLC0415  # takes half a second
 
@@ -100,7 +108,9 @@ class Sobol:
 
     runs: int
 
-    def plan(self, variables: Mapping[str, Variable], seed: int, _folder: Path) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], seed: int, _folder: Path
+    ) -> list[Values]:
         """Return the values of each run."""
         from scipy.stats import qmc  # noqa: PLC0415  # takes half a second
 
@@ -125,7 +135,9 @@ class FromCsv:
 
     file: str
 
-    def plan(self, variables: Mapping[str, Variable], _seed: int, folder: Path) -> list[Values]:
+    def plan(
+        self, variables: Mapping[str, VariedVariable], _seed: int, folder: Path
+    ) -> list[Values]:
         """Return the values of each run; ``variables`` is to be empty."""
         if variables:
             raise CampaignError(f"FromCsv({self.file!r}): its columns are the variables; name none")
@@ -162,7 +174,9 @@ def _typed(cells: Sequence[str]) -> Sequence[Scalar]:
     return cells
 
 
-def values_at(variables: Mapping[str, Variable], shares: Iterable[Sequence[float]]) -> list[Values]:
+def values_at(
+    variables: Mapping[str, VariedVariable], shares: Iterable[Sequence[float]]
+) -> list[Values]:
     """Return the values of each row of shares, one column for each variable."""
     named = list(variables.items())
     return [

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Order, Outcome
+from plcsim.campaign.result import PlannedRun, RunOutcome
 from plcsim.campaign.sampling import values_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from plcsim.campaign.result import Result
-    from plcsim.campaign.variables import Variable
+    from plcsim.campaign.variables import VariedVariable
 
 GENERATION: Final = 8
 """Runs of a generation for each variable, within the limits below."""
@@ -38,9 +38,9 @@ class Falsify:
 
     def search(
         self,
-        variables: Mapping[str, Variable],
+        variables: Mapping[str, VariedVariable],
         seed: int,
-        perform: Callable[[Sequence[Order]], Iterable[Result]],
+        perform: Callable[[Sequence[PlannedRun]], Iterable[Result]],
     ) -> None:
         """Search.
 
@@ -64,9 +64,9 @@ class _Found(Exception):  # noqa: N818  # ends the search; nothing is wrong
 class _Search:
     def __init__(
         self,
-        variables: Mapping[str, Variable],
+        variables: Mapping[str, VariedVariable],
         seed: int,
-        perform: Callable[[Sequence[Order]], Iterable[Result]],
+        perform: Callable[[Sequence[PlannedRun]], Iterable[Result]],
     ) -> None:
         self._variables, self._seed, self._perform = variables, seed, perform
         self._number = 0
@@ -96,10 +96,11 @@ class _Search:
         values = values_at(self._variables, points)
         first, self._number = self._number, self._number + len(values)
         orders = [
-            Order(number, self._seed + number, each) for number, each in enumerate(values, first)
+            PlannedRun(number, self._seed + number, each)
+            for number, each in enumerate(values, first)
         ]
         results = {result.order.number: result for result in self._perform(orders)}
-        if any(result.outcome is not Outcome.PASSED for result in results.values()):
+        if any(result.outcome is not RunOutcome.PASSED for result in results.values()):
             raise _Found
         margins = (results[order.number].margin for order in orders)
         return [math.inf if margin is None else margin for margin in margins]

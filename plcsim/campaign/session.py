@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.campaign.content import RESULTS_SUFFIX, pack
 from plcsim.campaign.definition import load_campaign
-from plcsim.campaign.result import Order
+from plcsim.campaign.result import PlannedRun
 from plcsim.campaign.search import Falsify
 from plcsim.campaign.single_run import fresh_plc, project_of
-from plcsim.campaign.store import About, Store
+from plcsim.campaign.store import About, ResultStore
 from plcsim.core.errors import PlcError
 from plcsim.project.plc_toml import read_project
 
@@ -72,11 +72,11 @@ class Session:
         """Return what its results are of."""
         return About(self.file.name, self.content.name, self.runs, version("plcsim"))
 
-    def order(self, number: int) -> Order:
+    def order(self, number: int) -> PlannedRun:
         """Return a run of the plan."""
-        return Order(number, self.campaign.seed + number, self.planned[number])
+        return PlannedRun(number, self.campaign.seed + number, self.planned[number])
 
-    def perform(self, cluster: Cluster, store: Store, tell: Callable[[Result], None]) -> None:
+    def perform(self, cluster: Cluster, store: ResultStore, tell: Callable[[Result], None]) -> None:
         """Do what is not done yet.
 
         Args:
@@ -88,7 +88,7 @@ class Session:
         if isinstance(sampling, Falsify):
             known = {result.order.number: result for result in store.results()}
 
-            def generation(orders: Sequence[Order]) -> Iterable[Result]:
+            def generation(orders: Sequence[PlannedRun]) -> Iterable[Result]:
                 new = [order for order in orders if order.number not in known]
                 found = list(_kept(cluster.perform(new), store, tell))
                 return [known[o.number] for o in orders if o.number in known] + found
@@ -102,7 +102,7 @@ class Session:
 
 
 def _kept(
-    results: Iterable[Result], store: Store, tell: Callable[[Result], None]
+    results: Iterable[Result], store: ResultStore, tell: Callable[[Result], None]
 ) -> Iterator[Result]:
     """Store results as they come; kill -9 loses those of `FLUSH_PERIOD_S` at most."""
     flushed_s = time.monotonic()

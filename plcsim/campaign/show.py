@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 from rich.table import Table
 
-from plcsim.campaign.result import Outcome
+from plcsim.campaign.result import RunOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
-    from plcsim.campaign.result import Order, Result
+    from plcsim.campaign.result import PlannedRun, Result
     from plcsim.campaign.variables import Scalar
     from plcsim.cli.console import CommandConsole
 
@@ -26,7 +26,7 @@ _STATISTIC_DIGITS = 4
 
 
 @dataclass(frozen=True)
-class Cause:
+class FailureCause:
     """Failures that are alike.
 
     Attributes:
@@ -38,17 +38,17 @@ class Cause:
     failures: Sequence[Result]
 
 
-def causes_of(results: Iterable[Result]) -> list[Cause]:
+def causes_of(results: Iterable[Result]) -> list[FailureCause]:
     """Return what went wrong, the most frequent first."""
     found: dict[str, list[Result]] = {}
     for result in sorted(results, key=lambda result: result.order.number):
-        if result.outcome is not Outcome.PASSED:
+        if result.outcome is not RunOutcome.PASSED:
             found.setdefault(result.cause, []).append(result)
-    causes = [Cause(text, failures) for text, failures in found.items()]
+    causes = [FailureCause(text, failures) for text, failures in found.items()]
     return sorted(causes, key=lambda cause: -len(cause.failures))
 
 
-def repeat_command(file: Path, order: Order, *, planned: bool = True) -> str:
+def repeat_command(file: Path, order: PlannedRun, *, planned: bool = True) -> str:
     """Return the command that repeats a run exactly."""
     words = ["plcsim", "campaign", "repeat", str(file)]
     if planned:
@@ -66,13 +66,13 @@ def text_of(value: Scalar) -> str:
 def print_outcomes(console: CommandConsole, results: Sequence[Result], planned: int) -> None:
     """Print how many runs ended how."""
     counted = Counter(result.outcome for result in results)
-    told = ", ".join(f"{counted[o]} {o}" for o in Outcome if counted[o])
+    told = ", ".join(f"{counted[o]} {o}" for o in RunOutcome if counted[o])
     missing = planned - len(results)
     left = f"; {missing} of {planned} are not done" if missing > 0 else ""
     console.print(f"{len(results)} runs: {told}{left}")
 
 
-def print_causes(console: CommandConsole, causes: Sequence[Cause], total: int) -> None:
+def print_causes(console: CommandConsole, causes: Sequence[FailureCause], total: int) -> None:
     """Print what went wrong, with the values between which it did."""
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column("runs", justify="right")
@@ -89,7 +89,7 @@ def print_causes(console: CommandConsole, causes: Sequence[Cause], total: int) -
 
 
 def print_example(
-    console: CommandConsole, cause: Cause, simplest: Result | None, file: Path
+    console: CommandConsole, cause: FailureCause, simplest: Result | None, file: Path
 ) -> None:
     """Print the smallest failing example of a cause, and the commands that repeat it."""
     first = cause.failures[0]

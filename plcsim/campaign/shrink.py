@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from plcsim.campaign.result import Order
+from plcsim.campaign.result import PlannedRun
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from plcsim.campaign.result import Result
-    from plcsim.campaign.variables import Scalar, Variable
+    from plcsim.campaign.variables import Scalar, VariedVariable
 
 MOST_RUNS: Final = 200
 """Runs that are spent on one failure."""
@@ -18,8 +18,8 @@ MOST_RUNS: Final = 200
 
 def shrink(
     failure: Result,
-    variables: Mapping[str, Variable],
-    perform: Callable[[Sequence[Order]], Mapping[int, Result]],
+    variables: Mapping[str, VariedVariable],
+    perform: Callable[[Sequence[PlannedRun]], Mapping[int, Result]],
 ) -> Result:
     """Return the simplest run that was found to fail for the same cause.
 
@@ -48,12 +48,12 @@ def _first_alike(
     failure: Result,
     name: str,
     candidates: Sequence[Scalar],
-    perform: Callable[[Sequence[Order]], Mapping[int, Result]],
+    perform: Callable[[Sequence[PlannedRun]], Mapping[int, Result]],
 ) -> Result | None:
     """Return the result with the first candidate that fails for the same cause."""
     seed = failure.order.seed
     orders = [
-        Order(number, seed, failure.order.values | {name: value})
+        PlannedRun(number, seed, failure.order.values | {name: value})
         for number, value in enumerate(candidates)
     ]
     results = perform(orders) if orders else {}

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 from plcsim.campaign.errors import CampaignError
 from plcsim.campaign.measures import scalar
-from plcsim.campaign.result import Outcome, Result, shortened
+from plcsim.campaign.result import Result, RunOutcome, shortened
 from plcsim.core.errors import PlcError
 from plcsim.program.fault import describe, location_of
-from plcsim.recorder.testing.recorder import Recorder
+from plcsim.recorder.testing.recorder import RecorderFixture
 from plcsim.testing import Plc
 from plcsim.testing.errors import ExpectationFailed
 from plcsim.testing.target import find_project, project_target
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from plcsim.campaign.definition import Campaign
     from plcsim.campaign.measures import Meter
     from plcsim.campaign.requirements import Observation
-    from plcsim.campaign.result import Order
+    from plcsim.campaign.result import PlannedRun
     from plcsim.campaign.variables import Scalar
     from plcsim.testing.trace import Trace
 
@@ -81,7 +81,7 @@ class SingleRun:
     def __init__(
         self,
         campaign: Campaign,
-        order: Order,
+        order: PlannedRun,
         record: Sequence[str] = (),
         bag: Path | None = None,
     ) -> None:
@@ -101,15 +101,15 @@ class SingleRun:
             with fresh_plc(self._campaign, file, self._order.seed) as plc:
                 self._run(plc)
         except RequirementFailed as err:
-            return self._result(Outcome.FAILED, err, err.requirement)
+            return self._result(RunOutcome.FAILED, err, err.requirement)
         except AssertionError as err:
-            return self._result(Outcome.FAILED, err)
+            return self._result(RunOutcome.FAILED, err)
         except Exception as err:  # whatever the code of the campaign raises
-            return self._result(Outcome.ERROR, err)
-        return self._result(Outcome.PASSED)
+            return self._result(RunOutcome.ERROR, err)
+        return self._result(RunOutcome.PASSED)
 
     def _run(self, plc: Plc) -> None:
-        recorder = None if self._bag is None else Recorder(plc, self._bag.parent)
+        recorder = None if self._bag is None else RecorderFixture(plc, self._bag.parent)
         try:
             plc.boot()
             self._campaign.check_names(plc, self._order.values)
@@ -156,7 +156,7 @@ class SingleRun:
         raise failure
 
     def _result(
-        self, outcome: Outcome, error: BaseException | None = None, requirement: str = ""
+        self, outcome: RunOutcome, error: BaseException | None = None, requirement: str = ""
     ) -> Result:
         return Result(
             self._order,

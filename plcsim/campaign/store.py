@@ -17,7 +17,7 @@ import pyarrow as pa
 from pyarrow import parquet
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Order, Outcome, Result
+from plcsim.campaign.result import PlannedRun, Result, RunOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -54,7 +54,7 @@ class About:
     version: str
 
 
-class Store:
+class ResultStore:
     """A folder of results.
 
     Args:
@@ -220,8 +220,8 @@ def _result(row: dict[str, Any]) -> Result:
         return {name: value for name, value in found.items() if value is not None}
 
     return Result(
-        Order(row["number"], row["seed"], named(VALUE)),
-        Outcome(row["outcome"]),
+        PlannedRun(row["number"], row["seed"], named(VALUE)),
+        RunOutcome(row["outcome"]),
         row["message"],
         row["requirement"],
         row["margin"],

@@ -15,7 +15,7 @@ Scalar = bool | int | float | str
 """A value of a variable, or one that is measured."""
 
 
-class Variable(Protocol):
+class VariedVariable(Protocol):
     """Something that is varied."""
 
     @property

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 from distributed import WorkerPlugin, get_worker
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Outcome, Result
+from plcsim.campaign.result import Result, RunOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from distributed import Worker
 
     from plcsim.campaign.content import Content
-    from plcsim.campaign.result import Order
+    from plcsim.campaign.result import PlannedRun
 
 START_LIMIT_S = 120.0
 """A runner that has not imported the campaign by then is given up."""
@@ -69,21 +69,21 @@ class Runner:
             self.end()
             raise CampaignError(wrong)
 
-    def perform(self, order: Order, limit_s: float) -> Result:
+    def perform(self, order: PlannedRun, limit_s: float) -> Result:
         """Do a run.
 
         Returns:
-            Its result; `Outcome.HUNG` or `Outcome.CRASHED` where the process is no more.
+            Its result; `RunOutcome.HUNG` or `RunOutcome.CRASHED` where the process is no more.
         """
         try:
             self._connection.send(order)
             result: Result = self._receive(limit_s)
         except TimeoutError:
             self.end()
-            return Result(order, Outcome.HUNG, f"took longer than {limit_s:g} s")
+            return Result(order, RunOutcome.HUNG, f"took longer than {limit_s:g} s")
         except (EOFError, OSError):
             self.end()
-            return Result(order, Outcome.CRASHED, f"its process ended: {self._how_it_ended()}")
+            return Result(order, RunOutcome.CRASHED, f"its process ended: {self._how_it_ended()}")
         return result
 
     def _receive(self, limit_s: float) -> Any:
@@ -148,7 +148,7 @@ class Installation(WorkerPlugin):  # type: ignore[misc]  # distributed is hardly
             runner.end()
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    def perform(self, order: Order, limit_s: float) -> Result:
+    def perform(self, order: PlannedRun, limit_s: float) -> Result:
         """Do a run in a process that is free, or in a new one."""
         runner = self._take()
         result = runner.perform(order, limit_s)
@@ -174,7 +174,7 @@ def plugin_name(content_name: str) -> str:
     return f"plcsim-campaign-{content_name}"
 
 
-def perform(content_name: str, batch: Sequence[Order], limit_s: float) -> list[Result]:
+def perform(content_name: str, batch: Sequence[PlannedRun], limit_s: float) -> list[Result]:
     """Do runs, one after another; what a worker of Dask is asked for."""
     installation: Installation = get_worker().plugins[plugin_name(content_name)]
     return [installation.perform(order, limit_s) for order in batch]

@@ -21,7 +21,7 @@ class ArgumentKind(Enum):
     FOLDER = "a folder"
 
 
-class Argument(NamedTuple):
+class CommandArgument(NamedTuple):
     """An option or an argument of a command.
 
     Attributes:
@@ -53,7 +53,7 @@ class Command(NamedTuple):
     path: tuple[str, ...]
     text: str
     parser: argparse.ArgumentParser
-    arguments: tuple[Argument, ...]
+    arguments: tuple[CommandArgument, ...]
     commands: tuple[Command, ...]
 
     def walk(self) -> Iterator[Command]:
@@ -80,11 +80,11 @@ def command_tree(
     return Command(path, text, parser, tuple(arguments), tuple(commands))
 
 
-def _argument(parser: argparse.ArgumentParser, action: argparse.Action) -> Argument:
+def _argument(parser: argparse.ArgumentParser, action: argparse.Action) -> CommandArgument:
     name = str(action.metavar or action.dest)
     choices = tuple(map(str, action.choices or ()))
     text = parser._get_formatter()._expand_help(action) if action.help else ""
-    return Argument(tuple(action.option_strings), text, _kind(action, name), name, choices)
+    return CommandArgument(tuple(action.option_strings), text, _kind(action, name), name, choices)
 
 
 def _kind(action: argparse.Action, name: str) -> ArgumentKind:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import shlex
 from typing import TYPE_CHECKING
 
-from plcsim.cli.command_tree import Argument, ArgumentKind, Command, command_tree
+from plcsim.cli.command_tree import ArgumentKind, Command, CommandArgument, command_tree
 from plcsim.cli.exit_codes import epilog
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def _steps(root: Command) -> str:
     return " | ".join(f'"{" ".join(path[:-1])} {path[-1]}"' for path in paths)
 
 
-def _valued(command: Command) -> Iterator[tuple[str, Argument]]:
+def _valued(command: Command) -> Iterator[tuple[str, CommandArgument]]:
     """Iterate over the options that take a value, as a pattern, with what they are."""
     for argument in command.arguments:
         if argument.flags and argument.kind is not ArgumentKind.NOTHING:
@@ -115,7 +115,7 @@ def bash(root: Command) -> Iterator[str]:
     yield "complete -F _plcsim plcsim"
 
 
-def _bash_value(argument: Argument) -> str:
+def _bash_value(argument: CommandArgument) -> str:
     return f'words="{" ".join(argument.choices)}" files="{_BASH_FILES.get(argument.kind, "")}"'
 
 
@@ -157,7 +157,7 @@ def zsh(root: Command) -> Iterator[str]:
     yield 'if [[ $funcstack[1] == _plcsim ]]; then _plcsim "$@"; else compdef _plcsim plcsim; fi'
 
 
-def _zsh_value(argument: Argument) -> str:
+def _zsh_value(argument: CommandArgument) -> str:
     if argument.kind is ArgumentKind.CHOICE:
         return f"compadd -- {shlex.join(argument.choices)}"
     return _ZSH_FILES.get(argument.kind) or f"_message {shlex.quote(argument.metavar)}"
@@ -211,7 +211,7 @@ def fish(root: Command) -> Iterator[str]:
             yield f"{begin} {_fish_argument(argument)}"
 
 
-def _fish_argument(argument: Argument) -> str:
+def _fish_argument(argument: CommandArgument) -> str:
     names = [f"-l {f[2:]}" if f.startswith("--") else f"-s {f[1:]}" for f in argument.flags]
     if argument.kind is ArgumentKind.CHOICE:
         value = f"-a {shlex.quote(' '.join(argument.choices))}"

@@ -20,14 +20,14 @@ from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration, parse_duration_ns
 from plcsim.doctor.advice import advise
 from plcsim.doctor.host import read_host
-from plcsim.doctor.loops import Order, ScanLoop, floor_loop, measure, probe_rights
+from plcsim.doctor.loops import LoopOrder, ScanLoop, floor_loop, measure, probe_rights
 from plcsim.doctor.verdict import Comparison, Verdict, explain, judge
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from plcsim.doctor.host import Host
-    from plcsim.doctor.loops import Loop, Measurement
+    from plcsim.doctor.loops import MeasuredLoop, Measurement
     from plcsim.host.realtime import Rights
 
 SCHEMA = "plcsim-doctor/1"
@@ -113,13 +113,13 @@ def doctor(options: argparse.Namespace) -> int:
 def _compare(folder: Path, tick_ns: int, cycles: int, rights: Rights) -> list[Comparison]:
     """Measure without rights, then with them where the host gives them."""
     loops = (floor_loop(folder), ScanLoop(folder))
-    orders = [Order(tick_ns, cycles, realtime=False)]
+    orders = [LoopOrder(tick_ns, cycles, realtime=False)]
     if rights.complete:
-        orders.append(Order(tick_ns, cycles, realtime=True))
+        orders.append(LoopOrder(tick_ns, cycles, realtime=True))
     return [Comparison(*(_measure(loop, order) for loop in loops)) for order in orders]
 
 
-def _measure(loop: Loop, order: Order) -> Measurement:
+def _measure(loop: MeasuredLoop, order: LoopOrder) -> Measurement:
     """Measure, telling a terminal what is going on."""
     if sys.stderr.isatty():
         rights = "with" if order.realtime else "without"

@@ -55,7 +55,7 @@ class Range(NamedTuple):
         return f"{self.file} line {lines}"
 
 
-class Difference(NamedTuple):
+class CostDifference(NamedTuple):
     """One compiled program in one test, in two runs.
 
     Attributes:
@@ -93,7 +93,7 @@ def costs_of(tests: Sequence[Mapping[str, Any]]) -> dict[Key, Cost]:
 
 def differences(
     before: Mapping[Key, Cost], after: Mapping[Key, Cost], smallest: float
-) -> list[Difference]:
+) -> list[CostDifference]:
     """Return what changed of what both runs have.
 
     Args:
@@ -106,7 +106,7 @@ def differences(
         a, b = before[key], after[key]
         if (a.total, a.cycles) != (b.total, b.cycles):
             worse = b.total * a.cycles > a.total * b.cycles * (1 + smallest)
-            found.append(Difference(*key, a, b, _ranges(a, b), worse))
+            found.append(CostDifference(*key, a, b, _ranges(a, b), worse))
     return found
 
 

@@ -11,7 +11,7 @@ from plcsim.cli.exit_codes import epilog
 from plcsim.cli.project_argument import add_project_and_tags, project_and_tags
 from plcsim.cli.running import ask, find_running, open_as_guest, open_image
 from plcsim.core.errors import ConfigurationError, TagError
-from plcsim.shared_image import Force, Release, Store, Write
+from plcsim.shared_image import ForceCommand, Release, StoreCommand, Write
 from st_types.errors import ValueRangeError
 from st_types.resolve.value_text import value_from
 from st_types.types.values import decode, encode
@@ -96,7 +96,7 @@ def set_tag(options: argparse.Namespace) -> int:
     run = find_running(project)
     with open_as_guest(run) as reader:
         tag, data = _tag_and_value(reader, words)
-        write = Write((Store(tag.address, data),))
+        write = Write((StoreCommand(tag.address, data),))
         answer = ask(run, reader, write, f"set {tag.path}")
         forced = _forces_at(reader, tag)
         print(f"{tag.path}: {_text(tag, _before(answer.before, data))} -> {_text(tag, data)}")
@@ -107,7 +107,7 @@ def set_tag(options: argparse.Namespace) -> int:
 
 def _before(command: object, data: bytes) -> bytes:
     """Return what was there before, from the answer to a write of one store."""
-    if isinstance(command, Write) and isinstance(command.operations[0], Store):
+    if isinstance(command, Write) and isinstance(command.operations[0], StoreCommand):
         return command.operations[0].data
     return data
 
@@ -130,7 +130,7 @@ def force(options: argparse.Namespace) -> int:
         return _list_forces(run)
     with open_as_guest(run) as reader:
         tag, data = _tag_and_value(reader, words)
-        ask(run, reader, Force(tag.path, data), f"force {tag.path}")
+        ask(run, reader, ForceCommand(tag.path, data), f"force {tag.path}")
         print(f"{tag.path} is forced to {_text(tag, data)}; plcsim release lets it go")
     return 0
 

@@ -27,7 +27,7 @@ from plcsim.core.errors import ConfigurationError
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from plcsim.cli.exact_costs import Cost, Difference
+    from plcsim.cli.exact_costs import Cost, CostDifference
 
 SCHEMA = "plcsim-test-report/1"
 FILE_NAME = "report.json"
@@ -248,7 +248,7 @@ def _table(found: Sequence[ReportComparison]) -> Table:
     return table
 
 
-def _sentence(one: Difference) -> Text:
+def _sentence(one: CostDifference) -> Text:
     """Return what changed of a compiled program: how much a cycle, and where."""
     means = [cost.total / cost.cycles for cost in (one.before, one.after)]
     places = [f"{r}: {_number(r.change / one.after.cycles, '+')}" for r in one.ranges]

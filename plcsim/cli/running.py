@@ -12,7 +12,7 @@ from plcsim.core.errors import PlcError
 from plcsim.core.system import State
 from plcsim.process.run_file import find_runs
 from plcsim.project.project_file import find_project
-from plcsim.shared_image import ImageNotReady, ImageReader, Outcome
+from plcsim.shared_image import CommandOutcome, ImageNotReady, ImageReader
 from plcsim.shared_image.guest import guest
 from plcsim.shared_image.status_page import StatusPage
 
@@ -108,7 +108,7 @@ def ask(run: Run, reader: ImageReader, command: Command, what: str) -> Answer:
             stands = "the scan stands still" if state is State.RUN else f"it is in {state.name}"
             raise PlcError(f"{what}: {stands}, nothing was done")
         time.sleep(POLL_S)
-    if answer.outcome is not Outcome.APPLIED:
+    if answer.outcome is not CommandOutcome.APPLIED:
         raise PlcError(f"{what}: {answer.outcome.text}")
     return answer
 

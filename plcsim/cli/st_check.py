@@ -23,7 +23,7 @@ from plcsim.cli.declaration_scopes import (
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.syntax.tree import ActionUnit
-from st_types.errors import Severity
+from st_types.errors import DiagnosticSeverity
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.resolve.scope import Scope
 
@@ -101,7 +101,7 @@ def _scope_of(folder: Path, files: Sequence[DeclarationFile]) -> NamedScope:
 
 def _errors(scopes: Iterable[NamedScope]) -> Iterator[str]:
     records = (r for each in scopes for f in each.scope.files for r in f.diagnostics.records)
-    told = (record.render() for record in records if record.severity is Severity.ERROR)
+    told = (record.render() for record in records if record.severity is DiagnosticSeverity.ERROR)
     return iter(dict.fromkeys(told))
 
 

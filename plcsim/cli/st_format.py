@@ -14,7 +14,7 @@ from plcsim.program.structured_text.syntax.formatter import (
     has_directives,
 )
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
-from st_types.errors import Severity, SourceError
+from st_types.errors import DiagnosticSeverity, SourceError
 from st_types.syntax.source import Source
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _formatted(path: Path, step: str) -> bytes:
     source = Source.read(path)
     file = parse_structured_text(source)
     if file.diagnostics.error_count:
-        records = [r for r in file.diagnostics.records if r.severity is Severity.ERROR]
+        records = [r for r in file.diagnostics.records if r.severity is DiagnosticSeverity.ERROR]
         raise SourceError("\n".join(record.render() for record in records), records)
     if has_directives(source):
         raise SourceError(f"{path}: error: has lines of the preprocessor: left as it is", [])

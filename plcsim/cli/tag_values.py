@@ -6,7 +6,7 @@ import time
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import PlcError
-from plcsim.shared_image import Sample
+from plcsim.shared_image import SampleCommand
 from plcsim.shared_image.command import MAX_OPERATIONS
 from plcsim.shared_image.layout import GUEST_STREAM_SIZE
 from plcsim.shared_image.samples import MOST, sample_of
@@ -57,7 +57,7 @@ class TagValues:
         self._reader = reader
         self._tags = tags
         self._samples: dict[int, bytes] = {}
-        self._requests: list[Sample] = []
+        self._requests: list[SampleCommand] = []
         missing = [i for i, tag in enumerate(tags) if not reader.directory.holds(tag)]
         if missing:
             self._stream = reader.samples()
@@ -88,7 +88,7 @@ class TagValues:
     def _send(self, spans: list[tuple[int, int]]) -> None:
         if len(self._requests) >= MOST:
             raise PlcError("too many tags are not in the snapshot; name fewer")
-        self._requests.append(Sample(len(self._requests) + 1, 0, PERIOD_NS, spans))
+        self._requests.append(SampleCommand(len(self._requests) + 1, 0, PERIOD_NS, spans))
         self._reader.send(self._requests[-1])
 
     def await_all(self, patience_s: float) -> None:

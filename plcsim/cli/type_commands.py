@@ -12,7 +12,7 @@ from plcsim.cli.type_writing import complain, header, python
 from plcsim.core.errors import PlcError
 from st_types.syntax.collector import collector_paused
 from st_types.syntax.printer import print_bytes, print_file
-from st_types.writers.layout_table import Row, layout_rows
+from st_types.writers.layout_table import LayoutRow, layout_rows
 
 if TYPE_CHECKING:
     import argparse
@@ -72,7 +72,7 @@ def layout(options: argparse.Namespace) -> int:
     return 0
 
 
-def _print_rows(rows: Sequence[Row]) -> None:
+def _print_rows(rows: Sequence[LayoutRow]) -> None:
     width = max(len(text) for text in ("member", *(row.path for row in rows)))
     if rows:
         print(f"{'offset':>8}  {'bytes':>8}  {'member':{width}}  type")

@@ -17,7 +17,7 @@ from plcsim.cli.executed_blocks import executed_blocks
 from plcsim.core.errors import PlcError
 from st_types.writers.c_header import GLOBAL, LOCAL, Header, c_header
 from st_types.writers.plan import PlannedFile, left_out, plan_files
-from st_types.writers.python_source import Module, python_source
+from st_types.writers.python_source import PythonModule, python_source
 
 if TYPE_CHECKING:
     import argparse
@@ -47,10 +47,10 @@ def python(options: argparse.Namespace) -> int:
     files = _planned(found, options)
     executed = executed_blocks([file.scope for file in files])
     texts = {"__init__.py": '"""Written by plcsim types python."""\n'} if options.output else {}
-    made: dict[PlannedFile, Module] = {}
+    made: dict[PlannedFile, PythonModule] = {}
     for file in files:
         included = [made[each] for each in file.includes]
-        made[file] = Module(file.name, file.scope, included, executed)
+        made[file] = PythonModule(file.name, file.scope, included, executed)
         title = f"{file.scope.name}: written by plcsim types python"
         texts[f"{file.name}.py"] = python_source(made[file], title)
     return _finish(found, texts, options.output)

@@ -37,7 +37,7 @@ class Line(NamedTuple):
     is_inverse: bool = False
 
 
-class Copy(NamedTuple):
+class VariableCopy(NamedTuple):
     """A mapping of one variable to another, its ends found."""
 
     source: int
@@ -62,7 +62,7 @@ class IoImage:
         controller: Controller,
         inputs: Mapping[int, Sequence[Line]],
         outputs: Mapping[int, Sequence[Line]],
-        copies: Iterable[Copy] = (),
+        copies: Iterable[VariableCopy] = (),
     ) -> None:
         memory = controller.memory
         self._inputs = {number: _Inputs(memory, lines) for number, lines in inputs.items()}
@@ -109,7 +109,7 @@ def _by_class(links: Iterable[tuple[int, _Link]]) -> dict[int, list[_Link]]:
 class _Link:
     """A variable that goes to another one."""
 
-    def __init__(self, memory: Memory, copy: Copy) -> None:
+    def __init__(self, memory: Memory, copy: VariableCopy) -> None:
         self.copy = copy
         self.source = memory.view(copy.source, copy.size)
         self.target = memory.view(copy.target, copy.size)

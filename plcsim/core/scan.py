@@ -36,7 +36,7 @@ class Phase(Enum):
     PUBLISH = "PUBLISH"
 
 
-class IoImage(Protocol):
+class ScanImage(Protocol):
     """What moves values in and out around a cycle (`plcsim.core.image`)."""
 
     def latch(self, task_class: TaskClass) -> None:
@@ -88,7 +88,7 @@ class Scan:
         classes: Sequence[TaskClass],
         clock: Clock,
         context: Context,
-        image: IoImage,
+        image: ScanImage,
         supervisor: ScanListener,
         idle: Callable[[int], None],
     ) -> None:

@@ -52,7 +52,7 @@ class Empty(Program):
 """
 
 
-class Order(NamedTuple):
+class LoopOrder(NamedTuple):
     """What a loop is to do.
 
     Attributes:
@@ -90,7 +90,7 @@ class Measurement(NamedTuple):
     """
 
     loop: str
-    order: Order
+    order: LoopOrder
     missed: int
     lateness: Summary
     stolen_percent: float
@@ -101,14 +101,14 @@ class Measurement(NamedTuple):
         return {**self._asdict(), **inner}
 
 
-class Loop(Protocol):
+class MeasuredLoop(Protocol):
     """A loop that can be measured."""
 
     @property
     def name(self) -> str:
         """What it is called in tables."""
 
-    def run(self, order: Order) -> Figures:
+    def run(self, order: LoopOrder) -> Figures:
         """Run it in a fresh process.
 
         Raises:
@@ -116,7 +116,7 @@ class Loop(Protocol):
         """
 
 
-def measure(loop: Loop, order: Order) -> Measurement:
+def measure(loop: MeasuredLoop, order: LoopOrder) -> Measurement:
     """Run a loop and note the time stolen meanwhile."""
     before = read_cpu_ticks()
     figures = loop.run(order)
@@ -136,7 +136,7 @@ class CLoop:
     def __init__(self, binary: Path) -> None:
         self._binary = binary
 
-    def run(self, order: Order) -> Figures:
+    def run(self, order: LoopOrder) -> Figures:
         """Run it."""
         return _bare_figures(_bare_loop(self.name, [str(self._binary)], order))
 
@@ -146,7 +146,7 @@ class PythonLoop:
 
     name = "Python"
 
-    def run(self, order: Order) -> Figures:
+    def run(self, order: LoopOrder) -> Figures:
         """Run it."""
         return _bare_figures(_bare_loop(self.name, _module("plcsim.doctor.python_loop"), order))
 
@@ -163,7 +163,7 @@ class ScanLoop:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
-    def run(self, order: Order) -> Figures:
+    def run(self, order: LoopOrder) -> Figures:
         """Run it."""
         project = write_project(self._folder / "empty", order)
         report = self._folder / "report.json"
@@ -174,7 +174,7 @@ class ScanLoop:
         return Figures(result["missed_grid_points"], summary_of(lateness_ns))
 
 
-def write_project(folder: Path, order: Order) -> Path:
+def write_project(folder: Path, order: LoopOrder) -> Path:
     """Write a project with one empty program, or write it anew; return its folder."""
     program = folder / "empty" / "main.py"
     program.parent.mkdir(parents=True, exist_ok=True)
@@ -203,7 +203,7 @@ def compile_floor(folder: Path, compilers: Sequence[str] = ("cc", "gcc", "clang"
     return None
 
 
-def floor_loop(folder: Path) -> Loop:
+def floor_loop(folder: Path) -> MeasuredLoop:
     """Return the C loop, or the Python loop where there is no C compiler."""
     binary = compile_floor(folder)
     return PythonLoop() if binary is None else CLoop(binary)
@@ -211,7 +211,7 @@ def floor_loop(folder: Path) -> Loop:
 
 def probe_rights() -> realtime.Rights:
     """Return the real-time rights that this host gives to a fresh process."""
-    order = Order(cycle_ns=1, cycles=0, realtime=True)
+    order = LoopOrder(cycle_ns=1, cycles=0, realtime=True)
     rights = _bare_loop("rights", _module("plcsim.doctor.python_loop"), order)["rights"]
     return realtime.Rights(tuple(rights["granted"]), tuple(rights["refused"]))
 
@@ -226,7 +226,7 @@ def _module(name: str) -> list[str]:
     return [sys.executable, "-P", "-m", name]
 
 
-def _bare_loop(name: str, command: list[str], order: Order) -> dict[str, Any]:
+def _bare_loop(name: str, command: list[str], order: LoopOrder) -> dict[str, Any]:
     figures: dict[str, Any] = json.loads(_output(name, [*command, *order.arguments()], order))
     return figures
 
@@ -238,7 +238,7 @@ def _bare_figures(figures: dict[str, Any]) -> Figures:
     return Figures(figures["missed"], histogram.summary())
 
 
-def _output(name: str, command: list[str], order: Order) -> str:
+def _output(name: str, command: list[str], order: LoopOrder) -> str:
     """Run a command and return what it prints."""
     limit_s = 30 + 5 * order.cycles * order.cycle_ns / 1e9
     try:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import BodyLanguage, Executable
     from plcsim.library.library import Library
     from plcsim.settings import Table
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.index import NameSpace
 
 SETTINGS: Final = "settings"
@@ -157,7 +157,7 @@ class Catalogue:
         return result
 
 
-def _zero(function: Function | None) -> object:
+def _zero(function: DeclaredFunction | None) -> object:
     """Return what a function returns that does nothing; None for a block, or for a STRUCT."""
     if function is None or function.result is None:
         return None

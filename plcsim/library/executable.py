@@ -39,7 +39,7 @@ class Executable(Protocol):
 
 
 @runtime_checkable
-class Compiled(Executable, Protocol):
+class CompiledExecutable(Executable, Protocol):
     """A body that was compiled: other compiled code calls it directly, not by way of Python."""
 
     def extern(self, context: Context) -> Extern:

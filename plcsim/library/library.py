@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
-from st_types.errors import Severity, SourceError
+from st_types.errors import DiagnosticSeverity, SourceError
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
@@ -208,7 +208,7 @@ def check_scope(scope: Scope) -> list[str]:
     """
     scope.check()
     records = [record for file in scope.files for record in file.diagnostics.records]
-    errors = [record.render() for record in records if record.severity is Severity.ERROR]
+    errors = [record.render() for record in records if record.severity is DiagnosticSeverity.ERROR]
     if errors:
         raise ConfigurationError(*errors)
     return [record.render() for record in records]

@@ -5,19 +5,19 @@ The only package that knows wasmtime. A compiler writes a module with `plcsim.ma
 """
 
 from plcsim.machine.cache import CodeCache
-from plcsim.machine.engine import Code, compile_wasm
+from plcsim.machine.engine import MachineCode, compile_wasm
 from plcsim.machine.errors import FaultKind, Frame, MachineError, MachineFault, frames_of
 from plcsim.machine.machine import Extern, Instance, Machine
 from plcsim.machine.store import trace_inside
 
 __all__ = [
-    "Code",
     "CodeCache",
     "Extern",
     "FaultKind",
     "Frame",
     "Instance",
     "Machine",
+    "MachineCode",
     "MachineError",
     "MachineFault",
     "compile_wasm",

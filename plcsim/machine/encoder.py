@@ -108,7 +108,7 @@ class Signature(NamedTuple):
     results: bytes = b""
 
 
-class Module(NamedTuple):
+class EncodedModule(NamedTuple):
     """An encoded module.
 
     Attributes:
@@ -257,7 +257,7 @@ class ModuleWriter:
         """Append a custom section."""
         self._custom.append(_section(0, name(title) + content))
 
-    def encode(self) -> Module:
+    def encode(self) -> EncodedModule:
         """Return the binary.
 
         Raises:
@@ -282,7 +282,7 @@ class ModuleWriter:
         after = [self._names(), *self._custom]
         base = len(before) + len(head)
         wasm = b"".join([before, head, code, *after])
-        return Module(wasm, [base + start for start in starts])
+        return EncodedModule(wasm, [base + start for start in starts])
 
     def _code(self) -> tuple[bytes, list[int]]:
         """Return the content of the code section, and where in it each body's code begins."""

@@ -56,7 +56,7 @@ class Type(NamedTuple):
     results: str = ""
 
 
-class Code:
+class MachineCode:
     """A compiled module.
 
     Attributes:
@@ -103,9 +103,9 @@ class Engine:
         api.wasmtime_config_host_memory_creator_set(config, byref(_CREATOR))
         self.handle: int = api.wasm_engine_new_with_config(config)
         self._settings = f"{library_version()} {settings}"
-        self._codes: OrderedDict[str, Code] = OrderedDict()
+        self._codes: OrderedDict[str, MachineCode] = OrderedDict()
 
-    def compile(self, identity: bytes, make: Callable[[], bytes], cache: CodeCache) -> Code:
+    def compile(self, identity: bytes, make: Callable[[], bytes], cache: CodeCache) -> MachineCode:
         """Return a module as machine code, compiled now or before.
 
         Args:
@@ -127,7 +127,7 @@ class Engine:
             self._codes.popitem(last=False)
         return code
 
-    def _load(self, key: str, cache: CodeCache) -> Code | None:
+    def _load(self, key: str, cache: CodeCache) -> MachineCode | None:
         data = cache.load(key)
         if data is None:
             return None
@@ -136,14 +136,14 @@ class Engine:
         if error:  # of another version of wasmtime, or for another processor
             api.wasmtime_error_delete(error)
             return None
-        return Code(module.value or 0, self)
+        return MachineCode(module.value or 0, self)
 
-    def _compile(self, wasm: bytes, key: str, cache: CodeCache) -> Code:
+    def _compile(self, wasm: bytes, key: str, cache: CodeCache) -> MachineCode:
         _refuse_data(wasm)
         module, api = c_void_p(), library()
         error = api.wasmtime_module_new(self.handle, wasm, len(wasm), byref(module))
         raise_error(error, "a module cannot be compiled")
-        code = Code(module.value or 0, self)
+        code = MachineCode(module.value or 0, self)
         data = ByteVec()
         raise_error(api.wasmtime_module_serialize(code.handle, byref(data)), "serialize")
         cache.store(key, ctypes.string_at(data.data, data.size))
@@ -172,7 +172,7 @@ def default_cache() -> CodeCache:
     return CodeCache(default_folder())
 
 
-def compile_wasm(wasm: bytes, *, fuel: bool = False, cache: CodeCache | None = None) -> Code:
+def compile_wasm(wasm: bytes, *, fuel: bool = False, cache: CodeCache | None = None) -> MachineCode:
     """Return a module as machine code, for any machine with the same settings in this process.
 
     The parent of the scan process may call this, so that the scan process finds it in the cache.

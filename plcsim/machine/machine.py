@@ -20,7 +20,7 @@ from plcsim.machine.api import (
 )
 from plcsim.machine.calls import WASM_CODES, host_callback, prepare
 from plcsim.machine.encoder import ModuleWriter, sleb
-from plcsim.machine.engine import Code, Type, default_cache, engine_of, offered
+from plcsim.machine.engine import MachineCode, Type, default_cache, engine_of, offered
 from plcsim.machine.errors import MachineError
 from plcsim.machine.opcodes import I32, I32_CONST
 from plcsim.machine.signals import keep_handlers
@@ -59,7 +59,7 @@ class Extern:
 class Instance:
     """A module, linked and ready to run on the machine's memory."""
 
-    def __init__(self, store: Store, code: Code, handle: InstanceHandle) -> None:
+    def __init__(self, store: Store, code: MachineCode, handle: InstanceHandle) -> None:
         self._store = store
         self._code = code
         self._handle = handle
@@ -189,7 +189,7 @@ class Machine:
         self._shared.clear()
         self._store.close()
 
-    def compile(self, wasm: bytes) -> Code:
+    def compile(self, wasm: bytes) -> MachineCode:
         """Return a module as machine code.
 
         Raises:
@@ -197,7 +197,7 @@ class Machine:
         """
         return self.compile_made(wasm, lambda: wasm)
 
-    def compile_made(self, identity: bytes, make: Callable[[], bytes]) -> Code:
+    def compile_made(self, identity: bytes, make: Callable[[], bytes]) -> MachineCode:
         """Return a module as machine code that need not be made where it was compiled before.
 
         Args:
@@ -209,7 +209,9 @@ class Machine:
         """
         return self._engine.compile(identity, make, self._cache)
 
-    def instantiate(self, code: Code, imports: Mapping[tuple[str, str], Extern | int]) -> Instance:
+    def instantiate(
+        self, code: MachineCode, imports: Mapping[tuple[str, str], Extern | int]
+    ) -> Instance:
         """Link a module, fill its part of memory and table, and run its start function.
 
         Args:

@@ -39,7 +39,7 @@ from plcsim.machine.shared_module import ADDRESSES, FUNCTION_INDICES, MEMORY_BAS
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from plcsim.machine.reader import Import, Section
+    from plcsim.machine.reader import ModuleImport, ModuleSection
     from plcsim.machine.shared_module import SharedModule
 
 _MODULE_NAME, _FUNCTION_NAMES = 0, 1  # subsections of names (appendix 7.4.1)
@@ -66,7 +66,7 @@ class Placement(NamedTuple):
     addresses: Mapping[str, int]
     pointers: Mapping[str, int]
 
-    def value_of(self, wanted: Import) -> int | None:
+    def value_of(self, wanted: ModuleImport) -> int | None:
         """Return what an imported variable stands for, None where it stays an import.
 
         Raises:
@@ -167,7 +167,7 @@ class _Placer:
                 out += self._other(section)
         return PlacedModule(bytes(out), anchors)
 
-    def _other(self, section: Section) -> bytes:
+    def _other(self, section: ModuleSection) -> bytes:
         """Return a section without code or data, changed where it speaks of variables."""
         wasm, number = self._module.wasm, section.number
         if number == CUSTOM:
@@ -186,7 +186,7 @@ class _Placer:
             content = wasm[section.start : section.end]
         return bytes([number]) + uleb(len(content)) + content
 
-    def _names(self, section: Section) -> bytes:
+    def _names(self, section: ModuleSection) -> bytes:
         """Return the names of the module and its functions, without those of variables."""
         title = text(self._name)
         content = text("name") + bytes([_MODULE_NAME]) + uleb(len(title)) + title
@@ -206,7 +206,7 @@ class _Placer:
                 kept.append(self._module.wasm[entry.start : entry.end])
         return uleb(len(kept)) + b"".join(kept)
 
-    def _globals(self, section: Section) -> bytes:
+    def _globals(self, section: ModuleSection) -> bytes:
         reader = Reader(self._module.wasm, section.start, section.end)
         count = reader.uleb()
         out = bytearray(uleb(count))
@@ -218,7 +218,7 @@ class _Placer:
             out += bytes([kind, mutable]) + _i32_const(value) + op.END
         return bytes(out)
 
-    def _exports(self, section: Section) -> bytes:
+    def _exports(self, section: ModuleSection) -> bytes:
         wasm = self._module.wasm
         kept = [
             text(name) + bytes([kind]) + uleb(index)
@@ -227,7 +227,7 @@ class _Placer:
         ]
         return uleb(len(kept)) + b"".join(kept)
 
-    def _elements(self, section: Section) -> bytes:
+    def _elements(self, section: ModuleSection) -> bytes:
         wasm = self._module.wasm
         reader = Reader(wasm, section.start, section.end)
         count = reader.uleb()
@@ -242,7 +242,7 @@ class _Placer:
             out += wasm[start : reader.offset]
         return bytes(out)
 
-    def _code(self, section: Section) -> tuple[bytes, list[tuple[int, int]]]:
+    def _code(self, section: ModuleSection) -> tuple[bytes, list[tuple[int, int]]]:
         """Return the content of the code section, and anchors relative to it."""
         reader = Reader(self._module.wasm, section.start, section.end)
         count = reader.uleb()

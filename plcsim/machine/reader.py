@@ -75,7 +75,7 @@ class Reader:
         return self.bytes(self.uleb()).decode("utf-8", "replace")
 
 
-class Section(NamedTuple):
+class ModuleSection(NamedTuple):
     """A section of a module.
 
     Attributes:
@@ -91,7 +91,7 @@ class Section(NamedTuple):
     end: int
 
 
-def sections(wasm: bytes) -> Iterator[Section]:
+def sections(wasm: bytes) -> Iterator[ModuleSection]:
     """Yield the sections of a module.
 
     Raises:
@@ -106,10 +106,10 @@ def sections(wasm: bytes) -> Iterator[Section]:
         reader.bytes(size)
         inner = Reader(wasm, start, start + size)
         name = inner.name() if number == CUSTOM else ""
-        yield Section(number, name, inner.offset, start + size)
+        yield ModuleSection(number, name, inner.offset, start + size)
 
 
-class Import(NamedTuple):
+class ModuleImport(NamedTuple):
     """An import of a module.
 
     Attributes:
@@ -135,7 +135,7 @@ FUNCTION, TABLE, MEMORY, GLOBAL = range(4)
 """Kinds of imports and exports in the binary format."""
 
 
-def imports(wasm: bytes, section: Section) -> Iterator[Import]:
+def imports(wasm: bytes, section: ModuleSection) -> Iterator[ModuleImport]:
     """Yield the entries of an import section."""
     reader = Reader(wasm, section.start, section.end)
     for _ in range(reader.uleb()):
@@ -150,7 +150,7 @@ def imports(wasm: bytes, section: Section) -> Iterator[Import]:
             _skip_limits(reader, kind)
         else:
             raise MachineError(f"import {module}.{name} is of the unknown kind {kind}")
-        yield Import(module, name, kind, type_, mutable, start, reader.offset)
+        yield ModuleImport(module, name, kind, type_, mutable, start, reader.offset)
 
 
 def _skip_limits(reader: Reader, kind: int) -> None:
@@ -162,7 +162,7 @@ def _skip_limits(reader: Reader, kind: int) -> None:
         reader.uleb()
 
 
-def exports(wasm: bytes, section: Section) -> Iterator[tuple[str, int, int]]:
+def exports(wasm: bytes, section: ModuleSection) -> Iterator[tuple[str, int, int]]:
     """Yield name, kind and index of each export."""
     reader = Reader(wasm, section.start, section.end)
     for _ in range(reader.uleb()):

@@ -21,9 +21,9 @@ from plcsim.machine.reader import (
     GLOBAL,
     GLOBALS,
     IMPORTS,
-    Import,
+    ModuleImport,
+    ModuleSection,
     Reader,
-    Section,
     constant,
     exports,
     imports,
@@ -61,10 +61,10 @@ class SharedModule:
     memory_size: int = 0
     memory_alignment: int = 1
     table_size: int = 0
-    imports: list[Import] = field(default_factory=list)
+    imports: list[ModuleImport] = field(default_factory=list)
     functions: list[str] = field(default_factory=list)
     variables: dict[str, int] = field(default_factory=dict)
-    sections: list[Section] = field(default_factory=list)
+    sections: list[ModuleSection] = field(default_factory=list)
 
     @property
     def addresses(self) -> list[str]:
@@ -123,7 +123,7 @@ def read_shared(wasm: bytes) -> SharedModule:
     return module
 
 
-def _read_memory_info(module: SharedModule, section: Section) -> None:
+def _read_memory_info(module: SharedModule, section: ModuleSection) -> None:
     reader = Reader(module.wasm, section.start, section.end)
     while reader.more:
         kind, size = reader.byte(), reader.uleb()
@@ -137,7 +137,7 @@ def _read_memory_info(module: SharedModule, section: Section) -> None:
         reader.offset = end
 
 
-def _own_variables(module: SharedModule, section: Section) -> Iterator[int]:
+def _own_variables(module: SharedModule, section: ModuleSection) -> Iterator[int]:
     """Yield the initial values of the module's own global variables, relative to its bases."""
     zero = dict.fromkeys(range(len(module.imports)), 0)
     reader = Reader(module.wasm, section.start, section.end)

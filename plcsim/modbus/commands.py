@@ -14,7 +14,7 @@ from plcsim.cli.output_file import check_output, write_output
 from plcsim.cli.project_argument import add_project
 from plcsim.core.errors import ConfigurationError
 from plcsim.modbus.export import FORMATS
-from plcsim.modbus.export.entry import Export, ExportEntry
+from plcsim.modbus.export.entry import ExportEntry, MapExport
 from plcsim.modbus.map.automatic import LOCK_FILE, write_lock
 from plcsim.modbus.map.load import TagMap, load_map
 from plcsim.project.assembly import load, still_controller
@@ -138,7 +138,7 @@ def export(options: argparse.Namespace) -> int:
     """Print the map, or write it to a file."""
     check_output("--output", options.output)
     name, settings, tag_map = _load(options.project)
-    text = FORMATS[options.format](Export(name, settings.host, settings.port, _entries(tag_map)))
+    text = FORMATS[options.format](MapExport(name, settings.host, settings.port, _entries(tag_map)))
     if options.output is None:
         sys.stdout.write(text)
     else:

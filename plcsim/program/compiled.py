@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Fault
-from plcsim.library.executable import Compiled
+from plcsim.library.executable import CompiledExecutable
 from plcsim.machine import frames_of, trace_inside
 from plcsim.program.fault import describe, frames
 from plcsim.program.structured_text.calling import extern_of, interface_of
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
     from plcsim.machine import Extern, Frame
     from plcsim.program.site import Site
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.types.derived import StructType
 
-    Locate = Callable[[Frame], "Call | None"]
+    Locate = Callable[[Frame], "CallSite | None"]
     """Returns where a frame of a module is in its sources, None for what no user has written."""
 
 
-class Call(NamedTuple):
+class CallSite(NamedTuple):
     """Where in the sources a function was when it called another one, or had a fault.
 
     Attributes:
@@ -70,15 +70,15 @@ class CompiledPrograms:
         if data_type not in self._externs:
             site = self._site
             executable = site.catalogue.executable(data_type)
-            if isinstance(executable, Compiled):
+            if isinstance(executable, CompiledExecutable):
                 found = executable.extern(site.context)
             else:
                 found = site.machine.host_function(site.block(data_type), "I")
             self._externs[data_type] = found
         return self._externs[data_type]
 
-    def function(self, function: Function) -> Extern:
-        """Return a FUNCTION; it takes its parameters as `plcsim.library.executable.Compiled` says.
+    def function(self, function: DeclaredFunction) -> Extern:
+        """Return a FUNCTION, called as any `plcsim.library.executable.CompiledExecutable`.
 
         Raises:
             ConfigurationError: nothing executes it.
@@ -88,13 +88,13 @@ class CompiledPrograms:
             self._externs[key] = self._made(function)
         return self._externs[key]
 
-    def _made(self, function: Function) -> Extern:
+    def _made(self, function: DeclaredFunction) -> Extern:
         site = self._site
         found = site.catalogue.find_function(function.name)
         executable = None if found is None else found[1]
         if executable is None:
             raise ConfigurationError(no_function_body(function.name))
-        if isinstance(executable, Compiled):
+        if isinstance(executable, CompiledExecutable):
             return executable.extern(site.context)
         call = executable.bind(site.context)
         return extern_of(site.machine, site.memory, interface_of(function), call)
@@ -129,7 +129,7 @@ def fault_of(error: BaseException, locator_of: Callable[[str], Locate | None]) -
     return Fault(calls[-1][0] if calls else "", reason or describe(error), texts)
 
 
-def _calls(error: BaseException, locator_of: Callable[[str], Locate | None]) -> Iterator[Call]:
+def _calls(error: BaseException, locator_of: Callable[[str], Locate | None]) -> Iterator[CallSite]:
     """Yield where in the sources the calls were that an exception has passed, outermost first."""
     for frame in reversed(frames_of(error)):
         locate = locator_of(frame.module)

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.library.executable import BodyLanguage
-    from plcsim.program.layout import Layout, LibraryPlace, MadeVariable, Place
-    from st_types.resolve.declared import Variable
+    from plcsim.program.layout import DeclarationPlace, LibraryPlace, MadeVariable, SourceLayout
+    from st_types.resolve.declared import DeclaredVariable
     from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
@@ -54,12 +54,12 @@ class Declarations:
     """
 
     def __init__(
-        self, layout: Layout, package: str, languages: Sequence[BodyLanguage] = ()
+        self, layout: SourceLayout, package: str, languages: Sequence[BodyLanguage] = ()
     ) -> None:
         self.layout = layout
         self.folder = layout.folder
         self.package = package
-        self._scopes: dict[tuple[Place, ...], Scope] = {}
+        self._scopes: dict[tuple[DeclarationPlace, ...], Scope] = {}
         around: list[Library] = []
         scopes = Scopes(around)
         own: list[Library] = []
@@ -140,7 +140,7 @@ class Declarations:
 
     def _scope_of(
         self,
-        places: tuple[Place, ...],
+        places: tuple[DeclarationPlace, ...],
         more: Iterable[DeclarationFile] = (),
         dialect: Dialect = AUTOMATION_STUDIO,
     ) -> Scope:
@@ -184,19 +184,19 @@ class Declarations:
             for depth in range(1, len(places) + 1):
                 yield self._scope_of(places[:depth])
 
-    def global_variables(self) -> list[Variable]:
+    def global_variables(self) -> list[DeclaredVariable]:
         """Return the variables and constants that several programs see.
 
         They are those of the project, of the places between it and its programs, and of its own
         libraries; constants of libraries need no memory. Of two with one name, which `check`
         tells, it is the first.
         """
-        found: dict[str, Variable] = {}
+        found: dict[str, DeclaredVariable] = {}
         for variable in self._global_variables():
             found.setdefault(variable.name, variable)
         return [*found.values()]
 
-    def _global_variables(self) -> list[Variable]:
+    def _global_variables(self) -> list[DeclaredVariable]:
         scopes = dict.fromkeys(self._common_scopes())
         found = [variable for scope in scopes for variable in scope.variables]
         for library in self.own_libraries:
@@ -204,10 +204,10 @@ class Declarations:
         return found
 
 
-def _check_unique(variables: Sequence[Variable]) -> None:
+def _check_unique(variables: Sequence[DeclaredVariable]) -> None:
     """Raise a ConfigurationError where two files declare one global variable."""
     findings = Findings()
-    seen: dict[str, Variable] = {}
+    seen: dict[str, DeclaredVariable] = {}
     for variable in variables:
         other = seen.setdefault(variable.name, variable)
         if other is not variable and other.file is not variable.file:

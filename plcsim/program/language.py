@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from plcsim.core.task import Task
     from plcsim.program.declarations import Declarations
     from plcsim.program.site import Site
-    from plcsim.program.variables import Variables
+    from plcsim.program.variables import DeclaredVariables
     from st_types.resolve.dialect import Dialect
     from st_types.resolve.scope import Scope
     from st_types.syntax.tree import DeclarationFile
@@ -39,7 +39,7 @@ class ProgramSource(NamedTuple):
     files: Sequence[Path]
     declarations: Declarations
     scope: Scope
-    shared: Variables
+    shared: DeclaredVariables
 
 
 class ProgramCode(Protocol):

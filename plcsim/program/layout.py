@@ -35,7 +35,7 @@ _NOT_LOOKED_INTO: Final = frozenset(["tests", "Temp", "Binaries"])
 """Folders of a project that hold no libraries; neither do those that begin with "." or "_"."""
 
 
-class Place(NamedTuple):
+class DeclarationPlace(NamedTuple):
     """A place that declares names for the programs inside it.
 
     Attributes:
@@ -57,8 +57,8 @@ class ProgramPlace(NamedTuple):
     """
 
     folder: Path
-    own: Place
-    around: tuple[Place, ...] = ()
+    own: DeclarationPlace
+    around: tuple[DeclarationPlace, ...] = ()
 
 
 class LibraryPlace(NamedTuple):
@@ -94,7 +94,7 @@ class MadeVariable(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Layout:
+class SourceLayout:
     """Where the sources of a project lie.
 
     Attributes:
@@ -110,7 +110,7 @@ class Layout:
     """
 
     folder: Path
-    common: Place
+    common: DeclarationPlace
     programs: Mapping[str, ProgramPlace] = field(default_factory=dict)
     libraries: tuple[LibraryPlace, ...] = ()
     made_variables: tuple[MadeVariable, ...] = ()
@@ -121,7 +121,7 @@ class Layout:
 
 def folder_layout(
     folder: Path, sources: Sequence[str] = (), libraries: Sequence[Path] = ()
-) -> Layout:
+) -> SourceLayout:
     """Return the layout of a project of folders.
 
     Args:
@@ -137,7 +137,7 @@ def folder_layout(
     inside = library_folders(folder, [place.folder for place in programs.values()])
     found = [_library(path, ".".join(path.relative_to(folder).parts)) for path in inside]
     others = [each for each in outside_libraries(libraries) if each.folder not in inside]
-    return Layout(folder, _place(folder), programs, (*found, *others))
+    return SourceLayout(folder, _place(folder), programs, (*found, *others))
 
 
 def program_places(folder: Path, sources: Iterable[str]) -> dict[str, ProgramPlace]:
@@ -150,8 +150,8 @@ def outside_libraries(folders: Iterable[Path]) -> tuple[LibraryPlace, ...]:
     return tuple(_library(path, path.name) for path in dict.fromkeys(p.resolve() for p in folders))
 
 
-def _place(folder: Path) -> Place:
-    return Place(folder.name, tuple(files_in(folder)) if _is_folder(folder) else ())
+def _place(folder: Path) -> DeclarationPlace:
+    return DeclarationPlace(folder.name, tuple(files_in(folder)) if _is_folder(folder) else ())
 
 
 def _is_folder(path: Path) -> bool:
@@ -162,7 +162,9 @@ def _program(folder: Path, source: str) -> ProgramPlace:
     place = folder / source
     around = [parent for parent in reversed(place.parents) if folder in parent.parents]
     files = sources_in(place) if _is_folder(place) else []
-    return ProgramPlace(place, Place(place.name, tuple(files)), tuple(map(_place, around)))
+    return ProgramPlace(
+        place, DeclarationPlace(place.name, tuple(files)), tuple(map(_place, around))
+    )
 
 
 def _library(folder: Path, package: str) -> LibraryPlace:

@@ -22,7 +22,7 @@ from plcsim.program.python.language import PYTHON
 from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
 from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
-from plcsim.program.variables import Variables, variables_of
+from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from plcsim.library.executable import BodyLanguage
     from plcsim.library.library import Library
     from plcsim.program.language import Language, ProgramCode
-    from plcsim.program.layout import Layout
-    from st_types.resolve.declared import Function, FunctionBlock
+    from plcsim.program.layout import SourceLayout
+    from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
     from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
 
@@ -103,7 +103,7 @@ class ProgramLoader:
         ConfigurationError: two libraries have one name.
     """
 
-    def __init__(self, layout: Layout, languages: Sequence[Language] = LANGUAGES) -> None:
+    def __init__(self, layout: SourceLayout, languages: Sequence[Language] = LANGUAGES) -> None:
         self._layout = layout
         self._languages = languages
         self.warnings: list[str] = []
@@ -183,7 +183,7 @@ class ProgramLoader:
             ConfigurationError: some cannot be loaded.
         """
         bodies = self.declarations.catalogue.bodies(library)
-        declared: list[FunctionBlock | Function] = [*library.scope.function_blocks]
+        declared: list[DeclaredFunctionBlock | DeclaredFunction] = [*library.scope.function_blocks]
         declared += library.scope.functions
         for each in declared:
             if each.name not in bodies:
@@ -195,7 +195,7 @@ class ProgramLoader:
         unload(self.package)
 
     @cached_property
-    def shared(self) -> Variables:
+    def shared(self) -> DeclaredVariables:
         """The global variables: of the declarations, or of the class in ``globals.py``.
 
         Raises:
@@ -210,7 +210,7 @@ class ProgramLoader:
                     f"{declared[0].file.location(declared[0].node)}: global variables are declared "
                     f"here and in {self._layout.folder / 'globals.py'}; let one of them do it"
                 )
-            shared = Variables(view, shared.constants)
+            shared = DeclaredVariables(view, shared.constants)
         with suppress(ConfigurationError):  # of a library, which `_check_bodies` tells
             give_views(shared.variables, self.declarations.catalogue)
         return shared

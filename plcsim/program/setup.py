@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from plcsim.library.catalogue import Catalogue
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
-    from plcsim.program.variables import Variables
+    from plcsim.program.variables import DeclaredVariables
     from st_types.types.derived import StructType
 
 
@@ -69,7 +69,7 @@ class Setup:
     memory_size: int = DEFAULT_SIZE
     exception_program: ProgramSetup | None = None
     settings: Sequence[object] = ()
-    shared: Variables | None = None
+    shared: DeclaredVariables | None = None
     catalogue: Catalogue | None = None
     channels: StructType[Any] | None = None
     start_date_ns: int | None = None

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from plcsim.core.memory import Memory
-    from st_types.resolve.declared import Variable
+    from st_types.resolve.declared import DeclaredVariable
 
 
-class Variables(NamedTuple):
+class DeclaredVariables(NamedTuple):
     """The variables of a program, or the global ones.
 
     Attributes:
@@ -56,7 +56,7 @@ def _allocate(memory: Memory, path: str, data_type: StructType[Any]) -> Tag:
     return Tag(path, data_type, address)
 
 
-def variables_of(name: str, declared: Iterable[Variable]) -> Variables:
+def variables_of(name: str, declared: Iterable[DeclaredVariable]) -> DeclaredVariables:
     """Return the variables that VAR blocks declare; what has no layout was told and is left out.
 
     Args:
@@ -72,7 +72,7 @@ def variables_of(name: str, declared: Iterable[Variable]) -> Variables:
             member = Member(variable.name, variable.data_type, variable.initial)
             members[variable.is_constant].append(member)
     try:
-        return Variables(
+        return DeclaredVariables(
             StructType(name, members[False]), StructType(f"{name} CONSTANT", members[True])
         )
     except DeclarationError as err:

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.library.library import CBuild
-    from plcsim.program.layout import Layout
+    from plcsim.program.layout import SourceLayout
     from plcsim.project.automation_studio.reader import AutomationStudioProject
     from plcsim.project.tables import ProgramEntry, TaskClassEntry
 
@@ -82,7 +82,7 @@ class Project:
     name: str
     plc: PlcSettings
     classes: tuple[TaskClassEntry, ...]
-    layout: Layout
+    layout: SourceLayout
     libraries: Mapping[str, Table] = field(default_factory=dict)
     extensions: Mapping[str, Any] = field(default_factory=dict)
     automation_studio: AutomationStudioProject | None = None
@@ -260,7 +260,7 @@ class _Parts:
         size = self._plc.memory_size
         return AUTOMATION_STUDIO_MEMORY if size == DEFAULT_SIZE else size
 
-    def _with_own(self, layout: Layout, tables: Mapping[int, TaskClassTable]) -> Layout:
+    def _with_own(self, layout: SourceLayout, tables: Mapping[int, TaskClassTable]) -> SourceLayout:
         """Add programs and libraries that plc.toml names beside an Automation Studio project."""
         entries = [entry for table in tables.values() for entry in table.programs]
         if self._plc.exception_program is not None:

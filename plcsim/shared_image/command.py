@@ -39,7 +39,7 @@ MAX_OPERATIONS: Final = 2048
 """Of one command; a Modbus request writes 1,968 coils at most."""
 
 
-class Outcome(Enum):
+class CommandOutcome(Enum):
     """What has become of a command."""
 
     WAITING = 0
@@ -56,7 +56,7 @@ class Outcome(Enum):
     @property
     def is_refused(self) -> bool:
         """True where nothing of the command was applied, and nothing will be."""
-        return self not in (Outcome.WAITING, Outcome.APPLIED)
+        return self not in (CommandOutcome.WAITING, CommandOutcome.APPLIED)
 
     @property
     def text(self) -> str:
@@ -65,23 +65,23 @@ class Outcome(Enum):
 
 
 _TEXTS: Final = {
-    Outcome.WAITING: "it waits",
-    Outcome.APPLIED: "it is applied",
-    Outcome.NO_COMMAND: "it makes no sense",
-    Outcome.NO_SUCH_ADDRESS: "there is no such address",
-    Outcome.NO_SUCH_TAG: "there is no such tag",
-    Outcome.NOT_FORCED: "it is not forced",
-    Outcome.CONSTANT: "it is CONSTANT",
-    Outcome.OVERLAPS: "a part of it is forced, or it is a part of a forced tag",
-    Outcome.TOO_MANY: "there are too many",
-    Outcome.NOT_HERE: "only the virtual clock can do that",
+    CommandOutcome.WAITING: "it waits",
+    CommandOutcome.APPLIED: "it is applied",
+    CommandOutcome.NO_COMMAND: "it makes no sense",
+    CommandOutcome.NO_SUCH_ADDRESS: "there is no such address",
+    CommandOutcome.NO_SUCH_TAG: "there is no such tag",
+    CommandOutcome.NOT_FORCED: "it is not forced",
+    CommandOutcome.CONSTANT: "it is CONSTANT",
+    CommandOutcome.OVERLAPS: "a part of it is forced, or it is a part of a forced tag",
+    CommandOutcome.TOO_MANY: "there are too many",
+    CommandOutcome.NOT_HERE: "only the virtual clock can do that",
 }
 
 
-_OUTCOMES: Final = tuple(Outcome)
+_OUTCOMES: Final = tuple(CommandOutcome)
 
 
-class Store(NamedTuple):
+class StoreCommand(NamedTuple):
     """Store ``data`` at a PLC address."""
 
     address: int
@@ -113,7 +113,7 @@ class Scatter(NamedTuple):
     data: bytes
 
 
-Operation = Store | Mask | Scatter
+Operation = StoreCommand | Mask | Scatter
 
 
 class Write(NamedTuple):
@@ -122,7 +122,7 @@ class Write(NamedTuple):
     operations: Sequence[Operation]
 
 
-class Force(NamedTuple):
+class ForceCommand(NamedTuple):
     """Force a tag to the value with these bytes.
 
     Attributes:
@@ -137,21 +137,21 @@ class Force(NamedTuple):
 
 
 class Release(NamedTuple):
-    """Let a forced tag go; "" for all; for ``by`` see `Force`."""
+    """Let a forced tag go; "" for all; for ``by`` see `ForceCommand`."""
 
     path: str
     by: str = ""
 
 
 class Control(NamedTuple):
-    """Ask the controller for an act; see `plcsim.core.control.Request`, for ``by`` `Force`."""
+    """Ask for an act; see `plcsim.core.control.Request`, for ``by`` `ForceCommand`."""
 
     action: Action
     argument: int = 0
     by: str = ""
 
 
-class Sample(NamedTuple):
+class SampleCommand(NamedTuple):
     """Sample variables from now on into the stream beside the ring.
 
     Attributes:
@@ -169,7 +169,7 @@ class Sample(NamedTuple):
 
 
 class Cancel(NamedTuple):
-    """End a `Sample`; 0 for all of the service."""
+    """End a `SampleCommand`; 0 for all of the service."""
 
     number: int
 
@@ -184,24 +184,24 @@ class Answer(NamedTuple):
             has the word in the place of its AND mask.
     """
 
-    outcome: Outcome
+    outcome: CommandOutcome
     applied_ns: int
     before: Command
 
 
-Command = Write | Force | Release | Control | Sample | Cancel
+Command = Write | ForceCommand | Release | Control | SampleCommand | Cancel
 _KINDS: Final[dict[type, int]] = {
     Write: 1,
-    Force: 2,
+    ForceCommand: 2,
     Release: 3,
     Control: 4,
-    Sample: 5,
+    SampleCommand: 5,
     Cancel: 6,
 }
 WRITE, _FORCED, _RELEASED, _CONTROLLED, _SAMPLED, _CANCELLED = _KINDS.values()
 
 
-def outcome_of(record: memoryview) -> Outcome:
+def outcome_of(record: memoryview) -> CommandOutcome:
     """Return what has become of a record of the ring."""
     return _OUTCOMES[record[OUTCOME_AT]]
 
@@ -229,10 +229,12 @@ def merged(stores: Iterable[Operation]) -> tuple[Operation, ...]:
 def _scattered(operations: list[Operation]) -> tuple[Operation, ...]:
     """Make one of stores of single bytes that follow each other."""
     result: list[Operation] = []
-    for is_byte, run in groupby(operations, lambda o: isinstance(o, Store) and len(o.data) == 1):
+    for is_byte, run in groupby(
+        operations, lambda o: isinstance(o, StoreCommand) and len(o.data) == 1
+    ):
         group = list(run)
         if is_byte and len(group) > 1:
-            bytes_ = [o for o in group if isinstance(o, Store)]
+            bytes_ = [o for o in group if isinstance(o, StoreCommand)]
             data = b"".join(o.data for o in bytes_)
             result.append(Scatter(tuple(o.address for o in bytes_), data))
         else:
@@ -246,11 +248,11 @@ def _joined(stores: Iterable[Operation]) -> list[Operation]:
     for operation in stores:
         last = result[-1] if result else None
         if (
-            isinstance(operation, Store)
-            and isinstance(last, Store)
+            isinstance(operation, StoreCommand)
+            and isinstance(last, StoreCommand)
             and last.address + len(last.data) == operation.address
         ):
-            result[-1] = Store(last.address, last.data + operation.data)
+            result[-1] = StoreCommand(last.address, last.data + operation.data)
         else:
             result.append(operation)
     return result
@@ -261,14 +263,14 @@ def encode_command(command: Command) -> bytes:
     match command:
         case Write(operations):
             return _record(WRITE, _operations(operations), len(operations))
-        case Force(path, data, by):
+        case ForceCommand(path, data, by):
             return _record(_FORCED, _forcing(path, data, by))
         case Release(path, by):
             return _record(_RELEASED, _forcing(path, b"", by))
         case Control(action, argument, by):
             name = by.encode()
             return _record(_CONTROLLED, _CONTROL.pack(argument, len(name)) + name, action.value)
-        case Sample(number, task_class, period_ns, spans):
+        case SampleCommand(number, task_class, period_ns, spans):
             head = _SAMPLE.pack(number, task_class, period_ns)
             body = head + b"".join(_SPAN.pack(*span) for span in spans)
             return _record(_SAMPLED, body, len(spans))
@@ -278,7 +280,7 @@ def encode_command(command: Command) -> bytes:
 
 def _record(kind: int, body: bytes, count: int = 0) -> bytes:
     size = align_up(HEAD.size + len(body), 8)
-    head = HEAD.pack(size, kind, Outcome.WAITING.value, count, 0)
+    head = HEAD.pack(size, kind, CommandOutcome.WAITING.value, count, 0)
     return head + body.ljust(size - HEAD.size, b"\0")
 
 
@@ -291,7 +293,7 @@ def _operations(operations: Iterable[Operation]) -> bytes:
     parts: list[bytes] = []
     for operation in operations:
         match operation:
-            case Store(address, data):
+            case StoreCommand(address, data):
                 parts += OPERATION.pack(address, len(data), STORE), data
             case Mask(address, and_mask, or_mask):
                 masks = MASKS.pack(and_mask, or_mask)
@@ -325,7 +327,7 @@ def _decode(kind: int, count: int, record: bytes) -> Command:
         lengths = _FORCE.unpack_from(record, HEAD.size)
         path, data, by = _cut(record, HEAD.size + _FORCE.size, lengths)
         if kind == _FORCED:
-            return Force(path.decode(), data, by.decode())
+            return ForceCommand(path.decode(), data, by.decode())
         return Release(path.decode(), by.decode())
     if kind == _CONTROLLED:
         argument, length = _CONTROL.unpack_from(record, HEAD.size)
@@ -337,7 +339,7 @@ def _decode(kind: int, count: int, record: bytes) -> Command:
             raise ValueError(f"samples with number {number} every {period_ns} ns")
         at = HEAD.size + _SAMPLE.size
         spans = tuple(_SPAN.unpack_from(record, at + i * _SPAN.size) for i in range(count))
-        return Sample(number, task_class, period_ns, spans)
+        return SampleCommand(number, task_class, period_ns, spans)
     if kind == _CANCELLED:
         return Cancel(*_CANCEL.unpack_from(record, HEAD.size))
     raise ValueError(f"record of kind {kind}")
@@ -370,7 +372,7 @@ def _decode_operations(record: bytes, count: int) -> tuple[Operation, ...]:
 
 def _operation(address: int, kind: int, data: bytes) -> Operation:
     if kind == STORE:
-        return Store(address, data)
+        return StoreCommand(address, data)
     if kind == MASK and len(data) == MASKS.size:
         return Mask(address, *MASKS.unpack(data))
     if kind == SCATTER and len(data) % 5 == 0:

@@ -10,7 +10,7 @@ from plcsim.core.logbook import Entry, Severity
 from plcsim.core.task import Cause, Violation
 
 if TYPE_CHECKING:
-    from plcsim.shared_image.stream import Record, StreamReader
+    from plcsim.shared_image.stream import StreamReader, StreamRecord
 
 _SEVERITIES = tuple(Severity)
 _CAUSES = tuple(Cause)
@@ -34,7 +34,7 @@ def encode_entry(entry: Entry) -> bytes:
     return head + source + entry.text.encode("utf-8", "replace")
 
 
-def entry_of(record: Record) -> Entry:
+def entry_of(record: StreamRecord) -> Entry:
     """Return the entry of the logbook in a record."""
     severity, length = _ENTRY.unpack_from(record.data)
     at = _ENTRY.size
@@ -63,7 +63,7 @@ def encode_violation(violation: Violation) -> bytes:
     return head + program + violation.location.encode("utf-8", "replace")
 
 
-def violation_of(record: Record) -> Violation:
+def violation_of(record: StreamRecord) -> Violation:
     """Return the violation in a record."""
     number, cause, length, cycle, *durations = _VIOLATION.unpack_from(record.data)
     at = _VIOLATION.size

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from plcsim.core.control import Action, Request
 from plcsim.core.errors import TagError
 from plcsim.core.logbook import Severity
-from plcsim.shared_image.command import Control, Force, Outcome, Release
+from plcsim.shared_image.command import CommandOutcome, Control, ForceCommand, Release
 from plcsim.shared_image.force_list import encode_forces
 from plcsim.shared_image.layout import FORCES_SIZE
 from plcsim.shared_image.stores import Stores
@@ -45,58 +45,58 @@ class Hands:
         tag = self._controller.tags.get(path)
         return 0 if tag is None else self._owners.of(tag.address)
 
-    def carry_out(self, command: Command, source: str) -> Outcome:
+    def carry_out(self, command: Command, source: str) -> CommandOutcome:
         """Do what a command asks for, and say so in the logbook."""
         match command:
-            case Force(path, data, by):
+            case ForceCommand(path, data, by):
                 return self._force(path, data, _who(source, by))
             case Release(path, by):
                 return self._release(path, _who(source, by))
             case Control(action, argument, by):
                 return self._request(Request(action, argument, _who(source, by)))
-        return Outcome.NO_COMMAND
+        return CommandOutcome.NO_COMMAND
 
-    def _force(self, path: str, data: bytes, source: str) -> Outcome:
+    def _force(self, path: str, data: bytes, source: str) -> CommandOutcome:
         forces, tag = self._controller.forces, self._controller.tags.get(path)
         if tag is None:
-            return Outcome.NO_SUCH_TAG
+            return CommandOutcome.NO_SUCH_TAG
         if tag.is_constant:
-            return Outcome.CONSTANT
+            return CommandOutcome.CONSTANT
         if len(data) != tag.data_type.size:
-            return Outcome.NO_COMMAND
+            return CommandOutcome.NO_COMMAND
         before = next((f for f in forces if f.tag[1:] == tag[1:]), None)
         try:
             forces.force(tag, data, source)
         except TagError:
-            return Outcome.OVERLAPS
+            return CommandOutcome.OVERLAPS
         if len(encode_forces(forces)) > FORCES_SIZE:
             if before is None:
                 forces.release(tag)
             else:
                 forces.force(*before)
-            return Outcome.TOO_MANY
+            return CommandOutcome.TOO_MANY
         self._log(source, f"{tag.path} is forced to {_text(tag, data)}")
-        return Outcome.APPLIED
+        return CommandOutcome.APPLIED
 
-    def _release(self, path: str, source: str) -> Outcome:
+    def _release(self, path: str, source: str) -> CommandOutcome:
         forces = self._controller.forces
         if not path:
             count = forces.clear()
             self._log(source, f"{count} forced tags are released")
-            return Outcome.APPLIED
+            return CommandOutcome.APPLIED
         tag = self._controller.tags.get(path)
         if tag is None:
-            return Outcome.NO_SUCH_TAG
+            return CommandOutcome.NO_SUCH_TAG
         if not forces.release(tag):
-            return Outcome.NOT_FORCED
+            return CommandOutcome.NOT_FORCED
         self._log(source, f"{tag.path} is released")
-        return Outcome.APPLIED
+        return CommandOutcome.APPLIED
 
-    def _request(self, request: Request) -> Outcome:
+    def _request(self, request: Request) -> CommandOutcome:
         if request.action is Action.SPEED and not self._controller.clock.is_virtual:
-            return Outcome.NOT_HERE
+            return CommandOutcome.NOT_HERE
         self._controller.request(request)
-        return Outcome.APPLIED
+        return CommandOutcome.APPLIED
 
     def _log(self, source: str, text: str) -> None:
         self._controller.log(Severity.INFORMATION, source, text)

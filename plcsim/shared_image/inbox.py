@@ -16,10 +16,10 @@ from plcsim.core.errors import PageFault
 from plcsim.shared_image.command import (
     WRITE,
     Cancel,
-    Force,
-    Outcome,
+    CommandOutcome,
+    ForceCommand,
     Release,
-    Sample,
+    SampleCommand,
     decode_command,
     note_time,
 )
@@ -135,15 +135,15 @@ class Inbox:
                 return True
             command = taken.command = decode_command(bytes(taken.record))
         except ValueError:
-            taken.answer(Outcome.NO_COMMAND)
+            taken.answer(CommandOutcome.NO_COMMAND)
             return False
         except PageFault:
-            taken.answer(Outcome.NO_SUCH_ADDRESS)
+            taken.answer(CommandOutcome.NO_SUCH_ADDRESS)
             return False
-        if isinstance(command, Force | Release) and command.path:
+        if isinstance(command, ForceCommand | Release) and command.path:
             taken.owners = self._hands.owner_of_tag(command.path)
             if not taken.owners:
-                taken.answer(Outcome.NO_SUCH_TAG)
+                taken.answer(CommandOutcome.NO_SUCH_TAG)
                 return False
         return True
 
@@ -156,29 +156,29 @@ class Inbox:
             return 1 + taken.plan.work // STEPS_PER_COMMAND
         if taken.command is not None:
             outcome = self._carry_out(taken.command)
-            if outcome is Outcome.APPLIED and taken.owners:
+            if outcome is CommandOutcome.APPLIED and taken.owners:
                 self._applied.append(taken)
             else:
                 taken.answer(outcome)
         return COMMANDS_OF_OTHERS
 
-    def _carry_out(self, command: Command) -> Outcome:
+    def _carry_out(self, command: Command) -> CommandOutcome:
         try:
-            if isinstance(command, Sample | Cancel):
+            if isinstance(command, SampleCommand | Cancel):
                 return self._sample(command)
             return self._hands.carry_out(command, self._name)
         except PageFault:
-            return Outcome.NO_SUCH_ADDRESS
+            return CommandOutcome.NO_SUCH_ADDRESS
 
-    def _sample(self, command: Sample | Cancel) -> Outcome:
+    def _sample(self, command: SampleCommand | Cancel) -> CommandOutcome:
         if self.sampler is None:
-            return Outcome.NO_COMMAND
+            return CommandOutcome.NO_COMMAND
         if isinstance(command, Cancel):
             self.sampler.cancel(command.number)
         elif not self.sampler.start(command):
-            return Outcome.TOO_MANY
+            return CommandOutcome.TOO_MANY
         self._consumer.serving(len(self.sampler))
-        return Outcome.APPLIED
+        return CommandOutcome.APPLIED
 
     def publish(self, held: int) -> None:
         """Answer what the snapshot shows that has just been written."""

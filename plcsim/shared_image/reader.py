@@ -10,8 +10,8 @@ from plcsim.shared_image import layout
 from plcsim.shared_image.command import (
     MAX_OPERATIONS,
     Command,
-    Outcome,
-    Sample,
+    CommandOutcome,
+    SampleCommand,
     Write,
     encode_command,
 )
@@ -163,15 +163,15 @@ class ImageReader:
         count = 0
         if isinstance(command, Write):
             count = len(command.operations)
-        elif isinstance(command, Sample):
+        elif isinstance(command, SampleCommand):
             count = len(command.spans)
         if count > MAX_OPERATIONS:
             raise CommandRefused(f"a command of {count} operations is too long")
         return self._producer.put(encode_command(command))
 
-    def outcome(self, ticket: int) -> Outcome:
+    def outcome(self, ticket: int) -> CommandOutcome:
         """Return what has become of a command so far; APPLIED once the latest snapshot shows it."""
-        return Outcome.WAITING if self._producer is None else self._producer.outcome(ticket)
+        return CommandOutcome.WAITING if self._producer is None else self._producer.outcome(ticket)
 
     def take_answer(self, ticket: int) -> Answer | None:
         """Return the answer of a command, once; None while it waits.

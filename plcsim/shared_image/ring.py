@@ -13,7 +13,7 @@ import struct
 from collections import OrderedDict, deque
 from typing import TYPE_CHECKING
 
-from plcsim.shared_image.command import HEAD, OUTCOME_AT, Outcome, answer_of, outcome_of
+from plcsim.shared_image.command import HEAD, OUTCOME_AT, CommandOutcome, answer_of, outcome_of
 from plcsim.shared_image.errors import CommandRefused
 from plcsim.shared_image.layout import RING_SIZE
 
@@ -27,7 +27,7 @@ LARGEST_RECORD = RING_SIZE // 2
 _FIELDS = struct.Struct("<IBxH")
 """The first bytes of `HEAD`; filling may be too short for all of it."""
 
-_APPLIED = Outcome.APPLIED.value
+_APPLIED = CommandOutcome.APPLIED.value
 
 ANSWERS_KEPT = 4096
 """Answers that nobody has asked for; the oldest are forgotten."""
@@ -90,13 +90,13 @@ class Producer:
         start = position % RING_SIZE
         return bytes(self._ring[start : start + size])
 
-    def outcome(self, ticket: int) -> Outcome:
+    def outcome(self, ticket: int) -> CommandOutcome:
         """Return what has become of a record so far."""
         if ticket in self._open:
             start = ticket % RING_SIZE
             return outcome_of(self._ring[start : start + HEAD.size])
         saved = self._answers.get(ticket)
-        return Outcome.APPLIED if saved is None else answer_of(saved).outcome
+        return CommandOutcome.APPLIED if saved is None else answer_of(saved).outcome
 
     def take_answer(self, ticket: int) -> Answer | None:
         """Return the answer of a record, once; None while it waits, or where it is forgotten."""
@@ -138,13 +138,13 @@ class Taken:
         self.plan: Plan | None = None
         self.command: Command | None = None
 
-    def answer(self, outcome: Outcome) -> None:
+    def answer(self, outcome: CommandOutcome) -> None:
         """Answer the record; what else is noted in it must be there already."""
         self.record[OUTCOME_AT] = outcome.value
         self.is_answered = True
 
     def applied(self) -> None:
-        """Answer the record by `Outcome.APPLIED`."""
+        """Answer the record by `CommandOutcome.APPLIED`."""
         self.record[OUTCOME_AT] = _APPLIED
         self.is_answered = True
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from plcsim.core.memory import Memory
     from plcsim.core.owners import Owners
     from plcsim.core.task import TaskClass
-    from plcsim.shared_image.command import Sample as Request
+    from plcsim.shared_image.command import SampleCommand
     from plcsim.shared_image.stream import StreamWriter
 
 MOST: Final = 64
@@ -51,7 +51,7 @@ def sample_of(data: bytes) -> Sample:
 class _Request:
     """A request that is being served."""
 
-    def __init__(self, request: Request, memory: Memory, owners: Owners) -> None:
+    def __init__(self, request: SampleCommand, memory: Memory, owners: Owners) -> None:
         self.number = request.number
         self.task_class = request.task_class
         self.period_ns = request.period_ns
@@ -104,7 +104,7 @@ class Sampler:
     def __len__(self) -> int:
         return len(self._requests)
 
-    def start(self, request: Request) -> bool:
+    def start(self, request: SampleCommand) -> bool:
         """Serve a request from now on; False where there are too many.
 
         Raises:

@@ -26,7 +26,7 @@ _KIND_BITS = 28
 _KIND = (1 << _KIND_BITS) - 1
 
 
-class Record(NamedTuple):
+class StreamRecord(NamedTuple):
     """One record of a stream.
 
     Attributes:
@@ -123,13 +123,13 @@ class StreamReader:
         """Records so far that were overwritten before they were read, or were too long."""
         return self._gaps + self._cells[self._at.too_long] - self._too_long
 
-    def read(self, most: int = 1000) -> list[Record]:
+    def read(self, most: int = 1000) -> list[StreamRecord]:
         """Return the records that are new, the oldest first.
 
         Args:
             most: records at once.
         """
-        records: list[Record] = []
+        records: list[StreamRecord] = []
         while len(records) < most:
             part = self._read_part(most - len(records))
             if not part:
@@ -137,7 +137,7 @@ class StreamReader:
             records += part
         return records
 
-    def _read_part(self, most: int) -> list[Record]:
+    def _read_part(self, most: int) -> list[StreamRecord]:
         """Return new records that lie in one piece; none where there are none."""
         cells, at = self._cells, self._at
         while True:
@@ -152,9 +152,9 @@ class StreamReader:
             if found:
                 return found
 
-    def _parse(self, data: bytes, position: int, at: int, most: int) -> list[Record]:
+    def _parse(self, data: bytes, position: int, at: int, most: int) -> list[StreamRecord]:
         """Return the records in ``data`` from ``at`` on, and go on behind them."""
-        found: list[Record] = []
+        found: list[StreamRecord] = []
         while at < len(data) and len(found) < most:
             (size,) = _SIZE.unpack_from(data, at)
             if not size:
@@ -162,7 +162,7 @@ class StreamReader:
                 break
             size, kind, number, time_ns = _HEAD.unpack_from(data, at)
             end = at + size - (kind >> _KIND_BITS)
-            found.append(Record(kind & _KIND, number, time_ns, data[at + _HEAD.size : end]))
+            found.append(StreamRecord(kind & _KIND, number, time_ns, data[at + _HEAD.size : end]))
             self._gaps += max(0, number - self._expected)
             self._expected = number + 1
             at += size

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.memory import FIRST
 from plcsim.testing.diagram import draw, foot_of, step_for, table
-from plcsim.testing.trace import Row, Trace
+from plcsim.testing.trace import Trace, TraceRow
 from plcsim.testing.values import text_of, value_in
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ MOST_BYTES = 4 * 1024 * 1024
 
 
 class Cycle(NamedTuple):
-    """The memory after one cycle; for the other fields see `plcsim.testing.trace.Row`."""
+    """The memory after one cycle; for the other fields see `plcsim.testing.trace.TraceRow`."""
 
     time_ns: int
     task_class: int
@@ -78,7 +78,7 @@ class History:
             raw = tuple(
                 cycle.image[t.address - FIRST : t.address - FIRST + t.data_type.size] for t in tags
             )
-            trace.add(Row(cycle.time_ns, cycle.task_class, cycle.number, raw))
+            trace.add(TraceRow(cycle.time_ns, cycle.task_class, cycle.number, raw))
         return trace
 
     def explain(self, given: Sequence[Tag], most: int = 100) -> str:

@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from plcsim.core.task import TaskClass
     from plcsim.network import Network
     from plcsim.project.assembly import Application
-    from plcsim.testing.bools import check_bools
 from plcsim.testing.condition import Given
 
 __tracebackhide__ = True

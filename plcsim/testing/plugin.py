@@ -68,7 +68,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     """Collect tests in Structured Text: ``test_*.st``."""
     if file_path.suffix.lower() != ".st" or not file_path.name.lower().startswith("test_"):
         return None
-    collector = import_module("plcsim.testing.st_collector").StructuredTextFile
+    collector = import_module("plcsim.testing.st_collector").StructuredTextTests
     found: pytest.Collector = collector.from_parent(parent, path=file_path)
     return found
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from plcsim.testing.st_program import StructuredTextTest
 
 
-class StructuredTextFile(pytest.File):
+class StructuredTextTests(pytest.File):
     """A file with tests."""
 
     def collect(self) -> Iterator[pytest.Item]:

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from plcsim.core.context import Context
     from plcsim.core.errors import ProgramError
     from plcsim.core.task import Violation
-    from plcsim.program.layout import Layout
+    from plcsim.program.layout import SourceLayout
 
 PREFIX: Final = "TEST"
 CYCLE_NS: Final = 10_000_000
@@ -116,7 +116,7 @@ def run_test(file: Path, test: StructuredTextTest) -> None:
         loader.unload()
 
 
-def _layout(file: Path) -> Layout:
+def _layout(file: Path) -> SourceLayout:
     """Return the layout of the project around a test, without programs, with the assertions."""
     folder = next((f for f in file.parents if project_file(f) is not None), None)
     if folder is None:

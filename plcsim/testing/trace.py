@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __tracebackhide__ = True
 
 
-class Row(NamedTuple):
+class TraceRow(NamedTuple):
     """The values of all tags of a trace after one cycle.
 
     Attributes:
@@ -54,20 +54,20 @@ class Trace:
 
     def __init__(self, tags: Sequence[Tag]) -> None:
         self.tags = tuple(tags)
-        self.rows: list[Row] = []
+        self.rows: list[TraceRow] = []
         self.end_ns = 0
         self._indices = {tag.path.upper(): index for index, tag in enumerate(self.tags)}
 
-    def add(self, row: Row) -> None:
+    def add(self, row: TraceRow) -> None:
         """Add the values after a cycle; rows come in the order of cycles."""
         self.end_ns = max(self.end_ns, row.time_ns)
         if not self.rows or self.rows[-1].raw != row.raw:
             self.rows.append(row._replace(time_ns=self.end_ns))
 
     def sample(self, memory: Memory, task_class: int, cycle: int, time_ns: int) -> None:
-        """Add the present values of the tags; for the arguments see `Row`."""
+        """Add the present values of the tags; for the arguments see `TraceRow`."""
         raw = tuple(memory.read(tag.address, tag.data_type.size) for tag in self.tags)
-        self.add(Row(time_ns, task_class, cycle, raw))
+        self.add(TraceRow(time_ns, task_class, cycle, raw))
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from st_types.types.elementary import DataType
 
 
-class Variable(NamedTuple):
+class DeclaredVariable(NamedTuple):
     """A variable of a VAR block, a parameter of a function or a function block.
 
     Attributes:
@@ -52,7 +52,7 @@ class DeclaredType(NamedTuple):
     file: DeclarationFile
 
 
-class Function(NamedTuple):
+class DeclaredFunction(NamedTuple):
     """A FUNCTION.
 
     Attributes:
@@ -70,12 +70,12 @@ class Function(NamedTuple):
     file: DeclarationFile
 
     @property
-    def variables(self) -> tuple[Variable, ...]:
+    def variables(self) -> tuple[DeclaredVariable, ...]:
         """Its parameters and other variables, in order."""
         return self.scope.variables
 
 
-class FunctionBlock(NamedTuple):
+class DeclaredFunctionBlock(NamedTuple):
     """A FUNCTION_BLOCK.
 
     Attributes:
@@ -93,6 +93,6 @@ class FunctionBlock(NamedTuple):
     file: DeclarationFile
 
     @property
-    def variables(self) -> tuple[Variable, ...]:
+    def variables(self) -> tuple[DeclaredVariable, ...]:
         """Its parameters and other variables, VAR_TEMP and constants too, in order."""
         return self.scope.variables

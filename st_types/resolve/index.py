@@ -16,7 +16,7 @@ from st_types.types.spelling import Spellings
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from st_types.resolve.declared import Function, FunctionBlock, Variable
+    from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock, DeclaredVariable
     from st_types.resolve.dialect import Dialect
     from st_types.resolve.file_resolver import FileResolver
     from st_types.resolve.scope import Scope
@@ -78,7 +78,7 @@ class PouEntry(IndexEntry):
 
     node: FunctionDeclaration | FunctionBlockDeclaration
     scope: Scope | None = None
-    made: Function | FunctionBlock | None = None
+    made: DeclaredFunction | DeclaredFunctionBlock | None = None
 
 
 class VariableEntry(IndexEntry):
@@ -93,7 +93,7 @@ class VariableEntry(IndexEntry):
 
     node: Declaration
     value: object = None
-    made: Variable | None = None
+    made: DeclaredVariable | None = None
 
     def __init__(
         self, resolver: FileResolver, node: Declaration, block: VariableBlock, *, is_constant: bool

@@ -20,7 +20,12 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from st_types.resolve.constant_lookup import ConstantLookup
 from st_types.resolve.constants import evaluate
-from st_types.resolve.declared import DeclaredType, Function, FunctionBlock, Variable
+from st_types.resolve.declared import (
+    DeclaredFunction,
+    DeclaredFunctionBlock,
+    DeclaredType,
+    DeclaredVariable,
+)
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.resolve.file_resolver import FileResolver
 from st_types.resolve.index import DONE, IndexEntry, PouEntry, ScopeIndex, TypeEntry, VariableEntry
@@ -199,19 +204,19 @@ class Scope:
         hit = self.lookup("types", name)
         return None if hit is None else _resolved(hit.entry).data_type
 
-    def find_function_block(self, name: str) -> FunctionBlock | None:
+    def find_function_block(self, name: str) -> DeclaredFunctionBlock | None:
         """Return the function block ``name``, None if there is none."""
         hit = self.lookup("types", name)
         if hit is None or not isinstance(hit.entry, PouEntry):
             return None
         return _function_block(hit.entry)
 
-    def find_function(self, name: str) -> Function | None:
+    def find_function(self, name: str) -> DeclaredFunction | None:
         """Return the function ``name``, None if there is none."""
         hit = self.lookup("functions", name)
         return _function(hit.entry) if hit is not None and isinstance(hit.entry, PouEntry) else None
 
-    def find_variable(self, name: str) -> Variable | None:
+    def find_variable(self, name: str) -> DeclaredVariable | None:
         """Return the variable or the constant ``name``, None if there is none."""
         hit = self.lookup("variables", name)
         if hit is None or not isinstance(hit.entry, VariableEntry):
@@ -251,19 +256,19 @@ class Scope:
         )
 
     @cached_property
-    def function_blocks(self) -> tuple[FunctionBlock, ...]:
+    def function_blocks(self) -> tuple[DeclaredFunctionBlock, ...]:
         """The function blocks, in order."""
         return tuple(
             _function_block(entry) for entry in self.index.types if isinstance(entry, PouEntry)
         )
 
     @cached_property
-    def functions(self) -> tuple[Function, ...]:
+    def functions(self) -> tuple[DeclaredFunction, ...]:
         """The functions, in order."""
         return tuple(map(_function, self.index.functions))
 
     @cached_property
-    def variables(self) -> tuple[Variable, ...]:
+    def variables(self) -> tuple[DeclaredVariable, ...]:
         """The variables and constants of the VAR blocks that stand in no function, in order."""
         return tuple(map(_variable, self.index.variables))
 
@@ -301,28 +306,30 @@ def _resolved(entry: IndexEntry) -> IndexEntry:
     return entry.resolver.resolved(entry)
 
 
-def _variable(entry: VariableEntry) -> Variable:
+def _variable(entry: VariableEntry) -> DeclaredVariable:
     if entry.made is None:
         node, file = entry.node, entry.resolver.file
         entry.resolver.complete(entry)
-        entry.made = Variable(node.name, entry.data_type, entry.value, entry.block, node, file)
+        entry.made = DeclaredVariable(
+            node.name, entry.data_type, entry.value, entry.block, node, file
+        )
     return entry.made
 
 
-def _function(entry: PouEntry) -> Function:
+def _function(entry: PouEntry) -> DeclaredFunction:
     if entry.made is None:
         _resolved(entry)
         node = cast("FunctionDeclaration", entry.node)
         scope = cast("Scope", entry.scope)
-        entry.made = Function(node.name, entry.data_type, scope, node, entry.resolver.file)
-    return cast("Function", entry.made)
+        entry.made = DeclaredFunction(node.name, entry.data_type, scope, node, entry.resolver.file)
+    return cast("DeclaredFunction", entry.made)
 
 
-def _function_block(entry: PouEntry) -> FunctionBlock:
+def _function_block(entry: PouEntry) -> DeclaredFunctionBlock:
     if entry.made is None:
         _resolved(entry)
         node = cast("FunctionBlockDeclaration", entry.node)
         scope = cast("Scope", entry.scope)
         data_type = cast("DataBlockType[object] | None", entry.data_type)
-        entry.made = FunctionBlock(node.name, data_type, scope, node, entry.resolver.file)
-    return cast("FunctionBlock", entry.made)
+        entry.made = DeclaredFunctionBlock(node.name, data_type, scope, node, entry.resolver.file)
+    return cast("DeclaredFunctionBlock", entry.made)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from st_types.errors import Diagnostic, Severity, SourceError
+from st_types.errors import Diagnostic, DiagnosticSeverity, SourceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -67,7 +67,7 @@ class DiagnosticLog:
         if self.error_count > MAX_DIAGNOSTICS:
             self.omitted += 1
         else:
-            self._add(Severity.ERROR, offset, message, hint, code)
+            self._add(DiagnosticSeverity.ERROR, offset, message, hint, code)
 
     def warning(self, offset: int, message: str, hint: str = "", code: str = "") -> None:
         """Record a warning at the character ``offset``."""
@@ -75,9 +75,11 @@ class DiagnosticLog:
         if self.warning_count > MAX_DIAGNOSTICS:
             self.omitted += 1
         else:
-            self._add(Severity.WARNING, offset, message, hint, code)
+            self._add(DiagnosticSeverity.WARNING, offset, message, hint, code)
 
-    def _add(self, severity: Severity, offset: int, message: str, hint: str, code: str) -> None:
+    def _add(
+        self, severity: DiagnosticSeverity, offset: int, message: str, hint: str, code: str
+    ) -> None:
         path, line, column = self.source.location(offset)
         excerpt, caret = excerpt_of(self.source.line_text(line), column)
         self.records.append(

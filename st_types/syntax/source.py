@@ -12,7 +12,7 @@ from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
-from st_types.errors import Diagnostic, Severity, SourceError
+from st_types.errors import Diagnostic, DiagnosticSeverity, SourceError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -62,7 +62,7 @@ class Source:
         """
         if len(data) > MAX_SOURCE_BYTES:
             message = f"the file is larger than {MAX_SOURCE_BYTES // 1024 // 1024} MiB"
-            finding = Diagnostic(Severity.ERROR, path, 1, 1, message)
+            finding = Diagnostic(DiagnosticSeverity.ERROR, path, 1, 1, message)
             raise SourceError(finding.render(), [finding])
         for mark, encoding in _UTF16.items():
             if data.startswith(mark):

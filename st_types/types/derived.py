@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from st_types.errors import DeclarationError
 from st_types.types.elementary import BOOL, DINT, UDINT, DataType, ElementaryType
-from st_types.types.layout import Layout, align_up, lay_out
+from st_types.types.layout import StructLayout, align_up, lay_out
 from st_types.types.spelling import Spellings
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ class StructType(DataType[V_co]):
                 raise DeclarationError(f"{name}: two members are called {member.name}.")
         self._spellings = Spellings(self._indices)
 
-    def _laid_out(self) -> Layout:
+    def _laid_out(self) -> StructLayout:
         """Return the layout, its offsets in the order of declaration."""
         return lay_out([member.data_type for member in self.members])
 
@@ -161,11 +161,11 @@ class UnionType(StructType[V_co]):
 
     __slots__ = ()
 
-    def _laid_out(self) -> Layout:
+    def _laid_out(self) -> StructLayout:
         layouts = [lay_out([member.data_type]) for member in self.members]
         alignment = max((each.alignment for each in layouts), default=1)
         size = align_up(max((each.size for each in layouts), default=0), alignment)
-        return Layout((0,) * len(layouts), size, alignment)
+        return StructLayout((0,) * len(layouts), size, alignment)
 
 
 class DataBlockType(StructType[V_co]):
@@ -173,7 +173,7 @@ class DataBlockType(StructType[V_co]):
 
     __slots__ = ()
 
-    def _laid_out(self) -> Layout:
+    def _laid_out(self) -> StructLayout:
         order = data_block_order(self.members)
         layout = lay_out([self.members[i].data_type for i in order])
         offsets = dict(zip(order, layout.offsets, strict=True))

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from st_types.types.elementary import DataType
 
 
-class Layout(NamedTuple):
+class StructLayout(NamedTuple):
     """Offsets of members in declaration order, total size and alignment, all in bytes."""
 
     offsets: tuple[int, ...]
@@ -23,7 +23,7 @@ def align_up(offset: int, alignment: int) -> int:
     return -(-offset // alignment) * alignment
 
 
-def lay_out(types: Iterable[DataType[object]]) -> Layout:
+def lay_out(types: Iterable[DataType[object]]) -> StructLayout:
     """Lay members out one after another as a C compiler does on the 32-bit target.
 
     An empty STRUCT takes no byte, as in the C of gcc.
@@ -36,4 +36,4 @@ def lay_out(types: Iterable[DataType[object]]) -> Layout:
         end += -end % data_type.alignment
         offsets.append(end)
         end += data_type.size
-    return Layout(tuple(offsets), align_up(end, alignment), alignment)
+    return StructLayout(tuple(offsets), align_up(end, alignment), alignment)

@@ -39,7 +39,7 @@ from st_types.writers.plan import is_generic, lacks_types, parameters_of
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from st_types.resolve.declared import Variable
+    from st_types.resolve.declared import DeclaredVariable
     from st_types.resolve.scope import Scope
 
 C_TYPES = {
@@ -210,7 +210,7 @@ class Header:
             yield "#endif"
         yield from (self._constant(name, variable) for name, variable in others)
 
-    def _constant(self, name: str, variable: Variable) -> str:
+    def _constant(self, name: str, variable: DeclaredVariable) -> str:
         assert variable.data_type is not None
         mark = "_LOCAL_CONST" if self._storage == LOCAL else "_GLOBAL_CONST"
         return f"{mark} {self._declarator(variable.data_type, name)};"
@@ -365,7 +365,7 @@ class Header:
             name = self._free(function.name)
             yield f"_BUR_PUBLIC {self._result(function.result, f'{name}({parameters})')};"
 
-    def _parameter(self, variable: Variable) -> str:
+    def _parameter(self, variable: DeclaredVariable) -> str:
         """Return a parameter as Automation Studio's headers have it.
 
         What is no scalar goes by its address, and so does the REFERENCE TO a STRUCT or a STRING.
@@ -438,7 +438,7 @@ def _lower_bounds(member: Member) -> str:
     )
 
 
-def _value(variable: Variable) -> str:
+def _value(variable: DeclaredVariable) -> str:
     """Return the value of a constant in C, empty where it has no simple one."""
     match variable.initial:
         case bool(value):

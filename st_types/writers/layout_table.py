@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from st_types.types.elementary import DataType
 
 
-class Row(NamedTuple):
+class LayoutRow(NamedTuple):
     """A member: its offset and its size in bytes, its path from the variable, its type."""
 
     offset: int
@@ -22,7 +22,7 @@ class Row(NamedTuple):
     data_type: DataType[object]
 
 
-def layout_rows(data_type: DataType[object]) -> Iterator[Row]:
+def layout_rows(data_type: DataType[object]) -> Iterator[LayoutRow]:
     """Yield the members of a STRUCT or a data block in the order of their offsets.
 
     The members of STRUCTs inside it follow theirs; of an ARRAY of STRUCTs those of the first
@@ -30,4 +30,4 @@ def layout_rows(data_type: DataType[object]) -> Iterator[Row]:
     """
     found = [part for part in parts(data_type, elements=False) if part.path[-1:] not in ("", "]")]
     for part in sorted(found, key=attrgetter("offset")):
-        yield Row(part.offset, part.data_type.size, part.path, part.declared)
+        yield LayoutRow(part.offset, part.data_type.size, part.path, part.declared)

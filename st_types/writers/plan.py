@@ -17,7 +17,7 @@ from st_types.types.paths import inner_types
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-    from st_types.resolve.declared import Function, Variable
+    from st_types.resolve.declared import DeclaredFunction, DeclaredVariable
     from st_types.resolve.scope import Scope
     from st_types.syntax.tree import TypeSpecification
     from st_types.types.elementary import DataType
@@ -129,12 +129,12 @@ def is_generic(specification: TypeSpecification | None) -> bool:
     return isinstance(specification, NamedType) and specification.name.upper() in GENERIC_TYPES
 
 
-def parameters_of(function: Function) -> list[Variable]:
+def parameters_of(function: DeclaredFunction) -> list[DeclaredVariable]:
     """Return what a function is called with."""
     return [v for v in function.variables if v.block.section in ("VAR_INPUT", "VAR_IN_OUT")]
 
 
-def lacks_types(function: Function) -> bool:
+def lacks_types(function: DeclaredFunction) -> bool:
     """Whether a type is not known that a caller needs."""
     types = [(v.data_type, v.node.specification) for v in parameters_of(function)]
     if function.node.result is not None:

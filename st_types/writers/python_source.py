@@ -35,7 +35,7 @@ from st_types.types.values import decode, initial_image
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from st_types.resolve.declared import Variable
+    from st_types.resolve.declared import DeclaredVariable
     from st_types.resolve.scope import Scope
 
 _MAKERS = {
@@ -68,7 +68,7 @@ MAX_CONSTANT = 0x1_0000
 _QUOTED = "'[^']*'"
 
 
-def python_source(module: Module, title: str) -> str:
+def python_source(module: PythonModule, title: str) -> str:
     """Return the text of a module.
 
     Args:
@@ -97,7 +97,7 @@ def _one_line(text: str) -> str:
     return " ".join(text.split()).replace("\\", "\\\\").replace('"', "'").rstrip(".") + "."
 
 
-class Module:
+class PythonModule:
     """Writes the blocks of a module and remembers what they import.
 
     Args:
@@ -117,7 +117,7 @@ class Module:
         self,
         name: str,
         scope: Scope,
-        included: Sequence[Module] = (),
+        included: Sequence[PythonModule] = (),
         executed: Mapping[DataType[object], tuple[str, str]] | None = None,
     ) -> None:
         self.name = name
@@ -167,7 +167,7 @@ class Module:
         self._taken.add(name)
         return name
 
-    def _constant(self, name: str, variable: Variable) -> str:
+    def _constant(self, name: str, variable: DeclaredVariable) -> str:
         assert variable.data_type is not None
         value = variable.initial
         if value is None and variable.data_type.size <= MAX_CONSTANT:

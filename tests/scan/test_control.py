@@ -12,12 +12,12 @@ from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 from plcsim.shared_image import (
     Command,
+    CommandOutcome,
     Control,
-    Force,
+    ForceCommand,
     ImageReader,
-    Outcome,
     Release,
-    Store,
+    StoreCommand,
     Write,
 )
 from plcsim.shared_image.guest import guest
@@ -56,7 +56,7 @@ class Guest:
 
     def done(self, command: Command) -> Callable[[], bool]:
         ticket = self.reader.send(command)
-        return lambda: self.reader.outcome(ticket) is Outcome.APPLIED
+        return lambda: self.reader.outcome(ticket) is CommandOutcome.APPLIED
 
     @property
     def cycles(self) -> int:
@@ -116,7 +116,7 @@ def test_a_run_is_paused_stepped_and_continued_from_another_process(play, virtua
         before = g.cycles
         yield waits(10)
         seen.append(g.cycles - before)
-        yield g.done(Write((Store(g.address("wanted"), b"\x2a\0"),)))
+        yield g.done(Write((StoreCommand(g.address("wanted"), b"\x2a\0"),)))
         seen.append(g.value("wanted"))
         seen.append(g.value("seen"))
         yield g.done(Control(Action.CYCLES, 2))
@@ -157,7 +157,7 @@ def test_a_restart_keeps_the_process_and_its_services(play) -> None:
     def scenario(g: Guest) -> Scenario:
         yield lambda: g.value("count") > 5
         pids.append(g.supervisor._process.pid)
-        yield g.done(Force("main.wanted", b"\x07\0"))
+        yield g.done(ForceCommand("main.wanted", b"\x07\0"))
         restart = g.done(Control(Action.WARM_RESTART))
         yield lambda: restart() and g.value("count") < 5 and g.value("seen") == 7
         pids.append(g.supervisor._process.pid)
@@ -190,7 +190,7 @@ def test_virtual_time_can_be_made_as_slow_as_real_time(play) -> None:
 
 def test_the_logbook_of_a_scan_process_that_was_killed_is_in_the_report(play) -> None:
     def scenario(g: Guest) -> Scenario:
-        yield g.done(Force("main.wanted", b"\x07\0"))
+        yield g.done(ForceCommand("main.wanted", b"\x07\0"))
         os.kill(g.supervisor._process.pid, 9)
         yield lambda: False
 

@@ -9,7 +9,7 @@ from plcsim.library.areventlog.interface import (
     arEVENTLOG_ERR_IDENT_INVALID,
     arEVENTLOG_ERR_RECORDID_INVALID,
 )
-from plcsim.library.areventlog.logs import EventLog, EventLogs, Record
+from plcsim.library.areventlog.logs import EventLog, EventLogs, EventRecord
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -106,7 +106,7 @@ class EventLogBlock(FunctionBlock):
         return found
 
     @property
-    def record(self) -> Record:
+    def record(self) -> EventRecord:
         """The record.
 
         Raises:

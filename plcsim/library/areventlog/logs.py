@@ -38,7 +38,7 @@ _SEVERITIES: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class EventRecord:
     """One record.
 
     Attributes:
@@ -72,11 +72,11 @@ class EventLog:
 
     def __init__(self, name: str, size: int) -> None:
         self.name = name
-        self._records: OrderedDict[int, Record] = OrderedDict()
+        self._records: OrderedDict[int, EventRecord] = OrderedDict()
         self._free = size
         self._last = 0
 
-    def write(self, record: Record) -> int:
+    def write(self, record: EventRecord) -> int:
         """Add a record; return its number."""
         self._free -= RECORD_SIZE + len(record.data)
         while self._free < 0 and self._records:
@@ -87,7 +87,7 @@ class EventLog:
         return self._last
 
     @property
-    def records(self) -> Mapping[int, Record]:
+    def records(self) -> Mapping[int, EventRecord]:
         """The records by their numbers, in order."""
         return self._records
 
@@ -102,7 +102,7 @@ class SystemLog(EventLog):
         self._context = context
 
     @property
-    def records(self) -> Mapping[int, Record]:
+    def records(self) -> Mapping[int, EventRecord]:
         """Its lines."""
         controller = Controller.of(self._context)
         if controller is None:
@@ -110,7 +110,7 @@ class SystemLog(EventLog):
         origin_ns = self._context.date_ns - self._context.release_ns + controller.origin_ns
         lines = enumerate(controller.logbook, controller.logbook.dropped + 1)
         return {
-            number: Record(
+            number: EventRecord(
                 event_id(_SEVERITIES[entry.severity], 0, 0, is_customer=False),
                 *(0, entry.source, 0, b""),
                 origin_ns + entry.time_ns,

@@ -29,7 +29,7 @@ from plcsim.library.areventlog.interface import (
     arEVENTLOG_SEVERITY_ERROR,
     arEVENTLOG_SEVERITY_WARNING,
 )
-from plcsim.library.areventlog.logs import NS_PER_SECOND, Record, severity_of
+from plcsim.library.areventlog.logs import NS_PER_SECOND, EventRecord, severity_of
 
 MOST_DATA: Final = 1000
 """Bytes of additional data."""
@@ -64,7 +64,7 @@ class ArEventLogWrite(interface.ArEventLogWrite, EventLogBlock):
         if self.TimeStamp:
             seconds, rest_ns = _TIME.unpack(self.context.memory.read(self.TimeStamp, _TIME.size))
             date_ns = seconds * NS_PER_SECOND + rest_ns
-        record = Record(
+        record = EventRecord(
             *(self.EventID, self.OriginRecordID, self.ObjectID, self.AddDataFormat),
             self._data(),
             date_ns,
@@ -88,7 +88,7 @@ class ArEventLogWrite(interface.ArEventLogWrite, EventLogBlock):
             raise FailedError(arEVENTLOG_ERR_SIZE_INVALID)
         return self.context.memory.read(self.AddData, self.AddDataSize)
 
-    def _tell(self, record: Record) -> None:
+    def _tell(self, record: EventRecord) -> None:
         controller = Controller.of(self.context)
         if controller is None:
             return

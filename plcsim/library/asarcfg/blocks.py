@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from plcsim.library.asarcfg import interface
-from plcsim.library.asarcfg.configuration import MAC, Configuration, Text
+from plcsim.library.asarcfg.configuration import MAC, ArConfiguration, Text
 from plcsim.library.asarcfg.interface import (
     cfgCONFIGMODE_DHCPCLIENT,
     cfgERR_DEVICE_INVALID,
@@ -30,9 +30,9 @@ class _Block(AsynchronousBlock):
     __slots__ = ()
 
     @property
-    def configuration(self) -> Configuration:
+    def configuration(self) -> ArConfiguration:
         """That of the controller."""
-        return self.context.library(Configuration)
+        return self.context.library(ArConfiguration)
 
     def name_at(self, address: int) -> str:
         """Return the name at an address, "" where there is none or it is too long."""

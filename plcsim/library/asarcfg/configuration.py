@@ -25,7 +25,7 @@ MAC: Final = bytes((2, 0, 0, 0, 0, 1))
 """A locally administered address."""
 
 
-class Configuration:
+class ArConfiguration:
     """See the module.
 
     Attributes:

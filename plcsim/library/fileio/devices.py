@@ -20,7 +20,7 @@ from plcsim.library.fileio.interface import (
     fiERR_SYSTEM,
 )
 from plcsim.library.fileio.transfer import LAST_BYTE
-from plcsim.library.fileio.volumes import Link, RefusedError, Volumes
+from plcsim.library.fileio.volumes import LinkedDevice, RefusedError, Volumes
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -52,7 +52,7 @@ class DevLink(interface.DevLink, FileIoBlock):
             raise RefusedError(fiERR_SYSTEM)
         if volumes.links.full:
             raise RefusedError(fiERR_NO_MORE_ENTRIES)
-        self.handle = volumes.links.add(Link(name, folder))
+        self.handle = volumes.links.add(LinkedDevice(name, folder))
 
 
 class DevUnlink(interface.DevUnlink, FileIoBlock):

@@ -25,7 +25,7 @@ from plcsim.library.fileio.interface import (
     fiOVERWRITE,
 )
 from plcsim.library.fileio.transfer import LAST_BYTE
-from plcsim.library.fileio.volumes import Entry, OpenDirectory, RefusedError, is_there
+from plcsim.library.fileio.volumes import DirectoryEntry, OpenDirectory, RefusedError, is_there
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,7 +42,7 @@ _EX_DATA: Final = struct.Struct("<260sIIHxx")
 """fiDIR_READ_EX_DATA: the same, and fiFILE or fiDIRECTORY."""
 
 
-def entries_of(path: Path) -> list[Entry]:
+def entries_of(path: Path) -> list[DirectoryEntry]:
     """Return the entries of a directory in order of their names.
 
     Raises:
@@ -55,7 +55,9 @@ def entries_of(path: Path) -> list[Entry]:
             date, size = min(max(0, int(info.st_mtime)), LAST_BYTE), min(info.st_size, LAST_BYTE)
             is_directory = entry.is_dir(follow_symlinks=False)
             found.append(
-                Entry(os.fsencode(entry.name), is_directory, 0 if is_directory else size, date)
+                DirectoryEntry(
+                    os.fsencode(entry.name), is_directory, 0 if is_directory else size, date
+                )
             )
     return sorted(found, key=lambda entry: entry.name)
 

@@ -69,7 +69,7 @@ class OpenFile:
 
 
 @dataclass(slots=True)
-class Entry:
+class DirectoryEntry:
     """An entry of a directory."""
 
     name: bytes
@@ -82,12 +82,12 @@ class Entry:
 class OpenDirectory:
     """A directory that an ident stands for: its entries when it was opened, and the next one."""
 
-    entries: list[Entry]
+    entries: list[DirectoryEntry]
     position: int = 0
 
 
 @dataclass(slots=True)
-class Link:
+class LinkedDevice:
     """A device that DevLink made."""
 
     name: bytes
@@ -113,7 +113,7 @@ class Volumes:
         self._folders = {os.fsencode(n): folder for n, folder in settings.devices.items()}
         self.files: Idents[OpenFile] = Idents(context, MOST_OPEN)
         self.directories: Idents[OpenDirectory] = Idents(context, MOST_OPEN)
-        self.links: Idents[Link] = Idents(context, MOST_OPEN)
+        self.links: Idents[LinkedDevice] = Idents(context, MOST_OPEN)
         self.last_error = 0
 
     def close(self) -> None:

@@ -11,9 +11,9 @@ from plcsim.modbus.export.tables import as_csv, as_json, as_markdown
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from plcsim.modbus.export.entry import Export
+    from plcsim.modbus.export.entry import MapExport
 
-FORMATS: Mapping[str, Callable[[Export], str]] = {
+FORMATS: Mapping[str, Callable[[MapExport], str]] = {
     "csv": as_csv,
     "json": as_json,
     "markdown": as_markdown,

@@ -10,7 +10,7 @@ from plcsim.modbus.map.point import KINDS, Area
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.modbus.map.point import Point, Row
+    from plcsim.modbus.map.point import MapRow, Point
 
 _NAMES = {code: name for name, code in KINDS.items()}
 _IGNITION = {
@@ -23,7 +23,7 @@ _IGNITION = {
 class ExportEntry:
     """A tag as it is exported."""
 
-    row: Row
+    row: MapRow
     point: Point
 
     @property
@@ -73,7 +73,7 @@ class ExportEntry:
 
 
 @dataclass(frozen=True)
-class Export:
+class MapExport:
     """A map to be exported.
 
     Attributes:

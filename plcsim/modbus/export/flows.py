@@ -12,7 +12,7 @@ from plcsim.modbus.map.point import Area
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.modbus.export.entry import Export, ExportEntry
+    from plcsim.modbus.export.entry import ExportEntry, MapExport
 
 _NODE_RED_TYPES = {
     Area.COILS: "Coil",
@@ -27,7 +27,7 @@ def _id(*parts: object) -> str:
     return hashlib.sha256("/".join(map(str, parts)).encode()).hexdigest()[:16]
 
 
-def node_red(export: Export) -> str:
+def node_red(export: MapExport) -> str:
     """Return a flow of node-red-contrib-modbus: reads every block, names the values."""
     tab, server = _id(export.project, "tab"), _id(export.project, "server")
     nodes: list[dict[str, Any]] = [
@@ -125,7 +125,7 @@ _FUXA_TYPES = {
 }  # fmt: skip
 
 
-def fuxa(export: Export) -> str:
+def fuxa(export: MapExport) -> str:
     """Return a device of FUXA; strings, bits of registers and UINT64 are unknown to it."""
     device = "d_" + _id(export.project, "device")
     tags = {

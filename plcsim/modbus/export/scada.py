@@ -14,7 +14,7 @@ from plcsim.modbus.export.entry import extent
 from plcsim.modbus.map.point import Area
 
 if TYPE_CHECKING:
-    from plcsim.modbus.export.entry import Export, ExportEntry
+    from plcsim.modbus.export.entry import ExportEntry, MapExport
 
 _MODPOLL_AREAS = {
     Area.COILS: "coil",
@@ -31,7 +31,7 @@ def _lines(rows: list[list[Any]]) -> str:
     return out.getvalue()
 
 
-def modpoll(export: Export) -> str:
+def modpoll(export: MapExport) -> str:
     """Return the CSV of modpoll (gavinying/modpoll): a poll for each block and word order."""
     rows: list[list[Any]] = [["device", export.project, 1]]
     for area, name in _MODPOLL_AREAS.items():
@@ -80,7 +80,7 @@ _TELEGRAF_AREAS = {
 }
 
 
-def telegraf(export: Export) -> str:
+def telegraf(export: MapExport) -> str:
     """Return an input of Telegraf's Modbus plugin in its "request" style."""
     lines = [
         "[[inputs.modbus]]",
@@ -135,7 +135,7 @@ _KEPWARE_TYPES = {
 }  # fmt: skip
 
 
-def kepware(export: Export) -> str:
+def kepware(export: MapExport) -> str:
     """Return the tags of a Modbus device in Kepware's CSV, with six-digit addresses."""
     rows: list[list[Any]] = [list(_KEPWARE_COLUMNS)]
     for entry in export.entries:
@@ -166,7 +166,7 @@ _IGNITION_TYPES = {
 }  # fmt: skip
 
 
-def ignition(export: Export) -> str:
+def ignition(export: MapExport) -> str:
     """Return OPC tags as Ignition's tag import takes them; the device is called like the project.
 
     The word order is a setting of the device there: "Reverse Numeric Word Order" for CDAB.

@@ -8,7 +8,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from plcsim.modbus.export.entry import Export, ExportEntry
+    from plcsim.modbus.export.entry import ExportEntry, MapExport
 
 
 def _fields(entry: ExportEntry) -> dict[str, Any]:
@@ -37,7 +37,7 @@ def _fields(entry: ExportEntry) -> dict[str, Any]:
     }
 
 
-def as_csv(export: Export) -> str:
+def as_csv(export: MapExport) -> str:
     """Return one line for each tag, with all ways of counting."""
     out = io.StringIO()
     fields = [_fields(entry) for entry in export.entries]
@@ -47,7 +47,7 @@ def as_csv(export: Export) -> str:
     return out.getvalue()
 
 
-def as_json(export: Export) -> str:
+def as_json(export: MapExport) -> str:
     """Return the same as an object with a list of tags."""
     values = {
         "schema": "plcsim-tags/1",
@@ -62,7 +62,7 @@ def as_json(export: Export) -> str:
 _HEADINGS = ("tag", "area", "PDU offset", "Modicon", "type", "access", "unit", "description")
 
 
-def as_markdown(export: Export) -> str:
+def as_markdown(export: MapExport) -> str:
     """Return a table for documentation."""
     lines = [f"| {' | '.join(_HEADINGS)} |", f"|{'---|' * len(_HEADINGS)}"]
     for entry in export.entries:

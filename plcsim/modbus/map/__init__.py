@@ -5,14 +5,14 @@ The offset of the protocol, from 0, is the only address in the map; every other 
 """
 
 from plcsim.modbus.map.errors import AccessRefused, IllegalAddress, IllegalValue, TagMapError
-from plcsim.modbus.map.point import Area, Point, Row
+from plcsim.modbus.map.point import Area, MapRow, Point
 
 __all__ = [
     "AccessRefused",
     "Area",
     "IllegalAddress",
     "IllegalValue",
+    "MapRow",
     "Point",
-    "Row",
     "TagMapError",
 ]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.tag import Tag, leaves
 from plcsim.modbus.map.csv_file import read_file, write_rows
 from plcsim.modbus.map.errors import TagMapError
-from plcsim.modbus.map.point import ADDRESSES, KINDS, MOST_WRITTEN, REGISTERS, Area, Point, Row
+from plcsim.modbus.map.point import ADDRESSES, KINDS, MOST_WRITTEN, REGISTERS, Area, MapRow, Point
 from plcsim.modbus.map.resolve import code_of
 from st_types.types.derived import StringType, resolve_alias
 
@@ -36,7 +36,7 @@ def all_tags(areas: Sequence[Tag]) -> Iterator[Tag]:
         yield from leaves(area, blocks=False)
 
 
-def locked_rows(folder: Path) -> list[Row]:
+def locked_rows(folder: Path) -> list[MapRow]:
     """Return the rows of the lock file of a project, none where there is no such file.
 
     Raises:
@@ -49,15 +49,15 @@ def locked_rows(folder: Path) -> list[Row]:
         return []
 
 
-def _locked(row: Row, file: Path) -> Row:
+def _locked(row: MapRow, file: Path) -> MapRow:
     kind = KINDS.get(row.type)
     if kind is None or (kind == "s" and not row.length):
         missing = "length" if kind else "type"
         raise TagMapError(f"{file}:{row.line}: {row.tag}: has no {missing}; the file is damaged")
-    return Row(row.tag, row.area, row.offset, type=row.type, length=row.length)
+    return MapRow(row.tag, row.area, row.offset, type=row.type, length=row.length)
 
 
-def write_lock(folder: Path, rows: Iterable[Row]) -> None:
+def write_lock(folder: Path, rows: Iterable[MapRow]) -> None:
     """Write the lock file, whole or not at all.
 
     Raises:
@@ -73,8 +73,8 @@ def write_lock(folder: Path, rows: Iterable[Row]) -> None:
 
 
 def give_addresses(
-    tags: Iterable[Tag], fixed: Sequence[Point], locked: Sequence[Row]
-) -> tuple[list[Row], list[Row]]:
+    tags: Iterable[Tag], fixed: Sequence[Point], locked: Sequence[MapRow]
+) -> tuple[list[MapRow], list[MapRow]]:
     """Return the rows of all tags, and the rows of the new lock file.
 
     Args:
@@ -88,8 +88,8 @@ def give_addresses(
     named = {point.tag.upper() for point in fixed}
     known = {(row.tag.upper(), row.type, row.length): row for row in locked}
     free = {area: _first_free(area, fixed, locked) for area in Area}
-    rows: list[Row] = []
-    given: list[Row] = []
+    rows: list[MapRow] = []
+    given: list[MapRow] = []
     for tag in tags:
         wanted = _wanted(tag)
         if wanted is None or tag.path.upper() in named:
@@ -97,7 +97,7 @@ def give_addresses(
         area, kind, length = wanted
         row = known.get((tag.path.upper(), kind, length))
         if row is None:
-            row = Row(tag.path, area, free[area], type=kind, length=length)
+            row = MapRow(tag.path, area, free[area], type=kind, length=length)
             free[area] += _size(row)
             if free[area] > ADDRESSES:
                 raise TagMapError(f"{tag.path}: area {area.value} has no address left")
@@ -120,11 +120,11 @@ def _wanted(tag: Tag) -> tuple[Area, str, int] | None:
     return Area.HOLDING_REGISTERS, _TYPES[_WIDER.get(code, code)], length
 
 
-def _size(row: Row) -> int:
+def _size(row: MapRow) -> int:
     return row.length or REGISTERS[KINDS[row.type]]
 
 
-def _first_free(area: Area, fixed: Sequence[Point], locked: Sequence[Row]) -> int:
+def _first_free(area: Area, fixed: Sequence[Point], locked: Sequence[MapRow]) -> int:
     """Return the first address behind all others of an area."""
     ends = [point.offset + point.registers for point in fixed if point.area == area.value]
     ends += [row.offset + _size(row) for row in locked if row.area is area]

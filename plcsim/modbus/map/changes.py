@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.shared_image.command import Mask, Scatter, Store
+from plcsim.shared_image.command import Mask, Scatter, StoreCommand
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _ENCODING = "latin-1"
 
 
-class Change(NamedTuple):
+class TagChange(NamedTuple):
     """A tag that was written.
 
     Attributes:
@@ -32,7 +32,7 @@ class Change(NamedTuple):
 
 def changes(
     points: Sequence[Point], stored: Sequence[Operation], before: Sequence[Operation]
-) -> list[Change]:
+) -> list[TagChange]:
     """Return a change for each point, in order; a tag at several addresses is told once.
 
     Args:
@@ -42,13 +42,15 @@ def changes(
     """
     if len(points) == len(stored) == 1:
         (point,), (new_store,), (old_store,) = points, stored, before
-        if isinstance(new_store, Store) and isinstance(old_store, Store):  # what most requests are
+        if isinstance(new_store, StoreCommand) and isinstance(
+            old_store, StoreCommand
+        ):  # what most requests are
             data, was = new_store.data, old_store.data
             if len(data) == point.size:
-                return [Change(point.tag, _decoded(point, data), _decoded(point, was))]
+                return [TagChange(point.tag, _decoded(point, data), _decoded(point, was))]
     new, old = _bytes_of(stored, before)
     found = {
-        point.address: Change(point.tag, _value(point, new), _value(point, old))
+        point.address: TagChange(point.tag, _value(point, new), _value(point, old))
         for point in points
         if any(address in new for address in range(point.address, point.address + point.size))
     }
@@ -63,7 +65,7 @@ def _bytes_of(
     old: dict[int, int] = {}
     for operation, earlier in zip(stored, before, strict=True):
         match operation, earlier:
-            case Store(address, data), Store(_, was):
+            case StoreCommand(address, data), StoreCommand(_, was):
                 addresses: Sequence[int] = range(address, address + len(data))
             case Scatter(addresses, data), Scatter(_, was):
                 pass

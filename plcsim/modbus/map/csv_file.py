@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.suggestion import did_you_mean
 from plcsim.modbus.map.errors import TagMapError
-from plcsim.modbus.map.point import ACCESSES, ADDRESSES, KINDS, ORDERS, Area, Row
+from plcsim.modbus.map.point import ACCESSES, ADDRESSES, KINDS, ORDERS, Area, MapRow
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -34,7 +34,7 @@ DELIMITERS: Final = ",;\t"
 """A spreadsheet writes what its language takes for a list: semicolons in German, for example."""
 
 
-def read_file(file: Path) -> list[Row]:
+def read_file(file: Path) -> list[MapRow]:
     """Return the rows of a file, see `read_rows`.
 
     UTF-8 is expected; what is none was written by a spreadsheet on Windows, in code page 1252.
@@ -61,7 +61,7 @@ def _decoded(data: bytes) -> str:
         return data.decode("cp1252")
 
 
-def read_rows(text: str, file: Path) -> list[Row]:
+def read_rows(text: str, file: Path) -> list[MapRow]:
     """Return the rows of a map.
 
     Empty lines and lines that start with ``#`` are skipped; the first other line names the columns,
@@ -78,7 +78,7 @@ def read_rows(text: str, file: Path) -> list[Row]:
     delimiter = _delimiter(text)
     reader = csv.reader(lines, delimiter=delimiter, strict=True)
     header: list[str] | None = None
-    rows: list[Row] = []
+    rows: list[MapRow] = []
     try:
         for line in reader:
             fields = [field.strip() for field in line]
@@ -133,7 +133,7 @@ def _header(names: list[str], file: Path, line: int) -> list[str]:
     return names
 
 
-def _row(header: list[str], fields: list[str], file: Path, line: int) -> Row:
+def _row(header: list[str], fields: list[str], file: Path, line: int) -> MapRow:
     if len(fields) > len(header):
         raise TagMapError(f"{file}:{line}: {len(fields)} fields for {len(header)} columns")
     values: dict[str, Any] = {"line": line}
@@ -146,7 +146,7 @@ def _row(header: list[str], fields: list[str], file: Path, line: int) -> Row:
     for name in REQUIRED:
         if name not in values:
             raise TagMapError(f"{file}:{line}: {name} is missing")
-    return Row(**values)
+    return MapRow(**values)
 
 
 def _text(text: str) -> str:
@@ -230,7 +230,7 @@ _FIELDS: Final[dict[str, Callable[[str], object]]] = {
 }
 
 
-def write_rows(rows: Iterable[Row]) -> str:
+def write_rows(rows: Iterable[MapRow]) -> str:
     """Return rows as the text of a map; `read_rows` gives them back."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

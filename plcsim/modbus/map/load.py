@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.core.tag import Tag, TagTable
-    from plcsim.modbus.map.point import Point, Row
+    from plcsim.modbus.map.point import MapRow, Point
     from plcsim.modbus.settings import ModbusSettings
 
 
@@ -28,9 +28,9 @@ class TagMap(NamedTuple):
         is_locked: False where the lock file has to be written first.
     """
 
-    rows: Sequence[Row]
+    rows: Sequence[MapRow]
     points: Sequence[Point]
-    lock: Sequence[Row]
+    lock: Sequence[MapRow]
     is_locked: bool
 
 
@@ -54,7 +54,7 @@ def load_map(
     return TagMap(rows, points, lock, is_locked=len(lock) == len(locked))
 
 
-def _file_rows(settings: ModbusSettings) -> list[Row]:
+def _file_rows(settings: ModbusSettings) -> list[MapRow]:
     if not settings.tags:
         return []
     file = Path(settings.tags)

@@ -59,7 +59,7 @@ ACCESSES: Final = ("ro", "rw", "wo")
 
 
 @dataclass(frozen=True)
-class Row:
+class MapRow:
     """A row of tags.csv, its fields checked one by one; None and "" mean the default.
 
     Attributes:

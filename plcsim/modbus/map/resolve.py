@@ -14,8 +14,8 @@ from plcsim.modbus.map.point import (
     MOST_WRITTEN,
     REGISTERS,
     Area,
+    MapRow,
     Point,
-    Row,
 )
 from st_types.types.derived import (
     EnumerationType,
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from plcsim.core.tag import Tag
     from st_types.types.elementary import DataType
 
-_Taken = dict[tuple[Area, int], list[tuple[int, Row]]]
+_Taken = dict[tuple[Area, int], list[tuple[int, MapRow]]]
 """The bits of each register that rows cover, as masks."""
 
 _DEFAULT_KINDS: Final = {"b": "h", "B": "H"}
@@ -58,7 +58,9 @@ def code_of(data_type: DataType[Any]) -> str | None:
     return None
 
 
-def resolve(rows: Iterable[Row], find: Callable[[str], Tag], file: Path, order: str) -> list[Point]:
+def resolve(
+    rows: Iterable[MapRow], find: Callable[[str], Tag], file: Path, order: str
+) -> list[Point]:
     """Return the points of a map, in the order of the rows.
 
     Args:
@@ -83,7 +85,7 @@ def resolve(rows: Iterable[Row], find: Callable[[str], Tag], file: Path, order: 
     return points
 
 
-def _point(row: Row, tag: Tag, order: str) -> Point:
+def _point(row: MapRow, tag: Tag, order: str) -> Point:
     code = code_of(tag.data_type)
     if code is None:
         raise ValueError(f"a variable of type {tag.data_type} cannot lie in registers")
@@ -114,7 +116,7 @@ def _point(row: Row, tag: Tag, order: str) -> Point:
     return point
 
 
-def _check_kind(row: Row, code: str, kind: str) -> None:
+def _check_kind(row: MapRow, code: str, kind: str) -> None:
     """Raise ValueError where the type on the wire is of another kind than the variable."""
     if (kind == "s") != (code == "s"):
         raise ValueError("a STRING needs the type string, and nothing else has it")
@@ -129,11 +131,11 @@ def _check_kind(row: Row, code: str, kind: str) -> None:
         raise ValueError("scale, offset_eu, min and max are for numbers")
 
 
-def _is_scaled(row: Row) -> bool:
+def _is_scaled(row: MapRow) -> bool:
     return (row.scale, row.offset_eu) != (1.0, 0.0)
 
 
-def _check_range(row: Row, data_type: DataType[Any], code: str, kind: str) -> None:
+def _check_range(row: MapRow, data_type: DataType[Any], code: str, kind: str) -> None:
     """Raise ValueError where values of the variable would be cut on the wire."""
     if _is_scaled(row) or kind in "s?fd":
         return
@@ -166,7 +168,7 @@ def _values(data_type: DataType[Any]) -> tuple[int, ...]:
     return tuple(resolved.values.values()) if isinstance(resolved, EnumerationType) else ()
 
 
-def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | None]:
+def _limits(row: MapRow, data_type: DataType[Any]) -> tuple[float | None, float | None]:
     """Return the limits of the row and of a subrange, the narrower ones."""
     low, high = row.minimum, row.maximum
     resolved = resolve_alias(data_type)
@@ -178,7 +180,7 @@ def _limits(row: Row, data_type: DataType[Any]) -> tuple[float | None, float | N
     return low, high
 
 
-def _registers(row: Row, kind: str, data_type: DataType[Any]) -> int:
+def _registers(row: MapRow, kind: str, data_type: DataType[Any]) -> int:
     if kind != "s":
         if row.length not in (0, REGISTERS[kind]):
             raise ValueError(f"length is for strings; this type has {REGISTERS[kind]} registers")
@@ -189,7 +191,7 @@ def _registers(row: Row, kind: str, data_type: DataType[Any]) -> int:
     return row.length or min(most, -(-(data_type.size - 1) // 2))
 
 
-def _access(row: Row, *, is_constant: bool = False) -> str:
+def _access(row: MapRow, *, is_constant: bool = False) -> str:
     may_write = row.area.is_writable and not is_constant
     access = row.access or ("rw" if may_write else "ro")
     if access != "ro" and is_constant:
@@ -199,7 +201,7 @@ def _access(row: Row, *, is_constant: bool = False) -> str:
     return access
 
 
-def _check_place(row: Row, point: Point) -> None:
+def _check_place(row: MapRow, point: Point) -> None:
     end = point.offset + point.registers
     if end > ADDRESSES:
         raise ValueError(f"{point.registers} registers from {point.offset} do not fit below 65536")
@@ -210,7 +212,7 @@ def _check_place(row: Row, point: Point) -> None:
         raise ValueError("partial is for tags without scale and limits, of the variable's own type")
 
 
-def _take(row: Row, point: Point, taken: _Taken) -> None:
+def _take(row: MapRow, point: Point, taken: _Taken) -> None:
     """Note the bits of every register that a row covers; a bit of two rows is an overlap."""
     bits = 0xFFFF if point.bit < 0 else 1 << point.bit
     for register in range(point.offset, point.offset + point.registers):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.modbus.map.conversion import from_registers, wire_order
 from plcsim.modbus.map.errors import IllegalAddress, IllegalValue
 from plcsim.modbus.map.point import Area, Point
-from plcsim.shared_image.command import Mask, Store, merged
+from plcsim.shared_image.command import Mask, StoreCommand, merged
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -54,7 +54,7 @@ class Writes:
         for coil, bit in enumerate(bits, address):
             for point in _writable(self._coils, coil):
                 points.append(point)
-                operations.append(Store(point.address, b"\1" if bit else b"\0"))
+                operations.append(StoreCommand(point.address, b"\1" if bit else b"\0"))
         return MapWrite(merged(operations), points)
 
     def registers(self, address: int, data: bytes) -> MapWrite:
@@ -90,7 +90,9 @@ class Writes:
         for point in points:
             if point.bit >= 0:
                 if not and_mask >> point.bit & 1:
-                    operations.append(Store(point.address, bytes([or_mask >> point.bit & 1])))
+                    operations.append(
+                        StoreCommand(point.address, bytes([or_mask >> point.bit & 1]))
+                    )
                 continue
             if not point.is_plain or point.registers != 1 or point.is_limited:
                 raise IllegalAddress(f"{point.tag} is not a plain word")
@@ -115,20 +117,22 @@ def _writable(used: dict[int, list[Point]], address: int) -> list[Point]:
     return points
 
 
-def _stores(point: Point, address: int, end: int, data: bytes) -> Iterator[Store]:
+def _stores(point: Point, address: int, end: int, data: bytes) -> Iterator[StoreCommand]:
     """Iterate over the stores for the part of ``data`` that belongs to a point."""
     first = 2 * (point.offset - address)
     if point.bit >= 0:
         word = int.from_bytes(data[first : first + 2], "big")
-        yield Store(point.address, bytes([word >> point.bit & 1]))
+        yield StoreCommand(point.address, bytes([word >> point.bit & 1]))
     elif first >= 0 and point.offset + point.registers <= end:
-        yield Store(point.address, from_registers(point, data[first : first + 2 * point.registers]))
+        yield StoreCommand(
+            point.address, from_registers(point, data[first : first + 2 * point.registers])
+        )
     elif point.partial:
         order = enumerate(wire_order(point.size, point.order))
         part = {index: data[first + i] for i, index in order if 0 <= first + i < len(data)}
         _check_exponent(point, part)
         for index, value in part.items():
-            yield Store(point.address + point.size - 1 - index, bytes([value]))
+            yield StoreCommand(point.address + point.size - 1 - index, bytes([value]))
     else:
         raise IllegalAddress(f"only part of {point.tag} is written")
 

@@ -18,7 +18,7 @@ from plcsim.access.line_file import LineFile
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from plcsim.modbus.map.changes import Change
+    from plcsim.modbus.map.changes import TagChange
     from plcsim.modbus.service.device import Origin
 
 LARGEST: Final = 10 * 1024 * 1024
@@ -74,7 +74,7 @@ class AuditLog:
             self._refused = LineFile(refused, largest, FILES_OF_REFUSED, "modbus")
             self._applied.open()
 
-    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+    def applied(self, origin: Origin, changed: Sequence[TagChange]) -> None:
         """Note a write: UTC time, peer, role, unit, function, and what it changed.
 
         Tags that had the value already are counted as ``unchanged``.
@@ -133,7 +133,7 @@ def _head(origin: Origin) -> dict[str, Any]:
     return {"time": time_text, **origin._asdict()}
 
 
-def _shown(change: Change) -> dict[str, Any]:
+def _shown(change: TagChange) -> dict[str, Any]:
     """Return a change for JSON, which knows neither infinity nor NaN."""
     return {
         name: str(value) if isinstance(value, float) and not math.isfinite(value) else value

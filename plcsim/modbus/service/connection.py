@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.modbus.service.handler import Handler, Waiting
 from plcsim.modbus.service.pdu import LONGEST_PDU, WRITE_FUNCTIONS, encode_exception
-from plcsim.shared_image import Outcome
+from plcsim.shared_image import CommandOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -165,7 +165,7 @@ class ModbusConnection:
         out = []
         while self._writes:
             one = self._writes[0]
-            is_waiting = one.write is not None and one.write.outcome is Outcome.WAITING
+            is_waiting = one.write is not None and one.write.outcome is CommandOutcome.WAITING
             if is_waiting and self._device.is_alive and now_ns < one.until_ns:
                 break
             self._writes.popleft()
@@ -174,14 +174,14 @@ class ModbusConnection:
 
     def _answer(self, one: _Write) -> bytes:
         """Return the answer of a write; one that was not taken in time may still be applied."""
-        outcome = Outcome.APPLIED if one.write is None else one.write.outcome
+        outcome = CommandOutcome.APPLIED if one.write is None else one.write.outcome
         code = ExceptionCode.SERVER_DEVICE_FAILURE
-        if outcome is Outcome.APPLIED:
+        if outcome is CommandOutcome.APPLIED:
             try:
                 return one.answer()
             except ModbusException as err:
                 code = err.code
-        elif outcome is Outcome.WAITING and self._device.is_alive:
+        elif outcome is CommandOutcome.WAITING and self._device.is_alive:
             code = ExceptionCode.SERVER_DEVICE_BUSY
         return encode_exception(one.frame.pdu[0], code)
 

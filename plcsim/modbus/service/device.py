@@ -14,10 +14,10 @@ from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
 from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.shared_image import (
+    CommandOutcome,
     CommandRefused,
     ImageError,
     ImageNotReady,
-    Outcome,
     ScanWatch,
     Write,
 )
@@ -25,7 +25,7 @@ from plcsim.shared_image import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from plcsim.modbus.map.changes import Change
+    from plcsim.modbus.map.changes import TagChange
     from plcsim.modbus.map.point import Area, Point
     from plcsim.modbus.map.writing import MapWrite
     from plcsim.shared_image import Answer, Command, Directory
@@ -63,13 +63,13 @@ class PendingWrite:
     ticket: int
     origin: Origin
     write: MapWrite
-    outcome: Outcome = Outcome.WAITING
+    outcome: CommandOutcome = CommandOutcome.WAITING
 
 
 class Audit(Protocol):
     """Who is told of every write (`plcsim.modbus.service.audit`)."""
 
-    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+    def applied(self, origin: Origin, changed: Sequence[TagChange]) -> None:
         """Note a write that the scan has applied."""
 
     def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
@@ -79,7 +79,7 @@ class Audit(Protocol):
 class _NoAudit:
     """Keeps no log."""
 
-    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+    def applied(self, origin: Origin, changed: Sequence[TagChange]) -> None:
         pass
 
     def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
@@ -242,7 +242,7 @@ class Device:
                 continue
             pending.outcome = answer.outcome
             write = pending.write
-            if answer.outcome is Outcome.APPLIED and isinstance(answer.before, Write):
+            if answer.outcome is CommandOutcome.APPLIED and isinstance(answer.before, Write):
                 changed = changes(write.points, write.operations, answer.before.operations)
                 self.audit.applied(pending.origin, changed)
         self._pending = waiting

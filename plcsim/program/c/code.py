@@ -11,7 +11,7 @@ from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
 from plcsim.program.c.sources import compile_program
 from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
-from plcsim.program.compiled import Call, CompiledPrograms
+from plcsim.program.compiled import CallSite, CompiledPrograms
 from plcsim.program.variables import variables_of
 from st_types.types.derived import StructType
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from plcsim.machine import Frame, Machine
-    from plcsim.program.c.sources import Compiled
+    from plcsim.program.c.sources import LinkedModule
     from plcsim.program.compiled import Locate
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
-    from plcsim.program.variables import Variables
+    from plcsim.program.variables import DeclaredVariables
     from st_types.resolve.scope import Scope
     from st_types.types.derived import Member
 
@@ -57,7 +57,7 @@ class CCode:
     """
 
     def __init__(
-        self, compiled: Compiled, scope: Scope, variables: Variables, heap_size: int
+        self, compiled: LinkedModule, scope: Scope, variables: DeclaredVariables, heap_size: int
     ) -> None:
         self._default_heap = heap_size
         self._module = compiled.module
@@ -98,9 +98,9 @@ def _members(tag: Tag) -> Sequence[Member]:
 def locator(module: CModule) -> Locate:
     """Return what locates the frames of a module."""
 
-    def locate(frame: Frame) -> Call | None:
+    def locate(frame: Frame) -> CallSite | None:
         location = module.location(frame)
-        return Call(location, frame.function) if location else None
+        return CallSite(location, frame.function) if location else None
 
     return locate
 

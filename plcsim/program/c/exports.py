@@ -27,8 +27,8 @@ MODULE: Final = "exports"
 """The module of a library's package that names its bodies."""
 
 
-class Export(NamedTuple):
-    """The body of a FUNCTION; see `plcsim.library.executable.Compiled`.
+class ExportedBody(NamedTuple):
+    """The body of a FUNCTION; see `plcsim.library.executable.CompiledExecutable`.
 
     Attributes:
         name: of the function of the C library.
@@ -75,7 +75,7 @@ class ExportedBodies:
             return {}
         exports: Mapping[str, str] = import_module(f"{library.package}.{MODULE}").EXPORTS
         return {
-            function.name: Export(exports[function.name], interface_of(function))
+            function.name: ExportedBody(exports[function.name], interface_of(function))
             for function in library.scope.functions
             if function.name in exports
         }

@@ -102,7 +102,9 @@ class _Modules:
 
 
 class CBody(NamedTuple):
-    """The body of a FUNCTION_BLOCK or of a FUNCTION; see `plcsim.library.executable.Compiled`.
+    """The body of a FUNCTION_BLOCK or of a FUNCTION.
+
+    It is a `plcsim.library.executable.CompiledExecutable`.
 
     Attributes:
         library: that it belongs to.

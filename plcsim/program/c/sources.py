@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 from typing import TYPE_CHECKING, NamedTuple
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.case_blind import written_overlay
 from plcsim.ansi_c.headers import (
     INCLUDE,
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from st_types.resolve.scope import Scope
 
 
-class Compiled(NamedTuple):
+class LinkedModule(NamedTuple):
     """A linked module, and what the compiler said about its sources."""
 
     module: SharedModule
     warnings: Sequence[str]
 
 
-def compile_program(source: ProgramSource) -> Compiled:
+def compile_program(source: ProgramSource) -> LinkedModule:
     """Compile and link the files of a program.
 
     Raises:
@@ -53,7 +53,7 @@ def compile_program(source: ProgramSource) -> Compiled:
     return _compiled(source.name, source.files, folders, *_options(c_build))
 
 
-def compile_library(library: Library, files: Sequence[Path]) -> Compiled:
+def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     """Compile and link the files in C of a library.
 
     Raises:
@@ -101,14 +101,16 @@ def _headers(kind: str, scopes: Sequence[Scope], make: Callable[[], Mapping[str,
     return written_headers(identity_of(kind, scopes), make, parent)
 
 
-def _compiled(name: str, files: Sequence[Path], folders: Sequence[Path], *options: str) -> Compiled:
+def _compiled(
+    name: str, files: Sequence[Path], folders: Sequence[Path], *options: str
+) -> LinkedModule:
     cache = default_folder()
     overlay = written_overlay([*folders, INCLUDE], folders[-1].parent)
-    order = Order(
+    order = BuildOrder(
         name,
         files,
         [*folders, INCLUDE],
         [*options, "-Xclang", "-ivfsoverlay", "-Xclang", str(overlay)],
     )
     built = build(order, find_toolchain(), CodeCache(cache.parent / "c" if cache else None))
-    return Compiled(read_shared(built.wasm), built.warnings)
+    return LinkedModule(read_shared(built.wasm), built.warnings)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.c_library import CLibrary
-from plcsim.ansi_c.heap import Heap, is_of_heap
-from plcsim.library.executable import Compiled
+from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
+from plcsim.library.executable import CompiledExecutable
 from plcsim.machine.placement import Placement, initial_values
 from plcsim.program.c.files import DeviceFiles
 from plcsim.program.compiled import CompiledPrograms
@@ -26,7 +26,7 @@ HEAP_SIZE_NAMES: Final = ("bur_heap_size", "_bur_heap_size")
 
 
 class ProgramSurroundings:
-    """What a program or a library finds; see `plcsim.ansi_c.module.Surroundings`.
+    """What a program or a library finds; see `plcsim.ansi_c.module.ModuleSurroundings`.
 
     Args:
         name: of its module.
@@ -51,7 +51,7 @@ class ProgramSurroundings:
         self._heap_size = heap_size
         self._library = _library(site)
         self._compiled = CompiledPrograms.of(site)
-        self.heap: Heap | None = None
+        self.heap: ProgramHeap | None = None
 
     def variable(self, name: str) -> int | None:
         """Return the address of a variable, what is declared nearest; None where there is none."""
@@ -78,7 +78,7 @@ class ProgramSurroundings:
         """Return a FUNCTION that was compiled: a user's own hides one of C by the same name."""
         function = self._scope.find_function(name)
         found = self._site.catalogue.find_function(name)
-        if function is None or found is None or not isinstance(found[1], Compiled):
+        if function is None or found is None or not isinstance(found[1], CompiledExecutable):
             return None
         return self._compiled.function(function)
 
@@ -91,9 +91,9 @@ class ProgramSurroundings:
         found = self._site.catalogue.find_function(name)
         return None if found is None or found[1] is None else self._compiled.function(function)
 
-    def _own_heap(self) -> Heap:
+    def _own_heap(self) -> ProgramHeap:
         if self.heap is None:
-            self.heap = Heap(self._name, self._site.machine, self._library, self._heap_size)
+            self.heap = ProgramHeap(self._name, self._site.machine, self._library, self._heap_size)
         return self.heap
 
     def reset(self) -> None:

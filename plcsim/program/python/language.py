@@ -20,7 +20,7 @@ from plcsim.program.python.check import check_program
 from plcsim.program.python.modules import add_package, load_module, own_names
 from plcsim.program.python.program import Program
 from plcsim.program.python.shared import ConstantAttribute, GlobalVariable
-from plcsim.program.variables import Variables, variables_of
+from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.types.derived import StructType, resolve_alias
 
@@ -53,7 +53,9 @@ class PythonCode:
 
     def __init__(self, program: type[Program], constants: StructType[Any] | None = None) -> None:
         self.program = program
-        self._variables = Variables(program._plc_type, constants or StructType("CONSTANT", ()))
+        self._variables = DeclaredVariables(
+            program._plc_type, constants or StructType("CONSTANT", ())
+        )
 
     def task(self, name: str, site: Site) -> Task:
         """Return a task that runs the methods of a new view of the class."""

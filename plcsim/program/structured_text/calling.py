@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plcsim.core.memory import Memory
     from plcsim.machine import Extern, Machine
     from plcsim.program.structured_text.ir import Width
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.types.elementary import DataType
 
 PARAMETERS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
@@ -64,7 +64,7 @@ class Interface:
     is_flag: bool
 
 
-def interface_of(function: Function) -> Interface:
+def interface_of(function: DeclaredFunction) -> Interface:
     """Return how a function is called."""
     codes, flags = "", []
     for variable in function.variables:

@@ -11,13 +11,13 @@ from plcsim.program.structured_text.check.program import check_program, is_meant
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
-from plcsim.program.structured_text.layout import OWN, Layout, addresses
+from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
 from plcsim.program.structured_text.sources import UnitDeclarations, check_syntax
 from plcsim.program.structured_text.syntax.tree import ProgramUnit
-from st_types.errors import Severity
+from st_types.errors import DiagnosticSeverity
 from st_types.resolve import dialect as dialects
 
 if TYPE_CHECKING:
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from plcsim.machine import Instance, Machine
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
-    from plcsim.program.structured_text.check.typed import Program, Storage
+    from plcsim.program.structured_text.check.typed import CheckedProgram, Storage
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from plcsim.program.structured_text.sources import UnitFile
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
-    from plcsim.program.variables import Variables
+    from plcsim.program.variables import DeclaredVariables
     from st_types.resolve.scope import Scope
 
 
@@ -50,7 +50,7 @@ def compile_program(
     name: str,
     files: Sequence[UnitFile],
     scope: Scope,
-    shared: Variables,
+    shared: DeclaredVariables,
     catalogue: Catalogue,
     only: str = "",
 ) -> StructuredTextCode:
@@ -76,7 +76,7 @@ def compile_program(
         stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, only)
         keep(cache, key, stored)
     else:
-        layout = Layout(name, _own_scopes(files, scope, only), scope.chain, shared)
+        layout = VariableLayout(name, _own_scopes(files, scope, only), scope.chain, shared)
     keep_possible(stored.code.profile, {file.path: file.source.text for file in files})
     absent = missing(catalogue, scope, stored.code.imports)
     if absent:
@@ -97,15 +97,19 @@ def _own_scopes(files: Sequence[UnitFile], scope: Scope, only: str) -> list[Scop
 
 
 def _compiled(
-    name: str, files: Sequence[StructuredTextFile], scope: Scope, shared: Variables, only: str
-) -> tuple[Stored, Layout]:
+    name: str,
+    files: Sequence[StructuredTextFile],
+    scope: Scope,
+    shared: DeclaredVariables,
+    only: str,
+) -> tuple[Stored, VariableLayout]:
     program, warnings = checked(name, files, scope, "global" if only else "program", only)
     if not any(body.kind == "unit" for body in program.bodies):
         raise ConfigurationError(
             f"{files[0].path}: no PROGRAM is here or in the files beside it; "
             "one of them holds PROGRAM _CYCLIC ... END_PROGRAM"
         )
-    layout = Layout(name, program.scopes, scope.chain, shared)
+    layout = VariableLayout(name, program.scopes, scope.chain, shared)
     semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
     module = lower(program, layout.areas, semantics)
     module.name = f"{name}.{only}" if only else name
@@ -118,7 +122,7 @@ def checked(
     scope: Scope,
     storage: Storage = "program",
     only: str = "",
-) -> tuple[Program, list[str]]:
+) -> tuple[CheckedProgram, list[str]]:
     """Check bodies; return what is to be lowered, and the warnings about them.
 
     Raises:
@@ -127,7 +131,7 @@ def checked(
     known = {id(record) for file in files for record in file.diagnostics.records}
     program = check_program(name, files, scope, storage=storage, only=only)
     records = [each for file in files for each in file.diagnostics.records if id(each) not in known]
-    errors = [each.render() for each in records if each.severity is Severity.ERROR]
+    errors = [each.render() for each in records if each.severity is DiagnosticSeverity.ERROR]
     if errors:
         raise ConfigurationError(*errors)
     return program, [each.render() for each in records]
@@ -147,7 +151,7 @@ class StructuredTextCode:
         self,
         code: ObjectCode,
         scope: Scope,
-        variables: Variables,
+        variables: DeclaredVariables,
         warnings: Sequence[str] = (),
     ) -> None:
         self._code = code

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from plcsim.program.structured_text.sources import UnitFile
-    from plcsim.program.variables import Variables
+    from plcsim.program.variables import DeclaredVariables
     from st_types.resolve.scope import Scope
 
 
@@ -40,7 +40,9 @@ def code_cache() -> CodeCache:
     return CodeCache(folder.parent / "st" if folder else None)
 
 
-def key_of(names: Sequence[str], files: Sequence[UnitFile], scope: Scope, shared: Variables) -> str:
+def key_of(
+    names: Sequence[str], files: Sequence[UnitFile], scope: Scope, shared: DeclaredVariables
+) -> str:
     """Return what two programs have in common whose code is the same.
 
     Args:

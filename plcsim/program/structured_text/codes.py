@@ -9,7 +9,7 @@ from enum import StrEnum
 from typing import Final, NamedTuple
 
 
-class Code(StrEnum):
+class FindingCode(StrEnum):
     """Kinds of findings; ST1 text, ST2 names, ST3 types, ST4 not supported, ST5 warnings."""
 
     SYNTAX = "ST1001"
@@ -69,185 +69,185 @@ class Explanation(NamedTuple):
     example: str = ""
 
 
-EXPLANATIONS: Final[dict[Code, Explanation]] = {
-    Code.SYNTAX: Explanation(
+EXPLANATIONS: Final[dict[FindingCode, Explanation]] = {
+    FindingCode.SYNTAX: Explanation(
         "The text is no Structured Text here",
         "The message says what was expected. Statements before and behind it are checked all the "
         "same, so that one run finds all errors.",
         "a := ;",
     ),
-    Code.DECLARATION: Explanation(
+    FindingCode.DECLARATION: Explanation(
         "A declaration is wrong",
         "A type, a variable, a constant or an initial value that is declared in a file of "
         "Structured Text; `plcsim types check` tells the same of .typ, .var and .fun files.",
         "VAR a : Nowhere; END_VAR",
     ),
-    Code.UNKNOWN_NAME: Explanation(
+    FindingCode.UNKNOWN_NAME: Explanation(
         "Nothing of this name is declared",
         "Names are looked up in the unit, the program, the private packages around it, the project "
         "and its libraries, in this order. In Automation Studio's dialect case matters.",
         "speeed := 1;",
     ),
-    Code.UNKNOWN_MEMBER: Explanation(
+    FindingCode.UNKNOWN_MEMBER: Explanation(
         "The structure or the function block has no such member",
         "The hint names a member that differs in case or little else.",
         "motor.speeed := 1;",
     ),
-    Code.UNKNOWN_TYPE: Explanation(
+    FindingCode.UNKNOWN_TYPE: Explanation(
         "A type has no layout",
         "The type of a variable is not declared, or something in it is not. What is wrong with it "
         "is told where it is declared.",
     ),
-    Code.NOT_CALLABLE: Explanation(
+    FindingCode.NOT_CALLABLE: Explanation(
         "This cannot be called",
         "Functions, instances of function blocks and actions can be called.",
         "counter(1);",
     ),
-    Code.NO_VARIABLE: Explanation(
+    FindingCode.NO_VARIABLE: Explanation(
         "A variable was expected",
         "Only a variable, an element, a member or a bit of one can stand on the left of an "
         "assignment, behind `=>`, for a VAR_IN_OUT, or in ADR.",
         "a + b := 1;",
     ),
-    Code.CONSTANT_ASSIGNED: Explanation(
+    FindingCode.CONSTANT_ASSIGNED: Explanation(
         "A constant cannot be assigned",
         "The variable is declared in a VAR CONSTANT.",
         "MAX_SPEED := 1;",
     ),
-    Code.NO_VALUE: Explanation(
+    FindingCode.NO_VALUE: Explanation(
         "This has no value",
         "The function has no result, or the name stands for a function block, an action or a type.",
         "a := timer;",
     ),
-    Code.DECLARED_TWICE: Explanation(
+    FindingCode.DECLARED_TWICE: Explanation(
         "The same thing is there twice",
         "Two units, actions, functions or function blocks of one name; the first one counts.",
     ),
-    Code.NO_DECLARATION: Explanation(
+    FindingCode.NO_DECLARATION: Explanation(
         "A body without a declaration",
         "The FUNCTION or FUNCTION_BLOCK has no VAR blocks of its own, and no .fun file in reach "
         "declares it.",
     ),
-    Code.NOT_IN_LOOP: Explanation(
+    FindingCode.NOT_IN_LOOP: Explanation(
         "EXIT or CONTINUE outside a loop",
         "They belong into FOR, WHILE or REPEAT.",
         "EXIT;",
     ),
-    Code.CANNOT_CONVERT: Explanation(
+    FindingCode.CANNOT_CONVERT: Explanation(
         "The value does not go into this type by itself",
         "Use a conversion function such as REAL_TO_DINT, or declare the variable differently.",
         "flag := 'text';",
     ),
-    Code.WRONG_OPERANDS: Explanation(
+    FindingCode.WRONG_OPERANDS: Explanation(
         "The operator does not take these types",
         "Arithmetic takes numbers and times, AND, OR, XOR and NOT take BOOL and integers, "
         "comparisons take two values of one kind.",
         "a := 'x' * 2;",
     ),
-    Code.WRONG_ARGUMENTS: Explanation(
+    FindingCode.WRONG_ARGUMENTS: Explanation(
         "The arguments do not fit the parameters",
         "Too many, too few, one given twice, or named and unnamed ones mixed.",
         "a := LIMIT(1, 2);",
     ),
-    Code.UNKNOWN_PARAMETER: Explanation(
+    FindingCode.UNKNOWN_PARAMETER: Explanation(
         "There is no parameter of this name",
         "A call of a function block names inputs and VAR_IN_OUT with `:=` and outputs with `=>`.",
         "timer(TIME := T#1s);",
     ),
-    Code.NO_CONDITION: Explanation(
+    FindingCode.NO_CONDITION: Explanation(
         "A condition must be a BOOL",
         "IF, ELSIF, WHILE and UNTIL take a BOOL.",
         "IF 'x' THEN",
     ),
-    Code.WRONG_INDEX: Explanation(
+    FindingCode.WRONG_INDEX: Explanation(
         "The indices do not fit the array",
         "An index is an integer, and there is one for each dimension.",
         "a := list[1, 2];",
     ),
-    Code.NO_ARRAY: Explanation(
+    FindingCode.NO_ARRAY: Explanation(
         "This is no array", "Only an ARRAY, or a reference to one, can be indexed.", "a := b[1];"
     ),
-    Code.NO_MEMBERS: Explanation(
+    FindingCode.NO_MEMBERS: Explanation(
         "This has no members",
         "Only a STRUCT, an instance of a function block, or a reference to one has members. An "
         "integer has bits: `a.3`, or `a.ALARM` where `ALARM` is a constant or a value of an "
         "enumeration.",
         "a := b.c;",
     ),
-    Code.WRONG_LABEL: Explanation(
+    FindingCode.WRONG_LABEL: Explanation(
         "The label of a CASE must be a constant",
         "A number, a constant, a value of an enumeration, or a range of them.",
         "CASE a OF b: c; END_CASE",
     ),
-    Code.LABEL_TWICE: Explanation(
+    FindingCode.LABEL_TWICE: Explanation(
         "A value has two labels in a CASE",
         "The first one would count, and the other never run.",
         "CASE a OF 1: b; 0..3: c; END_CASE",
     ),
-    Code.WRONG_BIT: Explanation(
+    FindingCode.WRONG_BIT: Explanation(
         "There is no such bit",
         "Bits are counted from 0 up to the width of the integer, less one.",
         "a.16 := TRUE;",
     ),
-    Code.NO_REFERENCE: Explanation(
+    FindingCode.NO_REFERENCE: Explanation(
         "This is no reference",
         "ACCESS and REF= set a variable that is declared as REFERENCE TO; `^` follows a pointer.",
         "number ACCESS ADR(a);",
     ),
-    Code.NO_ADDRESS: Explanation(
+    FindingCode.NO_ADDRESS: Explanation(
         "This has no address",
         "A bit, a number or the result of a calculation lies nowhere in memory.",
         "p := ADR(a.3);",
     ),
-    Code.INDEX_OUTSIDE: Explanation(
+    FindingCode.INDEX_OUTSIDE: Explanation(
         "A constant index lies outside the bounds",
         "The access would meet another variable, or none.",
         "list[11] := 0; (* ARRAY[0..9] *)",
     ),
-    Code.VALUE_OUTSIDE: Explanation(
+    FindingCode.VALUE_OUTSIDE: Explanation(
         "The number does not fit",
         "No conversion keeps its value, nor its bits.",
         "small := 70000; (* INT *)",
     ),
-    Code.DIVISION_BY_ZERO: Explanation(
+    FindingCode.DIVISION_BY_ZERO: Explanation(
         "A constant zero divides", "The program would end in SERVICE here.", "a := b / 0;"
     ),
-    Code.NOT_SUPPORTED: Explanation(
+    FindingCode.NOT_SUPPORTED: Explanation(
         "This is Structured Text that plcsim does not run",
         "Object orientation (METHOD, PROPERTY, INTERFACE, CLASS, EXTENDS), sequential function "
         "charts, jumps and labels. The message names it.",
         "METHOD go END_METHOD",
     ),
-    Code.OTHER_CASE: Explanation(
+    FindingCode.OTHER_CASE: Explanation(
         "The name is declared in another case",
         "Automation Studio's compiler would not find it; plcsim takes the only declaration that "
         "differs in case alone.",
         "Speed := 1; (* speed : INT *)",
     ),
-    Code.UNUSED_VARIABLE: Explanation(
+    FindingCode.UNUSED_VARIABLE: Explanation(
         "A variable is never used",
         "No unit of the program names it. It may still be read from outside, by a panel or a test.",
     ),
-    Code.UNREACHABLE: Explanation(
+    FindingCode.UNREACHABLE: Explanation(
         "These statements are never reached", "They stand behind RETURN, EXIT or CONTINUE."
     ),
-    Code.COMPARED: Explanation(
+    FindingCode.COMPARED: Explanation(
         "A comparison as a statement", "`=` compares. To assign a value, write `:=`.", "a = b;"
     ),
-    Code.NARROWED: Explanation(
+    FindingCode.NARROWED: Explanation(
         "The value may not fit",
         "A larger type is assigned to a smaller one; its low bits are kept.",
         "small := large; (* INT := DINT *)",
     ),
-    Code.SIGN_MIXED: Explanation(
+    FindingCode.SIGN_MIXED: Explanation(
         "A signed and an unsigned number are compared",
         "Both are compared as unsigned numbers of 32 bits: -1 is larger than 1 then.",
         "IF dint < udint THEN",
     ),
-    Code.NO_EFFECT: Explanation(
+    FindingCode.NO_EFFECT: Explanation(
         "The statement does nothing", "A value is worked out and dropped.", "a;"
     ),
-    Code.NEVER_CALLED: Explanation(
+    FindingCode.NEVER_CALLED: Explanation(
         "Nothing calls the action",
         "As in Automation Studio it is not compiled, and what may be wrong in it is not told.",
     ),

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.program.compiled import Call
+from plcsim.program.compiled import CallSite
 
 if TYPE_CHECKING:
     from plcsim.machine import Frame
     from plcsim.program.compiled import Locate
-    from plcsim.program.structured_text.codegen.lines import LineTable
+    from plcsim.program.structured_text.codegen.lines import ModuleLines
 
 REASONS = {"index": "index outside the bounds of its array"}
 """By what compiled code has noted for a trap that it has made itself (`Location.trap`)."""
 
 
-def locator(lines: LineTable) -> Locate:
+def locator(lines: ModuleLines) -> Locate:
     """Return what locates the frames of a module by its lines."""
 
-    def locate(frame: Frame) -> Call | None:
+    def locate(frame: Frame) -> CallSite | None:
         found = lines.find(frame.offset)
         if found is None or found.kind == "helper":
             return None
-        return Call(f"{found.file}:{found.line}", found.function, REASONS.get(found.trap))
+        return CallSite(f"{found.file}:{found.line}", found.function, REASONS.get(found.trap))
 
     return locate

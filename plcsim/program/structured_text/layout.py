@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.lower.memory import Spot
-from plcsim.program.variables import Variables, variables_of
+from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from plcsim.core.tag import Tag
-    from st_types.resolve.declared import Variable
+    from st_types.resolve.declared import DeclaredVariable
     from st_types.resolve.scope import Scope
 
 OWN: Final = ("variables", "constants")
@@ -24,11 +24,11 @@ SHARED: Final = ("global variables", "global constants")
 NOT_STORED: Final = frozenset(["VAR_EXTERNAL", "VAR_TEMP"])
 """Sections whose variables lie elsewhere, or in each call."""
 
-NOTHING: Final = Variables(StructType("globals", ()), StructType("globals CONSTANT", ()))
+NOTHING: Final = DeclaredVariables(StructType("globals", ()), StructType("globals CONSTANT", ()))
 """Where a project has no global variables."""
 
 
-class Layout:
+class VariableLayout:
     """Places of the variables of a program, and of the global ones that it sees.
 
     Args:
@@ -43,10 +43,10 @@ class Layout:
     """
 
     def __init__(
-        self, name: str, own: Sequence[Scope], around: Sequence[Scope], shared: Variables
+        self, name: str, own: Sequence[Scope], around: Sequence[Scope], shared: DeclaredVariables
     ) -> None:
         stored = {scope: _stored(scope) for scope in (*own, *around)}
-        placed: dict[str, Variable] = {}
+        placed: dict[str, DeclaredVariable] = {}
         for scope in own:
             for variable in stored[scope]:
                 placed.setdefault(variable.name, variable)
@@ -65,11 +65,11 @@ class Layout:
                 self.areas[scope] = places
 
 
-def _stored(scope: Scope) -> list[Variable]:
+def _stored(scope: Scope) -> list[DeclaredVariable]:
     return [each for each in scope.variables if each.block.section not in NOT_STORED]
 
 
-def _spots(names: tuple[str, str], kinds: Variables) -> dict[tuple[str, bool], Spot]:
+def _spots(names: tuple[str, str], kinds: DeclaredVariables) -> dict[tuple[str, bool], Spot]:
     """Return places by name, and whether it is one of a constant."""
     found: dict[tuple[str, bool], Spot] = {}
     for is_constant, data_type in enumerate(kinds):
@@ -87,7 +87,9 @@ def addresses(names: tuple[str, str], tags: Iterable[Tag | None]) -> dict[str, i
     }
 
 
-def types_of(tags: Iterable[Tag]) -> Variables:
+def types_of(tags: Iterable[Tag]) -> DeclaredVariables:
     """Return the types of the global variables of a controller."""
     found: dict[bool, StructType[Any]] = {tag.is_constant: tag.data_type for tag in tags}  # type: ignore[misc]  # each is a STRUCT
-    return Variables(found.get(False, NOTHING.variables), found.get(True, NOTHING.constants))
+    return DeclaredVariables(
+        found.get(False, NOTHING.variables), found.get(True, NOTHING.constants)
+    )

@@ -10,7 +10,7 @@ from plcsim.program.structured_text.calling import callable_of, extern_of, inter
 from plcsim.program.structured_text.code import checked
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
-from plcsim.program.structured_text.layout import Layout, types_of
+from plcsim.program.structured_text.layout import VariableLayout, types_of
 from plcsim.program.structured_text.linkage import Linkage
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.names import NAME
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from plcsim.library.library import Library
     from plcsim.machine import Extern, Instance
     from plcsim.program.structured_text.calling import Interface
-    from plcsim.program.structured_text.check.typed import Program
+    from plcsim.program.structured_text.check.typed import CheckedProgram
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from st_types.resolve.scope import Scope
 
@@ -61,7 +61,7 @@ class CompiledLibrary:
         texts: of its files, by path.
     """
 
-    def __init__(self, program: Program, scope: Scope, texts: dict[str, str]) -> None:
+    def __init__(self, program: CheckedProgram, scope: Scope, texts: dict[str, str]) -> None:
         self._program = program
         self._texts = texts
         self._scope = scope
@@ -76,14 +76,16 @@ class CompiledLibrary:
         """Return the code for the global variables of a controller."""
         shared = types_of(site.shared)
         if shared not in self._codes:
-            layout = Layout(self._scope.name, (), self._scope.chain, shared)
+            layout = VariableLayout(self._scope.name, (), self._scope.chain, shared)
             self._codes[shared] = generate(lower(self._program, layout.areas), MEASURING.options)
             keep_possible(self._codes[shared].profile, self._texts)
         return self._codes[shared]
 
 
 class CompiledBody(NamedTuple):
-    """The body of a FUNCTION_BLOCK or of a FUNCTION; see `plcsim.library.executable.Compiled`.
+    """The body of a FUNCTION_BLOCK or of a FUNCTION.
+
+    It is a `plcsim.library.executable.CompiledExecutable`.
 
     Attributes:
         library: that it belongs to.

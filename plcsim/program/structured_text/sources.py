@@ -12,10 +12,10 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text.check.program import declarations_of
 from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
-from st_types.errors import Severity, SourceError
+from st_types.errors import DiagnosticSeverity, SourceError
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.syntax.diagnostics import DiagnosticLog
 from st_types.syntax.lexer import Tokens
@@ -73,7 +73,7 @@ class UnitFile:
             made = declarations_of(self.parsed)
             return UnitDeclarations(made.items, "", made.tokens, made.diagnostics, self)
         nothing = Source(self.path, "")
-        log = DiagnosticLog(nothing, Code.SYNTAX)
+        log = DiagnosticLog(nothing, FindingCode.SYNTAX)
         return UnitDeclarations([], "", Tokens(nothing), log, self)
 
     def _is_sound(self) -> bool:
@@ -118,6 +118,6 @@ def read_files(files: Iterable[Path]) -> list[UnitFile]:
 def check_syntax(files: Iterable[UnitFile]) -> None:
     """Raise a ConfigurationError with all errors that parsing finds."""
     records = [record for file in files for record in file.parsed.diagnostics.records]
-    errors = [record.render() for record in records if record.severity is Severity.ERROR]
+    errors = [record.render() for record in records if record.severity is DiagnosticSeverity.ERROR]
     if errors:
         raise ConfigurationError(*errors)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from plcsim.library.library import CBuild
-from plcsim.project.automation_studio.document import DocumentError, Element, read_document
+from plcsim.project.automation_studio.document import DocumentError, XmlElement, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware, read_hardware
 from plcsim.project.automation_studio.software import Software, read_software
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from plcsim.project.automation_studio.names import Names
+    from plcsim.project.automation_studio.names import FileNames
 
 CPU_LISTS: Final = ("Cpu.pkg", "Plc.pkg")
 IO_MAP: Final = ".iom"
@@ -64,7 +64,7 @@ class Configurations:
         findings: what is wrong in the files read so far.
     """
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: FileNames) -> None:
         self._names = names
         self.findings: list[Finding] = []
         self.folders = dict(self._folders())
@@ -88,19 +88,19 @@ class Configurations:
             if found is not None:
                 yield element.text.strip(), found
 
-    def _document(self, file: Path) -> Element | None:
+    def _document(self, file: Path) -> XmlElement | None:
         try:
             return read_document(file)
         except DocumentError as err:
             self.findings.append(Finding(file, err.line, str(err)))
             return None
 
-    def _objects(self, file: Path, kind: str) -> list[Element]:
+    def _objects(self, file: Path, kind: str) -> list[XmlElement]:
         root = self._document(file)
         objects = [] if root is None else root.all("Object", kind)
         return [each for each in objects if each.tag == kind or each.get("Type") == kind]
 
-    def _found(self, file: Path, folder: Path, element: Element) -> Path | None:
+    def _found(self, file: Path, folder: Path, element: XmlElement) -> Path | None:
         name = element.text.strip() or element.get("Name").strip()
         if element.is_true("Reference"):
             found = self._names.referenced(folder, name)
@@ -201,8 +201,8 @@ class Configurations:
         listed = [self._found(folder / found, folder, element) for element in files]
         return self._build(root), [file for file in listed if file is not None] or present
 
-    def _build(self, root: Element) -> CBuild:
-        build = next(root.all("Build"), Element("Build", {}, 0))
+    def _build(self, root: XmlElement) -> CBuild:
+        build = next(root.all("Build"), XmlElement("Build", {}, 0))
         texts = [each.strip() for each in build.get("AnsicIncludeDirectories").split(",")]
         top = self._names.folder
         found = [self._names.referenced(top, text) for text in texts if text]

@@ -34,7 +34,7 @@ class DocumentError(Exception):
 
 
 @dataclass(slots=True)
-class Element:
+class XmlElement:
     """An element of a document.
 
     Attributes:
@@ -49,7 +49,7 @@ class Element:
     attributes: Mapping[str, str]
     line: int
     text: str = ""
-    children: list[Element] = field(default_factory=list)
+    children: list[XmlElement] = field(default_factory=list)
 
     def get(self, key: str, default: str = "") -> str:
         """Return an attribute."""
@@ -59,7 +59,7 @@ class Element:
         """Whether an attribute says "true"."""
         return self.get(key).strip().lower() == "true"
 
-    def all(self, *tags: str) -> Iterator[Element]:
+    def all(self, *tags: str) -> Iterator[XmlElement]:
         """Yield this element and those in it, in order, that have one of ``tags``."""
         waiting = [self]
         while waiting:
@@ -69,7 +69,7 @@ class Element:
             waiting += reversed(element.children)
 
 
-def read_document(file: Path) -> Element:
+def read_document(file: Path) -> XmlElement:
     """Return the root element of an XML file.
 
     Raises:
@@ -85,7 +85,7 @@ def read_document(file: Path) -> Element:
     return parse(data)
 
 
-def parse(data: bytes) -> Element:
+def parse(data: bytes) -> XmlElement:
     """Return the root element of an XML text.
 
     Raises:
@@ -107,8 +107,8 @@ class _Builder:
     """Makes elements of what the parser finds."""
 
     def __init__(self) -> None:
-        self.root: Element | None = None
-        self._open: list[Element] = []
+        self.root: XmlElement | None = None
+        self._open: list[XmlElement] = []
         self.parser = expat.ParserCreate()
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self._start
@@ -123,7 +123,7 @@ class _Builder:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         if len(self._open) >= MAX_DEPTH:
             raise DocumentError(f"elements are nested deeper than {MAX_DEPTH}", self.line)
-        element = Element(name.rpartition(":")[2], attributes, self.line)
+        element = XmlElement(name.rpartition(":")[2], attributes, self.line)
         if self._open:
             self._open[-1].children.append(element)
         else:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-    from plcsim.project.automation_studio.document import Element
+    from plcsim.project.automation_studio.document import XmlElement
 
 SIMULATED_CPU: Final = "PC_any"
 """Type of the module that is a simulated CPU."""
@@ -80,7 +80,7 @@ def read_hardware(file: Path) -> tuple[Hardware, list[Finding]]:
     return hardware, values.findings
 
 
-def _is_cpu(module: Element) -> bool:
+def _is_cpu(module: XmlElement) -> bool:
     """Whether a module is the CPU; old versions name no configuration, but have task classes."""
     ids = {each.get("ID") for each in module.children if each.tag == "Parameter"}
     return bool(ids & {"ConfigurationID", "Cyclic1Duration", "UserRamSize"})
@@ -89,7 +89,7 @@ def _is_cpu(module: Element) -> bool:
 class _Parameters:
     """The parameters of the CPU itself, not those of its connectors."""
 
-    def __init__(self, file: Path, cpu: Element) -> None:
+    def __init__(self, file: Path, cpu: XmlElement) -> None:
         self._file = file
         self._parameters = {e.get("ID"): e for e in cpu.children if e.tag == "Parameter"}
         self.findings: list[Finding] = []

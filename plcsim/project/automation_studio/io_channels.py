@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.core.io_image import Copy, IoImage, Line
+from plcsim.core.io_image import IoImage, Line, VariableCopy
 from plcsim.core.tag import CHANNELS
 from st_types.types.derived import Member, StructType, resolve_alias
 from st_types.types.elementary import BOOL, UDINT, UINT, ULINT, USINT, ElementaryType
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
     from plcsim.program.declarations import Declarations
-    from plcsim.project.automation_studio.mapping import Channel, Pv
-    from plcsim.project.automation_studio.mapping import Copy as MappedCopy
+    from plcsim.project.automation_studio.mapping import Channel, Pv, PvMapLine
     from st_types.types.elementary import DataType
 
 _WIDTHS: Final[Mapping[str, ElementaryType[bool] | ElementaryType[int]]] = {
@@ -46,7 +45,7 @@ class Maps(NamedTuple):
     """
 
     channels: Sequence[Channel] = ()
-    copies: Sequence[MappedCopy] = ()
+    copies: Sequence[PvMapLine] = ()
 
 
 NO_MAPS: Final = Maps()
@@ -116,7 +115,7 @@ class _Ends(NamedTuple):
 
     inputs: dict[int, list[Line]]
     outputs: dict[int, list[Line]]
-    copies: list[Copy]
+    copies: list[VariableCopy]
     notes: list[str]
 
 
@@ -153,7 +152,7 @@ def _add_channel(controller: Controller, classes: _Classes, channel: Channel, en
     lines.setdefault(classes.of(channel.pv, variable), []).append(line)
 
 
-def _add_copy(controller: Controller, classes: _Classes, copy: MappedCopy, ends: _Ends) -> None:
+def _add_copy(controller: Controller, classes: _Classes, copy: PvMapLine, ends: _Ends) -> None:
     source = controller.tags.get(copy.source.tag)
     target = controller.tags.get(copy.target.tag)
     if source is None or target is None:
@@ -166,7 +165,7 @@ def _add_copy(controller: Controller, classes: _Classes, copy: MappedCopy, ends:
         return
     from_class, to_class = classes.of(copy.source, source), classes.of(copy.target, target)
     size = source.data_type.size
-    ends.copies.append(Copy(source.address, target.address, size, from_class, to_class))
+    ends.copies.append(VariableCopy(source.address, target.address, size, from_class, to_class))
 
 
 class _Classes:

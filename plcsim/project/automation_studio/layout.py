@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.layout import Layout, LibraryPlace, MadeVariable, Place, ProgramPlace
+from plcsim.program.layout import (
+    DeclarationPlace,
+    LibraryPlace,
+    MadeVariable,
+    ProgramPlace,
+    SourceLayout,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,18 +28,18 @@ def layout_of(
     folder: Path,
     tasks: Iterable[ProgramTask],
     stubs: frozenset[str] = frozenset([ALL_VENDORS]),
-) -> Layout:
+) -> SourceLayout:
     """Return the layout of a project.
 
     Args:
         project: as it was read.
         folder: where the file lies that names it.
         tasks: those whose programs are to run.
-        stubs: see `plcsim.program.layout.Layout`.
+        stubs: see `plcsim.program.layout.SourceLayout`.
     """
-    return Layout(
+    return SourceLayout(
         folder.resolve(),
-        Place(project.name, _public_files(project.view.root)),
+        DeclarationPlace(project.name, _public_files(project.view.root)),
         _programs(tasks),
         tuple(map(_library, project.view.libraries)),
         tuple(MadeVariable(each.name, each.data_type) for each in project.mapp_variables),
@@ -52,15 +58,15 @@ def _programs(tasks: Iterable[ProgramTask]) -> Mapping[str, ProgramPlace]:
     for task in tasks:
         if task.program is not None:
             program = task.program
-            own = Place(program.name, _resolved(program.files))
+            own = DeclarationPlace(program.name, _resolved(program.files))
             around = tuple(_private(each) for each in task.around if each.private_files)
             programs[task.source] = ProgramPlace(program.folder.resolve(), own, around)
     return programs
 
 
-def _private(package: Package) -> Place:
+def _private(package: Package) -> DeclarationPlace:
     name = package.path[-1] if package.path else package.folder.name
-    return Place(name, _resolved(package.private_files))
+    return DeclarationPlace(name, _resolved(package.private_files))
 
 
 def _resolved(files: Iterable[Path]) -> tuple[Path, ...]:

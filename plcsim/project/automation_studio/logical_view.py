@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.project.automation_studio.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
-from plcsim.project.automation_studio.names import Names, names_in
+from plcsim.project.automation_studio.names import FileNames, names_in
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from plcsim.project.automation_studio.document import Element
+    from plcsim.project.automation_studio.document import XmlElement
 
 MAX_DEPTH: Final = 32
 """Packages one inside the other; real ones stay below 7."""
@@ -132,14 +132,14 @@ def is_listed(folder: Path) -> bool:
     return any(name.lower() in names for name in (PACKAGE_LIST, *PROGRAM_LISTS, *LIBRARY_LISTS))
 
 
-def read_logical_view(folder: Path, names: Names | None = None) -> LogicalView:
+def read_logical_view(folder: Path, names: FileNames | None = None) -> LogicalView:
     """Read the logical view whose root package lies in ``folder``.
 
     Args:
         folder: as above; the project file lies beside it.
         names: of the project's files, where others look them up too.
     """
-    reader = _Reader(names or Names(folder.parent))
+    reader = _Reader(names or FileNames(folder.parent))
     return LogicalView(reader.package(folder, ()), reader.findings)
 
 
@@ -165,7 +165,7 @@ class _List(NamedTuple):
 class _Reader:
     """Reads the lists of one project."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: FileNames) -> None:
         self._names = names
         self._seen: set[Path] = set()
         self.findings: list[Finding] = []
@@ -261,7 +261,7 @@ def _renamed(item: _Object, found: Path) -> tuple[_Object, Path]:
     return item, found
 
 
-def _objects(root: Element) -> Iterator[_Object]:
+def _objects(root: XmlElement) -> Iterator[_Object]:
     """Yield the lines of a list."""
     for element in root.all("Object", "File"):
         kind = "File" if element.tag == "File" else element.get("Type")

@@ -82,7 +82,7 @@ class Channel(NamedTuple):
         return f'%{self.direction}{self.width}."{self.module}".{self.channel}'
 
 
-class Copy(NamedTuple):
+class PvMapLine(NamedTuple):
     """A line of PvMap.vvm: the value of a variable goes to another one."""
 
     source: Pv
@@ -120,17 +120,17 @@ def _channel(pv: Pv, found: re.Match[str], line: int) -> Channel:
     return Channel(pv, direction, width, found["module"], found["channel"], inverse, line)
 
 
-def read_copies(file: Path) -> tuple[list[Copy], list[Finding]]:
+def read_copies(file: Path) -> tuple[list[PvMapLine], list[Finding]]:
     """Read PvMap.vvm."""
     lines, findings = _lines(file)
-    copies: list[Copy] = []
+    copies: list[PvMapLine] = []
     for line in lines:
         found = _COPY.fullmatch(line.place)
         target = None if found is None else _pv(found["target"])
         if line.pv is None or target is None:
             findings.append(_unknown(file, line, "no mapping of a variable to another"))
         else:
-            copies.append(Copy(line.pv, target, line.number))
+            copies.append(PvMapLine(line.pv, target, line.number))
     return copies, findings
 
 

@@ -17,7 +17,7 @@ def names_in(folder: Path) -> dict[str, str]:
         return {}
 
 
-class Names:
+class FileNames:
     """Finds files of one project, each folder being read once.
 
     Args:

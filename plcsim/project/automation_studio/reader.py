@@ -29,13 +29,13 @@ from plcsim.project.automation_studio.logical_view import (
 from plcsim.project.automation_studio.mapp import MappVariable, read_mapp_variables
 from plcsim.project.automation_studio.mapping import (
     Channel,
-    Copy,
     Pv,
+    PvMapLine,
     read_channels,
     read_copies,
     read_permanent,
 )
-from plcsim.project.automation_studio.names import Names
+from plcsim.project.automation_studio.names import FileNames
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -93,7 +93,7 @@ class AutomationStudioProject:
     tasks: tuple[ProgramTask, ...]
     mapp_variables: tuple[MappVariable, ...]
     channels: tuple[Channel, ...]
-    copies: tuple[Copy, ...]
+    copies: tuple[PvMapLine, ...]
     permanent: tuple[Pv, ...]
     has_preprocessor: bool
     findings: tuple[Finding, ...]
@@ -113,7 +113,7 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
     file = project_file(folder)
     if file is None:
         raise ConfigurationError(f"{folder}: there is no project file (*.apj)")
-    names = Names(folder)
+    names = FileNames(folder)
     logical = names.below(folder, "Logical")
     if logical is None:
         raise ConfigurationError(f"{folder}: there is no folder Logical")

@@ -11,7 +11,7 @@ from plcsim.project.automation_studio.finding import Finding
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plcsim.project.automation_studio.document import Element
+    from plcsim.project.automation_studio.document import XmlElement
 
 SUFFIX: Final = ".prg"
 
@@ -67,7 +67,7 @@ def read_software(file: Path) -> tuple[Software, list[Finding]]:
     return Software(tuple(tasks), tuple(disabled)), findings + _same_names(file, tasks)
 
 
-def _task(element: Element, number: int) -> TaskLine:
+def _task(element: XmlElement, number: int) -> TaskLine:
     source = element.get("Source").strip()
     path = source[: -len(SUFFIX)] if source.lower().endswith(SUFFIX) else source
     name = element.get("Name").strip() or path.rpartition(".")[2]

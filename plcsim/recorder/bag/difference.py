@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from plcsim.recorder.bag.head import Head
     from plcsim.recorder.bag.reading import BagReader
-    from plcsim.recorder.journal.record import Record
+    from plcsim.recorder.journal.record import JournalRecord
 
 
 def difference(first: BagReader, second: BagReader) -> str:
@@ -57,11 +57,11 @@ def _of_cycles(head: Head, first: BagReader, second: BagReader) -> str:
     return ""
 
 
-def _cycles(bag: BagReader) -> Iterator[Record]:
+def _cycles(bag: BagReader) -> Iterator[JournalRecord]:
     return (record for _, record in bag.records() if record.step == CYCLE)
 
 
-def _of_records(head: Head, one: Record, other: Record) -> str:
+def _of_records(head: Head, one: JournalRecord, other: JournalRecord) -> str:
     if (one.task_class, one.cycle) != (other.task_class, other.cycle):
         return f"{_name(one)} against {_name(other)}"
     if one.variables != other.variables:
@@ -70,7 +70,7 @@ def _of_records(head: Head, one: Record, other: Record) -> str:
     return ""
 
 
-def _name(record: Record) -> str:
+def _name(record: JournalRecord) -> str:
     return f"cycle {record.cycle} of task class {record.task_class}"
 
 

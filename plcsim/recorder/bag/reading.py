@@ -13,7 +13,7 @@ from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
 from plcsim.recorder.bag.types import CYCLES, HEAD, cycle_from, typestore
 from plcsim.recorder.errors import RecordingError
-from plcsim.recorder.journal.record import CYCLE, Record
+from plcsim.recorder.journal.record import CYCLE, JournalRecord
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from plcsim.recorder.bag.head import Head
 
 
-class Message(NamedTuple):
+class BagMessage(NamedTuple):
     """A message of a bag.
 
     Attributes:
@@ -47,7 +47,7 @@ class Message(NamedTuple):
         return bytes(typestore(ros2=True).cdr_to_ros1(self.data, self.type_name))
 
 
-class Topic(NamedTuple):
+class BagTopic(NamedTuple):
     """A topic of a bag.
 
     Attributes:
@@ -81,7 +81,7 @@ class BagReader:
         self.path = path
         self._reader = reader
         self._is_cdr = is_cdr
-        found: dict[tuple[str, str], Topic] = {}
+        found: dict[tuple[str, str], BagTopic] = {}
         for each in reader.connections:
             topic = _topic_of(each)
             key = topic.name, topic.type_name
@@ -92,7 +92,7 @@ class BagReader:
         self.start_ns: int = reader.start_time if reader.message_count else 0
         self.end_ns: int = reader.end_time if reader.message_count else 0
 
-    def messages(self, topics: Collection[str] = ()) -> Iterator[Message]:
+    def messages(self, topics: Collection[str] = ()) -> Iterator[BagMessage]:
         """Return messages in the order of their times; of all topics where none are named.
 
         Raises:
@@ -105,10 +105,10 @@ class BagReader:
             if not self._is_cdr and chunks.is_in_order(self._reader):
                 named = {c.id: (c.topic, c.msgtype) for c in chosen}
                 for number, time_ns, data in chunks.messages(self._reader, named):
-                    yield Message(*named[number], time_ns, data, is_cdr=False)
+                    yield BagMessage(*named[number], time_ns, data, is_cdr=False)
                 return
             for connection, time_ns, data in self._reader.messages(connections=chosen):
-                yield Message(
+                yield BagMessage(
                     connection.topic, connection.msgtype, time_ns, bytes(data), self._is_cdr
                 )
 
@@ -129,7 +129,7 @@ class BagReader:
             "ros.replay plays the messages of any bag to a project"
         )
 
-    def records(self) -> Iterator[tuple[int, Record]]:
+    def records(self) -> Iterator[tuple[int, JournalRecord]]:
         """Return the records with their numbers, the variables of each whole.
 
         Raises:
@@ -142,7 +142,7 @@ class BagReader:
                 before = cycle.variables if cycle.whole else changed(before, cycle.variables)
             yield (
                 cycle.number,
-                Record(
+                JournalRecord(
                     cycle.step,
                     cycle.task_class,
                     cycle.cycle,
@@ -156,8 +156,8 @@ class BagReader:
             )
 
 
-def _topic_of(connection: Any) -> Topic:
-    return Topic(
+def _topic_of(connection: Any) -> BagTopic:
+    return BagTopic(
         connection.topic,
         connection.msgtype,
         connection.msgcount,

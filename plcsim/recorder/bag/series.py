@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.tag import Tag
     from plcsim.recorder.bag.head import Head
-    from plcsim.recorder.journal.record import Record
+    from plcsim.recorder.journal.record import JournalRecord
 
 
 @dataclass
@@ -33,7 +33,7 @@ class Series:
 
 
 def series_of(
-    head: Head, records: Iterable[tuple[int, Record]], paths: Sequence[str]
+    head: Head, records: Iterable[tuple[int, JournalRecord]], paths: Sequence[str]
 ) -> list[Series]:
     """Return the values of tags with a number, an enumeration or a BOOL.
 
@@ -63,7 +63,7 @@ def series_of(
 
 
 def rows_of(
-    head: Head, records: Iterable[tuple[int, Record]], paths: Sequence[str]
+    head: Head, records: Iterable[tuple[int, JournalRecord]], paths: Sequence[str]
 ) -> Iterator[list[object]]:
     """Return a row for every cycle: seconds since the first, task class, cycle, then the values.
 

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from plcsim.core.tag import Tag
     from plcsim.recorder.bag.files import Bag
     from plcsim.recorder.bag.head import Head
-    from plcsim.recorder.journal.record import Packet, Record
+    from plcsim.recorder.journal.record import JournalMessage, JournalRecord
 
 FIRST_NS: Final = 1
 """ROS takes 0 for "no time"."""
@@ -119,7 +119,7 @@ class Writing:
         self._latest_ns = max(self._latest_ns, self._head.epoch_ns + time_ns)
         return self._latest_ns
 
-    def record(self, number: int, record: Record, *, with_tags: bool = True) -> None:
+    def record(self, number: int, record: JournalRecord, *, with_tags: bool = True) -> None:
         """Write a record, and what has changed of the chosen tags.
 
         Args:
@@ -161,7 +161,7 @@ class Writing:
             if with_tags:
                 self._write_tags(bag_ns, record.variables)
 
-    def _write_packet(self, bag_ns: int, packet: Packet) -> None:
+    def _write_packet(self, bag_ns: int, packet: JournalMessage) -> None:
         """Write a message of a topic, or note what comes over it."""
         number = packet.topic
         if packet.is_topic:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from plcsim.recorder.journal.record import Record
+    from plcsim.recorder.journal.record import JournalRecord
 
 
 def info(options: argparse.Namespace) -> int:
@@ -52,7 +52,7 @@ def info(options: argparse.Namespace) -> int:
     return ExitCode.DONE
 
 
-def _records(records: Iterator[tuple[int, Record]]) -> str:
+def _records(records: Iterator[tuple[int, JournalRecord]]) -> str:
     """Return how many records there are, and how many were lost."""
     count, last = 0, -1
     for number, _ in records:

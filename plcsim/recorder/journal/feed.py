@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.recorder.journal.record import CYCLE, ENDINGS, Record, entries, numbers_of
+from plcsim.recorder.journal.record import CYCLE, ENDINGS, JournalRecord, entries, numbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from plcsim.core.control import Ending
-    from plcsim.recorder.journal.record import Entry
+    from plcsim.recorder.journal.record import JournalStore
 
 
 class EndOfRecord(BaseException):
@@ -36,9 +36,9 @@ class Feed:
         end_run: called where the recorded run was asked to end.
     """
 
-    def __init__(self, records: Iterable[Record]) -> None:
-        self._records: Iterator[Record] = iter(records)
-        self.current: Record | None = None
+    def __init__(self, records: Iterable[JournalRecord]) -> None:
+        self._records: Iterator[JournalRecord] = iter(records)
+        self.current: JournalRecord | None = None
         self.reason = ""
         self.end_run: Callable[[Ending], None] = lambda _ending: None
         self._endings: dict[int, Ending] = {}
@@ -119,12 +119,12 @@ class Feed:
         self._byte = at + size
         return record.network[at : at + size]
 
-    def latch(self) -> list[Entry]:
+    def latch(self) -> list[JournalStore]:
         """Return what was written in the LATCH that begins now."""
         self._latch += 1
         return self.written(self._latch)
 
-    def written(self, latch: int) -> list[Entry]:
+    def written(self, latch: int) -> list[JournalStore]:
         """Return what was written in a LATCH of this record; 0 for between two cycles."""
         if self.current is None or not self.current.writes:
             return []

@@ -6,7 +6,7 @@ import json
 import struct
 from typing import TYPE_CHECKING, Final
 
-from plcsim.recorder.journal.record import Entry, packet_head, record_head
+from plcsim.recorder.journal.record import JournalStore, packet_head, record_head
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,11 +60,11 @@ class Journal:
 
     def wrote(self, address: int, data: bytes) -> None:
         """Note a store from outside, or with address 0 a new list of forced tags."""
-        self._writes += Entry(self._latches, address, data).to_bytes()
+        self._writes += JournalStore(self._latches, address, data).to_bytes()
 
     def asked_to_end(self, ending: Ending) -> None:
         """Note that the run shall end after this cycle: from here on nothing preempts it."""
-        self._writes += Entry(len(self.clock), ending.value, b"").to_bytes()
+        self._writes += JournalStore(len(self.clock), ending.value, b"").to_bytes()
 
     def crossed(self, topic: Topic, body: bytes | memoryview) -> None:
         """Note a message; now and then what it goes over, for a recorder that came later."""

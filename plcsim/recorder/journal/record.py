@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 CYCLE: Final = 0
-"""`Record.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
+"""`JournalRecord.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
 
 LIMITS: Final = struct.Struct("<qq")
 """``variables`` of the step RUN: its end on the clock and its cycles, 0 for none."""
@@ -21,7 +21,7 @@ _ENTRY: Final = struct.Struct("<III")
 _PACKET: Final = struct.Struct("<H?xI")
 
 
-class Record(NamedTuple):
+class JournalRecord(NamedTuple):
     """One record.
 
     Attributes:
@@ -51,10 +51,10 @@ class Record(NamedTuple):
 def record_head(
     step: int, task_class: int, sizes: tuple[int, int, int, int], cycle: int, time_ns: int
 ) -> bytes:
-    """Return what stands before clock, network, writes, messages and variables of a `Record`.
+    """Return what stands before clock, network, writes, messages and variables of a record.
 
     Args:
-        step: as of `Record`; task_class, cycle, time_ns too.
+        step: as of `JournalRecord`; task_class, cycle, time_ns too.
         task_class: see there.
         sizes: bytes of clock, network, writes and messages.
         cycle: see there.
@@ -63,7 +63,7 @@ def record_head(
     return _HEAD.pack(step, task_class, *sizes, cycle, time_ns)
 
 
-def record_of(data: bytes) -> Record:
+def record_of(data: bytes) -> JournalRecord:
     """Return the record of `plcsim.recorder.journal.journal.Journal.take`."""
     step, task_class, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
     at = _HEAD.size
@@ -72,15 +72,17 @@ def record_of(data: bytes) -> Record:
         parts.append(data[at : at + size])
         at += size
     clock, network, writes, messages = parts
-    return Record(step, task_class, cycle, time_ns, clock, network, writes, messages, data[at:])
+    return JournalRecord(
+        step, task_class, cycle, time_ns, clock, network, writes, messages, data[at:]
+    )
 
 
 def numbers_of(clock: bytes) -> tuple[int, ...]:
-    """Return `Record.clock` as numbers."""
+    """Return `JournalRecord.clock` as numbers."""
     return struct.unpack(f"<{len(clock) // 8}q", clock)
 
 
-class Packet(NamedTuple):
+class JournalMessage(NamedTuple):
     """A message that crossed the border, or what it goes over.
 
     Attributes:
@@ -95,21 +97,21 @@ class Packet(NamedTuple):
 
 
 def packet_head(topic: int, size: int, *, is_topic: bool = False) -> bytes:
-    """Return what stands before the ``size`` bytes of a `Packet`."""
+    """Return what stands before the ``size`` bytes of a `JournalMessage`."""
     return _PACKET.pack(topic, is_topic, size)
 
 
-def packets(messages: bytes) -> Iterator[Packet]:
-    """Return the packets of `Record.messages`."""
+def packets(messages: bytes) -> Iterator[JournalMessage]:
+    """Return the packets of `JournalRecord.messages`."""
     at = 0
     while at < len(messages):
         topic, is_topic, size = _PACKET.unpack_from(messages, at)
         at += _PACKET.size
-        yield Packet(topic, is_topic, messages[at : at + size])
+        yield JournalMessage(topic, is_topic, messages[at : at + size])
         at += size
 
 
-class Entry(NamedTuple):
+class JournalStore(NamedTuple):
     """What was written from outside.
 
     Attributes:
@@ -133,11 +135,11 @@ ENDINGS: Final = {each.value: each for each in Ending}
 """Addresses of entries that are no writes."""
 
 
-def entries(writes: bytes) -> Iterator[Entry]:
-    """Return the entries of `Record.writes`."""
+def entries(writes: bytes) -> Iterator[JournalStore]:
+    """Return the entries of `JournalRecord.writes`."""
     at = 0
     while at < len(writes):
         latch, address, size = _ENTRY.unpack_from(writes, at)
         at += _ENTRY.size
-        yield Entry(latch, address, writes[at : at + size])
+        yield JournalStore(latch, address, writes[at : at + size])
         at += size

@@ -29,12 +29,12 @@ if TYPE_CHECKING:
     from plcsim.core.task import TaskClass
     from plcsim.project.assembly import Application
     from plcsim.recorder.bag.head import Head
-    from plcsim.recorder.journal.record import Entry, Record
+    from plcsim.recorder.journal.record import JournalRecord, JournalStore
 
 TABLE = "record"
 
 
-class Difference(NamedTuple):
+class ReplayDifference(NamedTuple):
     """Where a replay differs from the recorded run.
 
     Attributes:
@@ -74,7 +74,7 @@ class Replay:
     """
 
     def __init__(
-        self, application: Application, head: Head, records: Iterable[tuple[int, Record]]
+        self, application: Application, head: Head, records: Iterable[tuple[int, JournalRecord]]
     ) -> None:
         self._head = head
         self._feed = feed = Feed(_without_gaps(records))
@@ -93,8 +93,8 @@ class Replay:
             ) from None
         _check_areas(head.areas, self.controller.areas)
         self.cycles = 0
-        self.difference: Difference | None = None
-        self.after_cycle: list[Callable[[TaskClass, Record], None]] = []
+        self.difference: ReplayDifference | None = None
+        self.after_cycle: list[Callable[[TaskClass, JournalRecord], None]] = []
         self._last: tuple[int, int] = (0, 0)
         self._until: Callable[[TaskClass], bool] | None = None
         self._views = [
@@ -104,7 +104,7 @@ class Replay:
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.insert(0, self._publish)
 
-    def run(self, until: Callable[[TaskClass], bool] | None = None) -> Difference | None:
+    def run(self, until: Callable[[TaskClass], bool] | None = None) -> ReplayDifference | None:
         """Repeat the run to its end; return the first difference, None where there is none.
 
         Args:
@@ -119,7 +119,7 @@ class Replay:
                 self._step(self._feed.current)
         return self.difference
 
-    def _step(self, record: Record) -> None:
+    def _step(self, record: JournalRecord) -> None:
         """Do the step that a record ends with."""
         if record.step == CYCLE:
             return self._differs("the run ended before this cycle")
@@ -155,7 +155,7 @@ class Replay:
     def _latch(self, _task_class: TaskClass) -> None:
         self._write(self._feed.latch())
 
-    def _write(self, entries: Iterable[Entry]) -> None:
+    def _write(self, entries: Iterable[JournalStore]) -> None:
         for entry in entries:
             if entry.address:
                 self.controller.memory.write(entry.address, entry.data)
@@ -184,7 +184,7 @@ class Replay:
         if self._until is not None and self._until(task_class):
             raise _Reached
 
-    def _compare(self, task_class: TaskClass, record: Record) -> None:
+    def _compare(self, task_class: TaskClass, record: JournalRecord) -> None:
         """Note the first thing that is otherwise than recorded."""
         ran = task_class.number, task_class.cycles, self.controller.context.release_ns
         if ran != (record.task_class, record.cycle, record.time_ns):
@@ -202,9 +202,9 @@ class Replay:
         if self.difference is not None:
             return
         if record is not None and record.step == CYCLE:
-            self.difference = Difference(record.task_class, record.cycle, text)
+            self.difference = ReplayDifference(record.task_class, record.cycle, text)
         else:
-            self.difference = Difference(*self._last, f"after it, {text}")
+            self.difference = ReplayDifference(*self._last, f"after it, {text}")
 
 
 def _check_areas(recorded: Sequence[Tag], here: Sequence[Tag]) -> None:
@@ -217,7 +217,7 @@ def _check_areas(recorded: Sequence[Tag], here: Sequence[Tag]) -> None:
         raise RecordingError("the programs are not those that were recorded")
 
 
-def _without_gaps(records: Iterable[tuple[int, Record]]) -> Iterator[Record]:
+def _without_gaps(records: Iterable[tuple[int, JournalRecord]]) -> Iterator[JournalRecord]:
     """Return the records.
 
     Raises:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from plcsim.core.task import Task, TaskClass
-    from plcsim.recorder.journal.record import Record
+    from plcsim.recorder.journal.record import JournalRecord
     from plcsim.recorder.replay.replay import Replay
 
 MOST: Final = 5
@@ -109,7 +109,7 @@ class Why:
     def _latched(self, _task_class: TaskClass) -> None:
         self._look(LATCH)
 
-    def _ended(self, _task_class: TaskClass, _record: Record) -> None:
+    def _ended(self, _task_class: TaskClass, _record: JournalRecord) -> None:
         self._look("PUBLISH, a force")
 
     def _watched(self, task: Task, cyclic: Callable[[], None]) -> Callable[[], None]:

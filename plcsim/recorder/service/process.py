@@ -20,7 +20,7 @@ from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.process.service_main import Service
-    from plcsim.shared_image.stream import Record as Streamed
+    from plcsim.shared_image.stream import StreamRecord
 
 POLL_S: Final = 0.01
 MOST: Final = 200
@@ -92,7 +92,7 @@ class Recorder:
             self._write(record, with_tags=not is_behind or record is records[-1])
         return len(records)
 
-    def _write(self, streamed: Streamed, *, with_tags: bool) -> None:
+    def _write(self, streamed: StreamRecord, *, with_tags: bool) -> None:
         if streamed.kind != EventKind.RECORD.value or self._is_closed:
             return
         record = record_of(streamed.data)

@@ -1,7 +1,7 @@
 """For tests of projects, never imported at run time.
 
-The pytest plugin (`plcsim.recorder.testing.plugin`) brings the fixture ``recorder``, a `Recorder`:
-golden runs, and recordings of a machine as tests.
+The pytest plugin (`plcsim.recorder.testing.plugin`) brings the fixture ``recorder``, a
+`RecorderFixture`: golden runs, and recordings of a machine as tests.
 """
 
 from typing import TYPE_CHECKING
@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from plcsim.recorder.testing.recorder import Recorder
+    from plcsim.recorder.testing.recorder import RecorderFixture
 
-__all__ = ["Recorder"]
+__all__ = ["RecorderFixture"]
 
-__getattr__ = lazy_names(__name__, {"Recorder": "plcsim.recorder.testing.recorder"})
+__getattr__ = lazy_names(__name__, {"RecorderFixture": "plcsim.recorder.testing.recorder"})

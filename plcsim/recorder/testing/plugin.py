@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from plcsim.recorder.testing.recorder import Recorder
+    from plcsim.recorder.testing.recorder import RecorderFixture
     from plcsim.testing.plc import Plc
 
 __tracebackhide__ = True
@@ -27,11 +27,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 @pytest.fixture
-def recorder(plc: Plc, request: pytest.FixtureRequest) -> Recorder:
+def recorder(plc: Plc, request: pytest.FixtureRequest) -> RecorderFixture:
     """Record the controller from here on; files are named from the test's folder."""
     update = bool(request.config.getoption("--update-golden"))
     with import_module("plcsim.testing.session").plain_errors():
-        made: Recorder = import_module("plcsim.recorder.testing.recorder").Recorder(
+        made: RecorderFixture = import_module("plcsim.recorder.testing.recorder").RecorderFixture(
             plc, request.path.parent, update=update
         )
     return made

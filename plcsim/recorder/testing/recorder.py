@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __tracebackhide__ = True
 
 
-class Recorder:
+class RecorderFixture:
     """Records the controller under test; what the fixture ``recorder`` is.
 
     Args:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from plcsim.access import Role
 from plcsim.core.control import Action
 from plcsim.core.errors import PlcError, TagError
-from plcsim.shared_image import Control, Force, Release, Store, Write
+from plcsim.shared_image import Control, ForceCommand, Release, StoreCommand, Write
 from plcsim.web.service.door import RefusedError
 from st_types.errors import ValueRangeError
 from st_types.resolve.value_text import value_from
@@ -122,10 +122,10 @@ def _shown(tag: Tag, data: bytes) -> str:
 
 async def _write(hub: Hub, caller: Caller, arguments: Arguments) -> object:
     tag, data = _tag_and_data(hub, arguments)
-    command = Write((Store(tag.address, data),))
+    command = Write((StoreCommand(tag.address, data),))
     answer = await hub.commander.ask(command, f"write {tag.path}")
     before = data
-    if isinstance(answer.before, Write) and isinstance(answer.before.operations[0], Store):
+    if isinstance(answer.before, Write) and isinstance(answer.before.operations[0], StoreCommand):
         before = answer.before.operations[0].data
     changed = {"tag": tag.path, "before": _shown(tag, before), "value": _shown(tag, data)}
     _note(hub, caller, "write", **changed)
@@ -134,7 +134,7 @@ async def _write(hub: Hub, caller: Caller, arguments: Arguments) -> object:
 
 async def _force(hub: Hub, caller: Caller, arguments: Arguments) -> object:
     tag, data = _tag_and_data(hub, arguments)
-    await hub.commander.ask(Force(tag.path, data, caller.user.name), f"force {tag.path}")
+    await hub.commander.ask(ForceCommand(tag.path, data, caller.user.name), f"force {tag.path}")
     changed = {"tag": tag.path, "value": _shown(tag, data)}
     _note(hub, caller, "force", **changed)
     return changed

@@ -8,7 +8,7 @@ import os
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import PlcError
-from plcsim.shared_image import Outcome
+from plcsim.shared_image import CommandOutcome
 
 if TYPE_CHECKING:
     from plcsim.shared_image import Answer, Command, ImageReader
@@ -69,6 +69,6 @@ class Commander:
             raise PlcError(f"{what}: the scan takes no commands; nothing was done yet") from None
         finally:
             self._open.pop(ticket, None)
-        if answer.outcome is not Outcome.APPLIED:
+        if answer.outcome is not CommandOutcome.APPLIED:
             raise PlcError(f"{what}: {answer.outcome.text}")
         return answer

@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import PlcError
-from plcsim.shared_image import Cancel, ImageNotReady, Sample
+from plcsim.shared_image import Cancel, ImageNotReady, SampleCommand
 from plcsim.shared_image.command import MAX_OPERATIONS
 from st_types.types.derived import (
     ArrayType,
@@ -169,5 +169,5 @@ class LiveValues:
         number = len(self._sampled) + 1
         if number > SAMPLES:
             raise PlcError("too many tags are watched that are not in the snapshot")
-        self._image.send(Sample(number, 0, PERIOD_NS, spans))
+        self._image.send(SampleCommand(number, 0, PERIOD_NS, spans))
         self._sampled[number] = members

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.program.structured_text.codes import EXPLANATIONS, Code
+from plcsim.program.structured_text.codes import EXPLANATIONS, FindingCode
 
 TOP = Path(__file__).parents[3]
 FINDINGS = TOP / "tests" / "corpus" / "structured_text"
@@ -25,11 +25,11 @@ def test_the_page_is_as_the_table_is(tool):
 
 
 def test_every_code_is_explained_in_order():
-    assert list(EXPLANATIONS) == list(Code)
-    assert [*Code] == sorted(Code)
+    assert list(EXPLANATIONS) == list(FindingCode)
+    assert [*FindingCode] == sorted(FindingCode)
 
 
 def test_every_code_is_told_by_a_case():
     told = "".join(file.read_text("utf-8") for file in FINDINGS.glob("*findings.txt"))
-    elsewhere = {Code.SYNTAX, Code.UNUSED_VARIABLE}
-    assert {code for code in Code if code.value not in told} == elsewhere
+    elsewhere = {FindingCode.SYNTAX, FindingCode.UNUSED_VARIABLE}
+    assert {code for code in FindingCode if code.value not in told} == elsewhere

@@ -10,7 +10,7 @@ from plcsim.program.structured_text.check.kinds import (
     BOOL,
     UDINT,
     VOID,
-    Kind,
+    TypeKind,
     kind_of,
 )
 from plcsim.program.structured_text.check.names import NOTHING, root_of
@@ -24,7 +24,7 @@ from plcsim.program.structured_text.check.typed import (
     Target,
     Unary,
 )
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
 from st_types.types.derived import DataBlockType, ReferenceType, Section
 
@@ -55,7 +55,7 @@ class BlockChecker(CallChecker):
                 member = next(inputs, None)
                 if member is None:
                     message = f"{block} takes fewer arguments without a name"
-                    self.error(argument, Code.WRONG_ARGUMENTS, message)
+                    self.error(argument, FindingCode.WRONG_ARGUMENTS, message)
                     continue
                 name = member.name
             self._block_argument(argument, name, instance, before, after, line)
@@ -95,7 +95,7 @@ class BlockChecker(CallChecker):
             return
         if spelling != name and self.names.scope.dialect.case_sensitive:
             message = f"{name} is declared as {spelling}"
-            self.findings.warning(argument, Code.OTHER_CASE, message)
+            self.findings.warning(argument, FindingCode.OTHER_CASE, message)
         member = self.member_of(instance, block, spelling)
         if argument.is_output:
             after += self._output(argument, member, line)
@@ -112,7 +112,7 @@ class BlockChecker(CallChecker):
         names = [member.name for member in block.members if member.section in wanted]
         kind = "output" if argument.is_output else "input"
         message = f"{block} has no {kind} {name}{self.findings.near(name, names)}"
-        self.error(argument, Code.UNKNOWN_PARAMETER, message)
+        self.error(argument, FindingCode.UNKNOWN_PARAMETER, message)
         if argument.value is not None:
             self.value(argument.value)
 
@@ -143,11 +143,11 @@ class BlockChecker(CallChecker):
             symbol = root_of(value)
             if symbol is not None and symbol.is_constant:
                 message = f"{symbol.name} is a constant"
-                self.error(node, Code.CONSTANT_ASSIGNED, message)
+                self.error(node, FindingCode.CONSTANT_ASSIGNED, message)
             return value
         if value.type is not VOID:
             is_name = type(node) is syntax.Name
-            code = Code.CONSTANT_ASSIGNED if is_name else Code.NO_VARIABLE
+            code = FindingCode.CONSTANT_ASSIGNED if is_name else FindingCode.NO_VARIABLE
             message = "a constant cannot be assigned" if is_name else "this cannot be assigned"
             self.error(node, code, message)
         return NOTHING
@@ -172,8 +172,8 @@ def _takes_address(target: Type, value: Value) -> bool:
     """Return whether an address goes into a reference to ``target`` itself, not where it leads."""
     kind = kind_of(target)
     if isinstance(value, Address):
-        return kind is not Kind.INTEGER or target.size != UDINT.size
-    return kind >= Kind.STRING
+        return kind is not TypeKind.INTEGER or target.size != UDINT.size
+    return kind >= TypeKind.STRING
 
 
 def _is_nil(value: Value) -> bool:

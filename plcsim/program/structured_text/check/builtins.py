@@ -15,8 +15,8 @@ from plcsim.program.structured_text.check.kinds import (
     BOOL,
     DINT,
     NUMBERS,
-    Kind,
     Type,
+    TypeKind,
     kind_of,
     number_type,
 )
@@ -74,16 +74,16 @@ def converted(name: str, arguments: Sequence[Value]) -> Value | None:
     (value,) = arguments
     source, target = found
     kind = kind_of(value.type)
-    if kind > Kind.WSTRING:
+    if kind > TypeKind.WSTRING:
         return None
     if source is not None:
         is_text = source in (STRING_80, WSTRING_80)
-        if is_text is not (kind in (Kind.STRING, Kind.WSTRING)):
+        if is_text is not (kind in (TypeKind.STRING, TypeKind.WSTRING)):
             return None
     return Convert(target, name.upper(), value)
 
 
-def _result_of(kinds: frozenset[Kind]) -> Callable[[str, Sequence[Value]], Value | None]:
+def _result_of(kinds: frozenset[TypeKind]) -> Callable[[str, Sequence[Value]], Value | None]:
     """Return a rule: one argument, and the result has its type."""
 
     def made(name: str, arguments: Sequence[Value]) -> Value | None:
@@ -114,27 +114,30 @@ def shared_type(values: Sequence[Value]) -> Type | None:
     for value in values[1:]:
         data_type = operations.compared_type(found, value)
         if data_type is None:
-            same = found.type is value.type and kind_of(value.type) in (Kind.STRUCT, Kind.ARRAY)
+            same = found.type is value.type and kind_of(value.type) in (
+                TypeKind.STRUCT,
+                TypeKind.ARRAY,
+            )
             data_type = value.type if same else None
         if data_type is None:
             return None
         longest = max(found.type, value.type, key=lambda t: t.size)
-        is_text = kind_of(data_type) in (Kind.STRING, Kind.WSTRING)
+        is_text = kind_of(data_type) in (TypeKind.STRING, TypeKind.WSTRING)
         found = Builtin(longest if is_text else data_type, "", ())
     return found.type
 
 
 def _select(name: str, arguments: Sequence[Value]) -> Value | None:
     truth = kind_of(arguments[0].type)
-    return _alike(name, arguments, 1) if truth is Kind.BOOL else None
+    return _alike(name, arguments, 1) if truth is TypeKind.BOOL else None
 
 
 def _multiplex(name: str, arguments: Sequence[Value]) -> Value | None:
-    return _alike(name, arguments, 1) if kind_of(arguments[0].type) is Kind.INTEGER else None
+    return _alike(name, arguments, 1) if kind_of(arguments[0].type) is TypeKind.INTEGER else None
 
 
 def _shift(name: str, arguments: Sequence[Value]) -> Value | None:
-    if any(kind_of(value.type) is not Kind.INTEGER for value in arguments):
+    if any(kind_of(value.type) is not TypeKind.INTEGER for value in arguments):
         return None
     data_type = arguments[0].type
     return Builtin(DINT if data_type is ANY_INT else number_type(data_type), name, arguments)
@@ -151,7 +154,9 @@ def _truncated(name: str, arguments: Sequence[Value]) -> Value | None:
     """TRUNC, TRUNC_INT, REAL_TRUNC_INT, ...: a DINT where no other type is named."""
     target = ELEMENTARY.get(name.rpartition("TRUNC")[2].removeprefix("_"), DINT)
     return (
-        Convert(target, "TRUNC", arguments[0]) if kind_of(arguments[0].type) is Kind.REAL else None
+        Convert(target, "TRUNC", arguments[0])
+        if kind_of(arguments[0].type) is TypeKind.REAL
+        else None
     )
 
 
@@ -160,7 +165,7 @@ def _to_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
     source, _, target = name.partition("_TO_BCD")
     number = ELEMENTARY[source]
     data_type = ELEMENTARY.get(target.removeprefix("_"), _BITS_BY_SIZE[number.size])
-    if kind_of(arguments[0].type) is not Kind.INTEGER:
+    if kind_of(arguments[0].type) is not TypeKind.INTEGER:
         return None
     return Builtin(data_type, "TO_BCD", arguments)
 
@@ -168,7 +173,7 @@ def _to_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
 def _from_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
     """BCD_TO_INT, WORD_BCD_TO_UINT, ..."""
     target = ELEMENTARY[name.rpartition("_")[2]]
-    if kind_of(arguments[0].type) is not Kind.INTEGER:
+    if kind_of(arguments[0].type) is not TypeKind.INTEGER:
         return None
     return Builtin(target, "FROM_BCD", arguments)
 
@@ -227,7 +232,7 @@ def _power(_name: str, arguments: Sequence[Value]) -> Value | None:
 
 
 def _truncating() -> list[str]:
-    targets = [name for name, t in ELEMENTARY.items() if kind_of(t) is Kind.INTEGER]
+    targets = [name for name, t in ELEMENTARY.items() if kind_of(t) is TypeKind.INTEGER]
     named = [f"{start}TRUNC_{target}" for start in ("", "REAL_", "LREAL_") for target in targets]
     return ["TRUNC", *named]
 
@@ -235,7 +240,7 @@ def _truncating() -> list[str]:
 MANY: Final = 64
 """Most arguments of a function that takes any number."""
 
-_NUMBERS_AND_TIMES = NUMBERS | {Kind.TIME}
+_NUMBERS_AND_TIMES = NUMBERS | {TypeKind.TIME}
 _BITS: Final = ("BYTE", "WORD", "DWORD")
 _BITS_BY_SIZE: Final = {ELEMENTARY[name].size: ELEMENTARY[name] for name in _BITS}
 _BCD_NUMBERS: Final = ("SINT", "INT", "DINT", "USINT", "UINT", "UDINT", *_BITS)

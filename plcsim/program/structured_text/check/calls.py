@@ -29,18 +29,18 @@ from plcsim.program.structured_text.check.typed import (
     Target,
     Variable,
 )
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
 from st_types.types.derived import DataBlockType, ReferenceType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
-    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Value
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.syntax.expressions import Expression
 
 _INPUTS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT"])
@@ -67,7 +67,7 @@ class Parameter(NamedTuple):
     initial: object = None
 
 
-def parameters_of(function: Function) -> tuple[Parameter, ...]:
+def parameters_of(function: DeclaredFunction) -> tuple[Parameter, ...]:
     """Return the parameters of a function in order."""
     found = []
     for variable in function.variables:
@@ -93,7 +93,7 @@ class CallChecker(ExpressionChecker):
 
     edges = 0
 
-    def __init__(self, names: Names, findings: Findings) -> None:
+    def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         super().__init__(names, findings)
         self.called_functions: set[str] = set()
 
@@ -101,7 +101,7 @@ class CallChecker(ExpressionChecker):
         found = self.called(node)
         if type(found) is Call and found.type is VOID and found.function.node.result is None:
             message = f"{found.function.name} gives no value"
-            self.error(node, Code.NO_VALUE, message)
+            self.error(node, FindingCode.NO_VALUE, message)
         return found
 
     def called(self, node: syntax.Call) -> Value:
@@ -123,16 +123,16 @@ class CallChecker(ExpressionChecker):
         value = self.value(node.function)
         if isinstance(value.type, DataBlockType):
             message = f"{value.type} is a function block; its call is a statement and has no value"
-            self.error(node, Code.NO_VALUE, message)
+            self.error(node, FindingCode.NO_VALUE, message)
         elif value.type is not VOID:
-            self.error(node, Code.NOT_CALLABLE, f"{value.type} cannot be called")
+            self.error(node, FindingCode.NOT_CALLABLE, f"{value.type} cannot be called")
         return NOTHING
 
     # Functions of a place
 
     def _place_function(self, node: syntax.Call, name: str) -> Value:
         if len(node.arguments) != 1 or node.arguments[0].value is None:
-            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes 1 argument")
+            self.error(node, FindingCode.WRONG_ARGUMENTS, f"{name} takes 1 argument")
             return NOTHING
         argument = node.arguments[0].value
         return self._size(argument) if name == "SIZEOF" else self.address(argument)
@@ -146,7 +146,7 @@ class CallChecker(ExpressionChecker):
             return Constant(ANY_INT, len(node.constant.value) + 1)
         value = self.value(node)
         if value.type is not VOID and (isinstance(value, Bit) or not isinstance(value, PLACES)):
-            self.error(node, Code.NO_ADDRESS, "SIZEOF takes a variable or a type")
+            self.error(node, FindingCode.NO_ADDRESS, "SIZEOF takes a variable or a type")
         return Constant(ANY_INT, value.type.size)
 
     def address(self, node: Expression) -> Value:
@@ -158,7 +158,7 @@ class CallChecker(ExpressionChecker):
         if value.type is VOID:
             return NOTHING
         if isinstance(value, Bit) or not isinstance(value, PLACES):
-            self.error(node, Code.NO_ADDRESS, "this has no address")
+            self.error(node, FindingCode.NO_ADDRESS, "this has no address")
             return NOTHING
         keep_address(value)
         return Address(UDINT, value)
@@ -167,7 +167,7 @@ class CallChecker(ExpressionChecker):
 
     def _edge(self, node: syntax.Call, name: str) -> Value:
         if len(node.arguments) != 1 or node.arguments[0].value is None:
-            self.error(node, Code.WRONG_ARGUMENTS, f"{name} takes 1 argument")
+            self.error(node, FindingCode.WRONG_ARGUMENTS, f"{name} takes 1 argument")
             return NOTHING
         argument = node.arguments[0].value
         value = self.value(argument)
@@ -187,7 +187,7 @@ class CallChecker(ExpressionChecker):
             if found is None:
                 message = f"the function block has no member {name} for this edge"
                 hint = "declare it as VAR : BOOL, as Automation Studio does when it builds"
-                self.error(node, Code.UNKNOWN_MEMBER, message, hint)
+                self.error(node, FindingCode.UNKNOWN_MEMBER, message, hint)
             return found or NOTHING
         return Variable(BOOL, Symbol(f"edge {number}", BOOL, "hidden"))
 
@@ -203,7 +203,7 @@ class CallChecker(ExpressionChecker):
         found = rule.made(name, values)
         if found is None:
             types = ", ".join(str(value.type) for value in values)
-            self.error(node, Code.WRONG_OPERANDS, f"{name} does not take {types}")
+            self.error(node, FindingCode.WRONG_OPERANDS, f"{name} does not take {types}")
             return NOTHING
         return found
 
@@ -214,7 +214,7 @@ class CallChecker(ExpressionChecker):
         named: dict[int, Expression] = {}
         for argument in node.arguments:
             if argument.value is None or argument.is_output:
-                self.error(argument, Code.WRONG_ARGUMENTS, f"{name} takes values only")
+                self.error(argument, FindingCode.WRONG_ARGUMENTS, f"{name} takes values only")
                 return None
             if not argument.name:
                 found.append(argument.value)
@@ -222,7 +222,7 @@ class CallChecker(ExpressionChecker):
             place = _place_of(argument.name.upper(), rule)
             if place is None or place in named:
                 message = f"{name} has no parameter {argument.name}"
-                self.error(argument, Code.UNKNOWN_PARAMETER, message)
+                self.error(argument, FindingCode.UNKNOWN_PARAMETER, message)
                 return None
             named[place] = argument.value
         if named:
@@ -232,7 +232,7 @@ class CallChecker(ExpressionChecker):
                 _count(rule.least) if rule.least == rule.most else f"{rule.least} or more arguments"
             )
             message = f"{name} takes {wanted}, not {len(found)}"
-            self.error(node, Code.WRONG_ARGUMENTS, message)
+            self.error(node, FindingCode.WRONG_ARGUMENTS, message)
             return None
         return found
 
@@ -251,7 +251,7 @@ class CallChecker(ExpressionChecker):
         arguments = self._arguments_of(node, function)
         result = VOID if function.result is None else plain(function.result)
         if function.node.result is not None and function.result is None:
-            self.error(node, Code.UNKNOWN_TYPE, f"the type of {name.name} is not known")
+            self.error(node, FindingCode.UNKNOWN_TYPE, f"the type of {name.name} is not known")
         return Call(result, function, arguments)
 
     def _no_function(self, node: syntax.Call, name: syntax.Name) -> Value:
@@ -260,13 +260,13 @@ class CallChecker(ExpressionChecker):
         scope = self.names.scope
         known = (each for outer in scope.chain for each in outer.index.names("functions"))
         message = f"no function is called {name.name}{self.findings.near(name.name, known)}"
-        self.error(node, Code.UNKNOWN_NAME, message, scope.hint("functions", name.name))
+        self.error(node, FindingCode.UNKNOWN_NAME, message, scope.hint("functions", name.name))
         for argument in node.arguments:
             if argument.value is not None:
                 self.value(argument.value)
         return NOTHING
 
-    def _arguments_of(self, node: syntax.Call, function: Function) -> list[Value | None]:
+    def _arguments_of(self, node: syntax.Call, function: DeclaredFunction) -> list[Value | None]:
         """Return the arguments in the order of the parameters, each checked against its own."""
         parameters = parameters_of(function)
         given = self._given(node, function.name, parameters)
@@ -280,7 +280,7 @@ class CallChecker(ExpressionChecker):
             is_needed = parameter.section in _INPUTS and not parameter.is_optional
             if is_needed and not given.get("", None):
                 message = f"{function.name} needs a value for {parameter.name}"
-                self.error(node, Code.WRONG_ARGUMENTS, message)
+                self.error(node, FindingCode.WRONG_ARGUMENTS, message)
         return found
 
     def _given(
@@ -300,7 +300,7 @@ class CallChecker(ExpressionChecker):
             if key is None:
                 self._no_parameter(argument, name, parameters)
             elif key in found:
-                self.error(argument, Code.WRONG_ARGUMENTS, f"{key} is given twice")
+                self.error(argument, FindingCode.WRONG_ARGUMENTS, f"{key} is given twice")
             else:
                 found[key] = argument
         return found
@@ -311,10 +311,10 @@ class CallChecker(ExpressionChecker):
         if argument.name:
             near = self.findings.near(argument.name, (each.name for each in parameters))
             message = f"{name} has no parameter {argument.name}{near}"
-            self.error(argument, Code.UNKNOWN_PARAMETER, message)
+            self.error(argument, FindingCode.UNKNOWN_PARAMETER, message)
         else:
             message = f"{name} takes {_count(len(parameters))}"
-            self.error(argument, Code.WRONG_ARGUMENTS, message)
+            self.error(argument, FindingCode.WRONG_ARGUMENTS, message)
         if argument.value is not None:
             self.value(argument.value)
 
@@ -351,7 +351,7 @@ class CallChecker(ExpressionChecker):
             return Address(UDINT, value) if is_place else value
         if isinstance(value, Bit) or not isinstance(value, PLACES):
             message = f"{parameter.name} takes a variable"
-            self.error(node, Code.NO_VARIABLE, message)
+            self.error(node, FindingCode.NO_VARIABLE, message)
             return NOTHING
         keep_address(value)
         return Address(UDINT, value)

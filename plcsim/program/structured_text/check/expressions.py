@@ -13,7 +13,7 @@ from plcsim.program.structured_text.check.kinds import (
     BOOL,
     VOID,
     Fit,
-    Kind,
+    TypeKind,
     kind_of,
     number_type,
     plain,
@@ -30,7 +30,7 @@ from plcsim.program.structured_text.check.typed import (
     Target,
     Unary,
 )
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
 from st_types.types.derived import (
     ArrayType,
@@ -45,9 +45,9 @@ from st_types.types.elementary import BYTE, DWORD, ELEMENTARY, WORD
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
-    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Value
     from st_types.syntax.expressions import Expression
 
@@ -64,7 +64,7 @@ class ExpressionChecker:
         findings: take what is wrong.
     """
 
-    def __init__(self, names: Names, findings: Findings) -> None:
+    def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         self.names = names
         self.findings = findings
         self.error = findings.error
@@ -85,11 +85,11 @@ class ExpressionChecker:
         """Tell that nothing has this name."""
         scope = self.names.scope
         if scope.lookup("types", node.name) or scope.lookup("functions", node.name):
-            self.error(node, Code.NO_VALUE, f"{node.name} has no value; it is no variable")
+            self.error(node, FindingCode.NO_VALUE, f"{node.name} has no value; it is no variable")
             return NOTHING
         known = (name for each in scope.chain[:2] for name in each.index.names("variables"))
         message = f"no variable is called {node.name}{self.findings.near(node.name, known)}"
-        self.error(node, Code.UNKNOWN_NAME, message, scope.hint("variables", node.name))
+        self.error(node, FindingCode.UNKNOWN_NAME, message, scope.hint("variables", node.name))
         return NOTHING
 
     def _literal(self, node: syntax.Literal) -> Value:
@@ -98,7 +98,9 @@ class ExpressionChecker:
         if found is not None:
             value = constant.value
             if isinstance(value, int) and not _LEAST <= value < _BEYOND:
-                self.error(node, Code.VALUE_OUTSIDE, f"{node.text[:40]} does not fit 64 bits")
+                self.error(
+                    node, FindingCode.VALUE_OUTSIDE, f"{node.text[:40]} does not fit 64 bits"
+                )
                 return NOTHING
             return Constant(found, constant.value)
         text = str(constant.value)
@@ -109,7 +111,9 @@ class ExpressionChecker:
 
     def _address(self, node: syntax.DirectAddress) -> Value:
         hint = "declare a variable AT this address"
-        self.error(node, Code.NOT_SUPPORTED, f"{node.text} in a statement is not supported", hint)
+        self.error(
+            node, FindingCode.NOT_SUPPORTED, f"{node.text} in a statement is not supported", hint
+        )
         return NOTHING
 
     # Paths
@@ -132,10 +136,10 @@ class ExpressionChecker:
             return self._bit(node, value, int(name))
         if name[0] == "%":
             return self._part(node, value)
-        if kind_of(data_type) is Kind.INTEGER:
+        if kind_of(data_type) is TypeKind.INTEGER:
             return self._named_bit(node, value)
         message = f"{data_type} has no members"
-        self.error(node, Code.NO_MEMBERS, message, _pointer_hint(data_type))
+        self.error(node, FindingCode.NO_MEMBERS, message, _pointer_hint(data_type))
         return NOTHING
 
     def _type_member(self, node: syntax.MemberAccess, base: syntax.Name) -> Value:
@@ -152,7 +156,7 @@ class ExpressionChecker:
         if spelling is None:
             near = self.findings.near(node.name, enumeration.values)
             message = f"{base.name} has no value {node.name}{near}"
-            self.error(node, Code.UNKNOWN_MEMBER, message)
+            self.error(node, FindingCode.UNKNOWN_MEMBER, message)
             return NOTHING
         return Constant(enumeration, enumeration.values[spelling])
 
@@ -163,7 +167,7 @@ class ExpressionChecker:
         if spelling is None:
             near = self.findings.near(node.name, (member.name for member in data_type.members))
             message = f"{data_type} has no member {node.name}{near}"
-            self.error(node, Code.UNKNOWN_MEMBER, message)
+            self.error(node, FindingCode.UNKNOWN_MEMBER, message)
             return NOTHING
         found = self.member_of(value, data_type, spelling)
         if spelling == node.name or not self.names.scope.dialect.case_sensitive:
@@ -171,7 +175,7 @@ class ExpressionChecker:
             self._members[data_type, node.name] = offset, plain(member.data_type)
         else:
             message = f"{node.name} is declared as {spelling}"
-            self.findings.warning(node, Code.OTHER_CASE, message)
+            self.findings.warning(node, FindingCode.OTHER_CASE, message)
         return found
 
     def spelling_of(self, data_type: StructType[Any], name: str) -> str | None:
@@ -189,10 +193,10 @@ class ExpressionChecker:
     def _named_bit(self, node: syntax.MemberAccess, value: Value) -> Value:
         """Check ``x.ALARM``: the bit whose number is a constant or a value of an enumeration."""
         constant = self.names.value(syntax.Name(node.at, node.name))
-        if type(constant) is Constant and kind_of(constant.type) is Kind.INTEGER:
+        if type(constant) is Constant and kind_of(constant.type) is TypeKind.INTEGER:
             return self._bit(node, value, int(constant.value))
         message = f"{value.type} has no members, and no constant is called {node.name}"
-        self.error(node, Code.NO_MEMBERS, message, _pointer_hint(value.type))
+        self.error(node, FindingCode.NO_MEMBERS, message, _pointer_hint(value.type))
         return NOTHING
 
     def _part(self, node: syntax.MemberAccess, value: Value) -> Value:
@@ -203,30 +207,30 @@ class ExpressionChecker:
         part = _PARTS.get(letter)
         if part is None or not digits.isdecimal():
             message = f"{node.name} is no part of an integer; %X0, %B0, %W0 and %D0 are"
-            self.error(node, Code.WRONG_BIT, message)
+            self.error(node, FindingCode.WRONG_BIT, message)
             return NOTHING
-        count = value.type.size // part.size if kind_of(value.type) is Kind.INTEGER else 0
+        count = value.type.size // part.size if kind_of(value.type) is TypeKind.INTEGER else 0
         if not int(digits) < count:
             has = f"has no {node.name}"
-            self.error(node, Code.WRONG_BIT, f"{value.type} {has}")
+            self.error(node, FindingCode.WRONG_BIT, f"{value.type} {has}")
             return NOTHING
         if not isinstance(value, PLACES) or isinstance(value, Bit):
-            self.error(node, Code.NO_VARIABLE, "only a variable has parts")
+            self.error(node, FindingCode.NO_VARIABLE, "only a variable has parts")
             return NOTHING
         keep_address(value)
         return Member(part, value, int(digits) * part.size)
 
     def _bit(self, node: syntax.MemberAccess, value: Value, number: int) -> Value:
         kind = kind_of(value.type)
-        if kind is Kind.BOOL and number == 0:
+        if kind is TypeKind.BOOL and number == 0:
             return value
-        if kind is not Kind.INTEGER:
+        if kind is not TypeKind.INTEGER:
             message = f"{value.type} has no bits; only integers have"
-            self.error(node, Code.WRONG_BIT, message)
+            self.error(node, FindingCode.WRONG_BIT, message)
             return NOTHING
         bits = 8 * value.type.size
         if not 0 <= number < bits:
-            self.error(node, Code.WRONG_BIT, f"{value.type} has the bits 0 to {bits - 1}")
+            self.error(node, FindingCode.WRONG_BIT, f"{value.type} has the bits 0 to {bits - 1}")
             return NOTHING
         return Bit(BOOL, value, number)
 
@@ -237,11 +241,11 @@ class ExpressionChecker:
         if not isinstance(array, ArrayType):
             if array is not VOID:
                 message = f"{array} cannot be indexed; it is no ARRAY"
-                self.error(node, Code.NO_ARRAY, message, _pointer_hint(array))
+                self.error(node, FindingCode.NO_ARRAY, message, _pointer_hint(array))
             return NOTHING
         if len(indices) != len(array.bounds):
             message = f"{array} takes {len(array.bounds)} indices, not {len(indices)}"
-            self.error(node, Code.WRONG_INDEX, message)
+            self.error(node, FindingCode.WRONG_INDEX, message)
             return NOTHING
         for place, (each, (low, high)) in enumerate(zip(node.indices, array.bounds, strict=True)):
             index = indices[place]
@@ -249,15 +253,15 @@ class ExpressionChecker:
                 indices[place] = self._checks.index(index, low, high)
             elif index.type is not VOID and not low <= int(index.value) <= high:
                 message = f"index {index.value} is outside {low}..{high}"
-                self.error(each, Code.INDEX_OUTSIDE, message)
+                self.error(each, FindingCode.INDEX_OUTSIDE, message)
         return followed(Element(plain(array.element), value, array, indices))
 
     def _index_value(self, node: Expression) -> Value:
         index = self.value(node)
         kind = kind_of(index.type)
-        if kind is Kind.INTEGER or kind is Kind.VOID:
-            return index if kind is Kind.INTEGER else Constant(VOID, 0)
-        self.error(node, Code.WRONG_INDEX, f"an index is an integer, not {index.type}")
+        if kind is TypeKind.INTEGER or kind is TypeKind.VOID:
+            return index if kind is TypeKind.INTEGER else Constant(VOID, 0)
+        self.error(node, FindingCode.WRONG_INDEX, f"an index is an integer, not {index.type}")
         return NOTHING
 
     def _dereference(self, node: syntax.Dereference) -> Value:
@@ -267,7 +271,7 @@ class ExpressionChecker:
             target = data_type.target
             return followed(Target(VOID if target is None else plain(target), value))
         if not isinstance(value, Target) and data_type is not VOID:
-            self.error(node, Code.NO_REFERENCE, f"{data_type} is no pointer")
+            self.error(node, FindingCode.NO_REFERENCE, f"{data_type} is no pointer")
         return value
 
     # Operations
@@ -284,7 +288,7 @@ class ExpressionChecker:
             return Unary(value.type, node.operator, value)
         if value.type is not VOID:
             message = f"{node.operator} does not take {value.type}"
-            self.error(node, Code.WRONG_OPERANDS, message)
+            self.error(node, FindingCode.WRONG_OPERANDS, message)
         return NOTHING
 
     def _binary(self, node: syntax.Binary) -> Value:
@@ -305,18 +309,18 @@ class ExpressionChecker:
         if found is None:
             if left.type is not VOID and right.type is not VOID:
                 message = f"{node.operator} does not take {left.type} and {right.type}"
-                self.error(node, Code.WRONG_OPERANDS, message)
+                self.error(node, FindingCode.WRONG_OPERANDS, message)
             return NOTHING
         if node.operator in ("/", "MOD") and _is_zero(right):
             self._division_by_zero(node, found)
         elif operations.mixes_signs(found):
             message = f"{left.type} and {right.type} are compared as unsigned numbers"
-            self.findings.warning(node, Code.SIGN_MIXED, message)
+            self.findings.warning(node, FindingCode.SIGN_MIXED, message)
         return found
 
     def _division_by_zero(self, node: syntax.Binary, value: Binary | Any) -> None:
-        if node.operator == "/" and kind_of(value.type) is not Kind.REAL:
-            self.error(node, Code.DIVISION_BY_ZERO, "division by zero")
+        if node.operator == "/" and kind_of(value.type) is not TypeKind.REAL:
+            self.error(node, FindingCode.DIVISION_BY_ZERO, "division by zero")
 
     def _call(self, node: syntax.Call) -> Value:
         raise NotImplementedError
@@ -327,11 +331,11 @@ class ExpressionChecker:
         """Check a condition."""
         value = self.value(node)
         kind = kind_of(value.type)
-        if kind is not Kind.BOOL and kind is not Kind.VOID:
+        if kind is not TypeKind.BOOL and kind is not TypeKind.VOID:
             is_number = isinstance(value, Constant) and value.value in (0, 1)
             if not is_number:
                 message = f"a condition is a BOOL, not {value.type}"
-                self.error(node, Code.NO_CONDITION, message)
+                self.error(node, FindingCode.NO_CONDITION, message)
         return value
 
     def check_fit(self, node: Expression, value: Value, target: Type) -> None:
@@ -349,24 +353,24 @@ class ExpressionChecker:
                 message = f"{shown} does not fit {target}; {stored} is stored"
             else:
                 message = f"{shown} may not fit {target}"
-            self.findings.warning(node, Code.NARROWED, message)
-        elif is_number and kind_of(target) is Kind.INTEGER:
-            self.error(node, Code.VALUE_OUTSIDE, f"{shown} does not fit {target}")
+            self.findings.warning(node, FindingCode.NARROWED, message)
+        elif is_number and kind_of(target) is TypeKind.INTEGER:
+            self.error(node, FindingCode.VALUE_OUTSIDE, f"{shown} does not fit {target}")
         else:
             hint = _conversion_hint(value.type, target)
-            self.error(node, Code.CANNOT_CONVERT, f"{shown} does not go into {target}", hint)
+            self.error(node, FindingCode.CANNOT_CONVERT, f"{shown} does not go into {target}", hint)
 
     def integer(self, node: Expression, value: Value) -> bool:
         """Return True for an integer, else tell that it is none."""
-        if kind_of(value.type) in (Kind.INTEGER, Kind.VOID):
+        if kind_of(value.type) in (TypeKind.INTEGER, TypeKind.VOID):
             return True
-        self.error(node, Code.CANNOT_CONVERT, f"an integer was expected, not {value.type}")
+        self.error(node, FindingCode.CANNOT_CONVERT, f"an integer was expected, not {value.type}")
         return False
 
 
 def address_of_aggregate(value: Value) -> Value:
     """Return the address in a reference to a STRUCT or an ARRAY: what calculations take of it."""
-    if type(value) is not Target or kind_of(value.type) not in (Kind.STRUCT, Kind.ARRAY):
+    if type(value) is not Target or kind_of(value.type) not in (TypeKind.STRUCT, TypeKind.ARRAY):
         return value
     return value.pointer if isinstance(value.pointer.type, ReferenceType) else value
 

@@ -11,13 +11,13 @@ from st_types.syntax.diagnostics import MAX_DIAGNOSTICS
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from plcsim.program.structured_text.codes import Code
+    from plcsim.program.structured_text.codes import FindingCode
     from st_types.syntax.diagnostics import DiagnosticLog
     from st_types.syntax.expressions import Node
     from st_types.syntax.lexer import Tokens
 
 
-class Findings:
+class FileFindings:
     """The findings of one file.
 
     Args:
@@ -27,17 +27,17 @@ class Findings:
     """
 
     def __init__(
-        self, tokens: Tokens, log: DiagnosticLog, hidden: Collection[Code] = frozenset()
+        self, tokens: Tokens, log: DiagnosticLog, hidden: Collection[FindingCode] = frozenset()
     ) -> None:
         self.tokens = tokens
         self.log = log
         self._hidden = hidden
 
-    def error(self, node: Node, code: Code, message: str, hint: str = "") -> None:
+    def error(self, node: Node, code: FindingCode, message: str, hint: str = "") -> None:
         """Record an error at a node."""
         self.log.error(self.tokens.offset(node.at), message, hint, code)
 
-    def warning(self, node: Node, code: Code, message: str, hint: str = "") -> None:
+    def warning(self, node: Node, code: FindingCode, message: str, hint: str = "") -> None:
         """Record a warning at a node, unless its code is hidden."""
         if code not in self._hidden:
             self.log.warning(self.tokens.offset(node.at), message, hint, code)

@@ -8,7 +8,7 @@ from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     COUNTS,
     Fit,
-    Kind,
+    TypeKind,
     elementary_fit,
     kind_of,
     number_type,
@@ -36,8 +36,8 @@ def fit(value: Value, target: Type) -> Fit:
 
 def _constant_fit(source: Type, value: float, target: Type) -> Fit:
     kind = kind_of(target)
-    if kind is Kind.BOOL:
-        return Fit.EXACT if value in (0, 1) and kind_of(source) is not Kind.REAL else Fit.NEVER
+    if kind is TypeKind.BOOL:
+        return Fit.EXACT if value in (0, 1) and kind_of(source) is not TypeKind.REAL else Fit.NEVER
     if source is not ANY_INT or kind not in COUNTS:
         found = elementary_fit(source, target)
         return _derived_fit(source, target) if found is None else found
@@ -51,14 +51,14 @@ def _constant_fit(source: Type, value: float, target: Type) -> Fit:
 def _derived_fit(source: Type, target: Type) -> Fit:
     kind = kind_of(source)
     target_kind = kind_of(target)
-    if kind is Kind.VOID or target_kind is Kind.VOID:
+    if kind is TypeKind.VOID or target_kind is TypeKind.VOID:
         return Fit.EXACT  # it was reported
     if kind is target_kind:
-        if kind in (Kind.STRING, Kind.WSTRING, Kind.REFERENCE):
+        if kind in (TypeKind.STRING, TypeKind.WSTRING, TypeKind.REFERENCE):
             return Fit.EXACT
-        if kind is Kind.ARRAY:
+        if kind is TypeKind.ARRAY:
             return Fit.EXACT if are_alike(source, target) else Fit.NEVER
-    addresses = (source, target) if kind is Kind.REFERENCE else (target, source)
+    addresses = (source, target) if kind is TypeKind.REFERENCE else (target, source)
     if isinstance(addresses[0], ReferenceType) and addresses[1] in (UDINT, ANY_INT):
         return Fit.EXACT
     return Fit.NEVER

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.program.structured_text.check.kinds import Type
-    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Value
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
 
 LIBRARY: Final = "IecCheck"
 _DIVISIONS: Final[Mapping[Type, str]] = {
@@ -40,7 +40,7 @@ _DIVISIONS: Final[Mapping[Type, str]] = {
 class IecCheck:
     """The calls of IecCheck in one body; there are none where the project has no such library."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: ScopeNames) -> None:
         self._names = names
         self._function = cache(self._found)
 
@@ -60,7 +60,7 @@ class IecCheck:
         function = None if name is None else self._function(name)
         return value if function is None else Call(data_type, function, [value])
 
-    def _found(self, name: str) -> Function | None:
+    def _found(self, name: str) -> DeclaredFunction | None:
         """Return a function of the library, which does not check itself."""
         scope = self._names.scope
         hit = scope.lookup("functions", name)

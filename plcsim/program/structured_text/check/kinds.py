@@ -56,7 +56,7 @@ VOID: Final = DataType[None]("nothing", 0, 1)
 """The type of what has no value, and of what was reported already."""
 
 
-class Kind(IntEnum):
+class TypeKind(IntEnum):
     """What can be done with a type."""
 
     BOOL = 1
@@ -73,34 +73,34 @@ class Kind(IntEnum):
     VOID = 11
 
 
-NUMBERS: Final = frozenset([Kind.INTEGER, Kind.REAL])
-COUNTS: Final = frozenset([Kind.INTEGER, Kind.TIME, Kind.DATE])
+NUMBERS: Final = frozenset([TypeKind.INTEGER, TypeKind.REAL])
+COUNTS: Final = frozenset([TypeKind.INTEGER, TypeKind.TIME, TypeKind.DATE])
 """Kinds that are whole numbers in memory."""
 
 _KINDS_OF_MEANING = {
-    Meaning.BOOL: Kind.BOOL,
-    Meaning.SIGNED: Kind.INTEGER,
-    Meaning.UNSIGNED: Kind.INTEGER,
-    Meaning.BITS: Kind.INTEGER,
-    Meaning.REAL: Kind.REAL,
-    Meaning.DURATION: Kind.TIME,
-    Meaning.DATE: Kind.DATE,
+    Meaning.BOOL: TypeKind.BOOL,
+    Meaning.SIGNED: TypeKind.INTEGER,
+    Meaning.UNSIGNED: TypeKind.INTEGER,
+    Meaning.BITS: TypeKind.INTEGER,
+    Meaning.REAL: TypeKind.REAL,
+    Meaning.DURATION: TypeKind.TIME,
+    Meaning.DATE: TypeKind.DATE,
 }
-_ELEMENTARY_KINDS: Final[Mapping[Type, Kind]] = {
+_ELEMENTARY_KINDS: Final[Mapping[Type, TypeKind]] = {
     data_type: _KINDS_OF_MEANING[data_type.kind]
     for data_type in (*ELEMENTARY.values(), ANY_INT, ANY_REAL)
 }
-_KINDS_OF_CLASS: Final[tuple[tuple[type, Kind], ...]] = (
-    (EnumerationType, Kind.INTEGER),
-    (StringType, Kind.STRING),
-    (WStringType, Kind.WSTRING),
-    (StructType, Kind.STRUCT),
-    (ArrayType, Kind.ARRAY),
-    (ReferenceType, Kind.REFERENCE),
+_KINDS_OF_CLASS: Final[tuple[tuple[type, TypeKind], ...]] = (
+    (EnumerationType, TypeKind.INTEGER),
+    (StringType, TypeKind.STRING),
+    (WStringType, TypeKind.WSTRING),
+    (StructType, TypeKind.STRUCT),
+    (ArrayType, TypeKind.ARRAY),
+    (ReferenceType, TypeKind.REFERENCE),
 )
 
 
-def kind_of(data_type: Type) -> Kind:
+def kind_of(data_type: Type) -> TypeKind:
     """Return the kind of a plain type (see `plain`)."""
     kind = _ELEMENTARY_KINDS.get(data_type)
     if kind is not None:
@@ -108,7 +108,7 @@ def kind_of(data_type: Type) -> Kind:
     for each, kind in _KINDS_OF_CLASS:
         if isinstance(data_type, each):
             return kind
-    return Kind.VOID
+    return TypeKind.VOID
 
 
 def plain(data_type: Type) -> Type:
@@ -156,7 +156,7 @@ def _common_number(a: ElementaryType[Any], b: ElementaryType[Any]) -> Elementary
 
 
 def _number_types() -> list[ElementaryType[Any]]:
-    kinds = (*NUMBERS, Kind.BOOL)
+    kinds = (*NUMBERS, TypeKind.BOOL)
     found = [t for t, kind in _ELEMENTARY_KINDS.items() if kind in kinds]
     return [t for t in found if isinstance(t, ElementaryType)]
 
@@ -193,17 +193,17 @@ class Fit(IntEnum):
 
 def _elementary_fit(source: ElementaryType[Any], target: ElementaryType[Any]) -> Fit:
     from_kind, to_kind = _ELEMENTARY_KINDS[source], _ELEMENTARY_KINDS[target]
-    if source is target or (from_kind is Kind.BOOL and to_kind in NUMBERS):
+    if source is target or (from_kind is TypeKind.BOOL and to_kind in NUMBERS):
         return Fit.EXACT
-    if from_kind is Kind.BOOL and to_kind is Kind.TIME:
+    if from_kind is TypeKind.BOOL and to_kind is TypeKind.TIME:
         return Fit.NARROWED
-    if source is ANY_INT and to_kind is not Kind.BOOL:
+    if source is ANY_INT and to_kind is not TypeKind.BOOL:
         return Fit.EXACT  # of a constant, its value is looked at
-    if from_kind is Kind.INTEGER and to_kind is Kind.REAL:
+    if from_kind is TypeKind.INTEGER and to_kind is TypeKind.REAL:
         return Fit.EXACT
-    if from_kind is Kind.REAL and to_kind is Kind.REAL:
+    if from_kind is TypeKind.REAL and to_kind is TypeKind.REAL:
         return Fit.NARROWED if source is LREAL else Fit.EXACT
-    if from_kind is Kind.INTEGER and to_kind is Kind.INTEGER:
+    if from_kind is TypeKind.INTEGER and to_kind is TypeKind.INTEGER:
         holds = target.minimum <= source.minimum and source.maximum <= target.maximum
         return Fit.EXACT if holds else Fit.NARROWED
     if from_kind in COUNTS and to_kind in COUNTS and source.size == target.size == 4:
@@ -249,8 +249,8 @@ __all__ = [
     "UDINT",
     "VOID",
     "Fit",
-    "Kind",
     "Type",
+    "TypeKind",
     "common_number",
     "elementary_fit",
     "is_unsigned",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim.program.structured_text.check.kinds import VOID, Kind, kind_of, plain
+from plcsim.program.structured_text.check.kinds import VOID, TypeKind, kind_of, plain
 from plcsim.program.structured_text.check.typed import (
     Bit,
     Constant,
@@ -14,7 +14,7 @@ from plcsim.program.structured_text.check.typed import (
     Target,
     Variable,
 )
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from st_types.resolve.constants import UnknownValueError
 from st_types.resolve.index import VariableEntry
 from st_types.resolve.scope import Hit
@@ -23,14 +23,14 @@ from st_types.types.derived import ReferenceType
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from plcsim.program.structured_text.check.findings import Findings
+    from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Storage, Value
     from st_types.resolve.index import IndexEntry, NameSpace
     from st_types.resolve.scope import Scope
     from st_types.syntax.expressions import Name
 
-BY_ADDRESS: Final = frozenset([Kind.STRING, Kind.WSTRING, Kind.STRUCT, Kind.ARRAY])
+BY_ADDRESS: Final = frozenset([TypeKind.STRING, TypeKind.WSTRING, TypeKind.STRUCT, TypeKind.ARRAY])
 """Kinds of parameters of a FUNCTION that go over by their address: what the function does to them
 is done to the caller's variable, as in the C of Automation Studio."""
 
@@ -102,7 +102,7 @@ def followed(place: Value) -> Value:
     return Target(VOID if target is None else plain(target), place)
 
 
-class Names:
+class ScopeNames:
     """Names as one scope knows them.
 
     Args:
@@ -111,7 +111,7 @@ class Names:
         findings: take what is wrong.
     """
 
-    def __init__(self, scope: Scope, symbols: Symbols, findings: Findings) -> None:
+    def __init__(self, scope: Scope, symbols: Symbols, findings: FileFindings) -> None:
         self.scope = scope
         self.symbols = symbols
         self.findings = findings
@@ -153,7 +153,7 @@ class Names:
         """Warn where a name is declared in another case, if case matters."""
         if hit.name != node.name and self.scope.dialect.case_sensitive:
             message = f"{node.name} is declared as {hit.name}"
-            self.findings.warning(node, Code.OTHER_CASE, message)
+            self.findings.warning(node, FindingCode.OTHER_CASE, message)
 
     def _external(self, node: Name, entry: VariableEntry) -> Value | None:
         for scope in self.scope.chain:
@@ -162,16 +162,18 @@ class Names:
                 if isinstance(hit, VariableEntry) and hit.block.section != "VAR_EXTERNAL":
                     return self._variable(node, hit)
         message = f"{entry.name} is declared as VAR_EXTERNAL, and nowhere as VAR_GLOBAL"
-        self.findings.error(node, Code.UNKNOWN_NAME, message)
+        self.findings.error(node, FindingCode.UNKNOWN_NAME, message)
         return NOTHING
 
     def _variable(self, node: Name, entry: VariableEntry) -> Value:
         symbol = self.symbols.of(entry)
         if symbol is None:
-            self.findings.error(node, Code.UNKNOWN_TYPE, f"the type of {entry.name} is not known")
+            self.findings.error(
+                node, FindingCode.UNKNOWN_TYPE, f"the type of {entry.name} is not known"
+            )
             return NOTHING
         symbol.used = True
-        if entry.is_constant and kind_of(symbol.type) < Kind.STRING:
+        if entry.is_constant and kind_of(symbol.type) < TypeKind.STRING:
             return self._constant(node, entry, symbol)
         return named(symbol)
 
@@ -180,7 +182,7 @@ class Names:
             value = entry.resolver.scope.constant(entry.name)
         except UnknownValueError as err:
             message = f"the value of {entry.name} is not known"
-            self.findings.error(node, Code.NO_VALUE, message, err.message)
+            self.findings.error(node, FindingCode.NO_VALUE, message, err.message)
             return NOTHING
         if value is None:
             return named(symbol)

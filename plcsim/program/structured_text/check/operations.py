@@ -14,7 +14,7 @@ from plcsim.program.structured_text.check.kinds import (
     NUMBERS,
     TIME,
     UDINT,
-    Kind,
+    TypeKind,
     common_number,
     is_unsigned,
     kind_of,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Value
 
 COMPARISONS: Final = frozenset(["=", "<>", "<", ">", "<=", ">="])
-CALCULABLE: Final = NUMBERS | {Kind.BOOL}
+CALCULABLE: Final = NUMBERS | {TypeKind.BOOL}
 """Kinds that calculations take; a BOOL counts as 0 or 1."""
 
 _SHORT = ("AND_THEN", "OR_ELSE")
@@ -41,8 +41,8 @@ def takes(operator: str, data_type: Type) -> bool:
     """Return whether ``-`` or ``NOT`` takes a type."""
     kind = kind_of(data_type)
     if operator == "NOT":
-        return kind is Kind.BOOL or kind is Kind.INTEGER
-    return kind in (Kind.INTEGER, Kind.REAL, Kind.TIME)
+        return kind is TypeKind.BOOL or kind is TypeKind.INTEGER
+    return kind in (TypeKind.INTEGER, TypeKind.REAL, TypeKind.TIME)
 
 
 def folded(operator: str, value: Constant) -> Constant | None:
@@ -112,13 +112,15 @@ def compared_type(left: Value, right: Value) -> Type | None:
     a, b = left.type, right.type
     kind, other = kind_of(a), kind_of(b)
     if kind is other and kind not in NUMBERS:
-        return None if kind in (Kind.STRUCT, Kind.ARRAY, Kind.VOID) else a
+        return None if kind in (TypeKind.STRUCT, TypeKind.ARRAY, TypeKind.VOID) else a
     if kind in CALCULABLE and other in CALCULABLE:
-        is_truth = Kind.BOOL in (kind, other) and (_is_truth_value(left) or _is_truth_value(right))
+        is_truth = TypeKind.BOOL in (kind, other) and (
+            _is_truth_value(left) or _is_truth_value(right)
+        )
         return BOOL if is_truth else common_number(a, b)
     if kind in COUNTS and other in COUNTS:
-        return b if kind is Kind.INTEGER else a
-    if Kind.REFERENCE in (kind, other) and Kind.INTEGER in (kind, other):
+        return b if kind is TypeKind.INTEGER else a
+    if TypeKind.REFERENCE in (kind, other) and TypeKind.INTEGER in (kind, other):
         return UDINT
     return None
 
@@ -129,11 +131,11 @@ def _is_truth_value(value: Value) -> bool:
 
 def _logic_type(left: Value, right: Value) -> Type | None:
     kind, other = kind_of(left.type), kind_of(right.type)
-    if kind is Kind.BOOL and other is Kind.BOOL:
+    if kind is TypeKind.BOOL and other is TypeKind.BOOL:
         return BOOL
-    if kind is Kind.INTEGER and other is Kind.INTEGER:
+    if kind is TypeKind.INTEGER and other is TypeKind.INTEGER:
         return common_number(left.type, right.type)
-    if kind in CALCULABLE and other in CALCULABLE and Kind.REAL not in (kind, other):
+    if kind in CALCULABLE and other in CALCULABLE and TypeKind.REAL not in (kind, other):
         is_truth = _is_truth_value(left) or _is_truth_value(right)
         return BOOL if is_truth else common_number(left.type, right.type)
     return None
@@ -142,18 +144,18 @@ def _logic_type(left: Value, right: Value) -> Type | None:
 def _number_type(operator: str, left: Value, right: Value) -> Type | None:
     a, b = left.type, right.type
     kind, other = kind_of(a), kind_of(b)
-    if kind is Kind.BOOL and other is Kind.BOOL:
+    if kind is TypeKind.BOOL and other is TypeKind.BOOL:
         return None
     if operator == "**":
         return _power_type(a, b) if kind in NUMBERS and other in NUMBERS else None
     if kind in CALCULABLE and other in CALCULABLE:
         found = common_number(a, b)
-        return None if operator == "MOD" and kind_of(found) is Kind.REAL else found
-    if Kind.REFERENCE in (kind, other) and Kind.INTEGER in (kind, other):
+        return None if operator == "MOD" and kind_of(found) is TypeKind.REAL else found
+    if TypeKind.REFERENCE in (kind, other) and TypeKind.INTEGER in (kind, other):
         return UDINT if operator in ("+", "-") else None
-    if kind in (Kind.TIME, Kind.DATE) or other in (Kind.TIME, Kind.DATE):
+    if kind in (TypeKind.TIME, TypeKind.DATE) or other in (TypeKind.TIME, TypeKind.DATE):
         return _time_type(operator, a, b)
-    if kind is Kind.REFERENCE and other is Kind.REFERENCE and operator == "-":
+    if kind is TypeKind.REFERENCE and other is TypeKind.REFERENCE and operator == "-":
         return DINT
     return None
 
@@ -167,17 +169,17 @@ def _power_type(base: Type, exponent: Type) -> Type:
 def _time_type(operator: str, a: Type, b: Type) -> Type | None:
     """Return the type of an operation with a TIME or a date: whole numbers, as in C."""
     kinds = kind_of(a), kind_of(b)
-    if any(kind not in (*COUNTS, Kind.REAL) for kind in kinds):
+    if any(kind not in (*COUNTS, TypeKind.REAL) for kind in kinds):
         return None
     if operator in ("*", "/", "MOD"):
-        if kinds == (Kind.TIME, Kind.TIME):
+        if kinds == (TypeKind.TIME, TypeKind.TIME):
             return DINT if operator == "/" else TIME
-        return TIME if Kind.DATE not in kinds else None
-    if operator not in ("+", "-") or Kind.REAL in kinds:
+        return TIME if TypeKind.DATE not in kinds else None
+    if operator not in ("+", "-") or TypeKind.REAL in kinds:
         return None
-    if kinds == (Kind.DATE, Kind.DATE):
+    if kinds == (TypeKind.DATE, TypeKind.DATE):
         return TIME if operator == "-" and a is b else None
-    return next(t for t in (a, b) if t in DATES) if Kind.DATE in kinds else TIME
+    return next(t for t in (a, b) if t in DATES) if TypeKind.DATE in kinds else TIME
 
 
 def mixes_signs(value: Value) -> bool:
@@ -185,12 +187,12 @@ def mixes_signs(value: Value) -> bool:
     if not isinstance(value, Compare) or not is_unsigned(value.operands):
         return False
     sides = (value.left, value.right)
-    if kind_of(value.operands) is not Kind.INTEGER:
+    if kind_of(value.operands) is not TypeKind.INTEGER:
         return False
     return any(
         side.type is not ANY_INT
         and not isinstance(side, Constant)
-        and kind_of(side.type) is Kind.INTEGER
+        and kind_of(side.type) is TypeKind.INTEGER
         and not is_unsigned(number_type(side.type))
         for side in sides
     )

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.check.findings import Findings
+from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.kinds import kind_of, plain
-from plcsim.program.structured_text.check.names import BY_ADDRESS, Names, Symbols, named
+from plcsim.program.structured_text.check.names import BY_ADDRESS, ScopeNames, Symbols, named
 from plcsim.program.structured_text.check.statements import StatementChecker
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
     Configuration,
@@ -40,11 +40,11 @@ if TYPE_CHECKING:
         StructuredTextFile,
         Unit,
     )
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.syntax.tree import Item
     from st_types.types.derived import DataBlockType
 
-QUIET: Final = frozenset([Code.UNUSED_VARIABLE, Code.NARROWED])
+QUIET: Final = frozenset([FindingCode.UNUSED_VARIABLE, FindingCode.NARROWED])
 """Warnings that are told on demand only: sound programs are full of what they mean."""
 
 UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
@@ -94,10 +94,10 @@ def check_program(
     files: Sequence[StructuredTextFile],
     scope: Scope,
     *,
-    hidden: Collection[Code] = QUIET,
+    hidden: Collection[FindingCode] = QUIET,
     storage: Storage = "program",
     only: str = "",
-) -> typed.Program:
+) -> typed.CheckedProgram:
     """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
 
     Actions that nothing calls are left out, as Automation Studio leaves them out.
@@ -116,7 +116,7 @@ def check_program(
     bodies = checker.bodies()
     storages = checker.symbols.storages
     own = [each for each, storage in storages.items() if storage == "program"]
-    return typed.Program(name, bodies, own)
+    return typed.CheckedProgram(name, bodies, own)
 
 
 @dataclass(slots=True, eq=False)
@@ -138,14 +138,16 @@ class _Job:
     nodes: Sequence[Statement]
     file: StructuredTextFile
     owner: _Owner
-    function: Function | None = None
+    function: DeclaredFunction | None = None
     is_needed: bool = True
     calls: set[str] = field(default_factory=set)
-    body: typed.Body | None = None
+    body: typed.CheckedBody | None = None
 
 
 class _ProgramChecker:
-    def __init__(self, scope: Scope, hidden: Collection[Code], storage: Storage, only: str) -> None:
+    def __init__(
+        self, scope: Scope, hidden: Collection[FindingCode], storage: Storage, only: str
+    ) -> None:
         self._only = only
         self.symbols = Symbols({scope: storage})
         self._scope = scope
@@ -158,7 +160,7 @@ class _ProgramChecker:
     def add(self, file: StructuredTextFile) -> None:
         """Take the units of a file."""
         self._file = file
-        self._findings = Findings(file.tokens, file.diagnostics, self._hidden)
+        self._findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
         self._owner = self._program
         for unit in file.units:
             _RULES[type(unit)](self, unit)
@@ -166,7 +168,7 @@ class _ProgramChecker:
     def _is_new(self, unit: Unit, kind: str, name: str) -> bool:
         key = (kind, self._scope.dialect.key(name))
         if key in self._taken:
-            self._findings.error(unit, Code.DECLARED_TWICE, f"{name} is there twice")
+            self._findings.error(unit, FindingCode.DECLARED_TWICE, f"{name} is there twice")
             return False
         self._taken.add(key)
         return True
@@ -220,7 +222,7 @@ class _ProgramChecker:
         name = unit.declaration.name
         for word in (*unit.words, *(["EXTENDS or IMPLEMENTS"] if unit.bases else [])):
             message = f"{word} of {name} is not supported"
-            self._findings.error(unit, Code.NOT_SUPPORTED, message)
+            self._findings.error(unit, FindingCode.NOT_SUPPORTED, message)
         block = self._scope.find_function_block(name)
         if block is None or block.data_type is None:
             self._undeclared(unit, "FUNCTION_BLOCK", name)
@@ -236,7 +238,7 @@ class _ProgramChecker:
         else:
             message = f"nothing declares the {word} {name}"
         hint = "write its VAR blocks here, or declare it in a .fun file"
-        self._findings.error(unit, Code.NO_DECLARATION, message, hint)
+        self._findings.error(unit, FindingCode.NO_DECLARATION, message, hint)
 
     def _refused(self, unit: MethodUnit | UnsupportedUnit) -> None:
         if isinstance(unit, MethodUnit):
@@ -245,27 +247,29 @@ class _ProgramChecker:
         else:
             word, name = unit.keyword, unit.name
         message = f"{word} {name}".rstrip()
-        self._findings.error(unit, Code.NOT_SUPPORTED, f"{message} is not supported")
+        self._findings.error(unit, FindingCode.NOT_SUPPORTED, f"{message} is not supported")
 
     def _include(self, unit: Include) -> None:
-        self._findings.error(unit, Code.NOT_SUPPORTED, f"#include {unit.path} is not supported")
+        self._findings.error(
+            unit, FindingCode.NOT_SUPPORTED, f"#include {unit.path} is not supported"
+        )
 
     def _declarations(self, _unit: Unit) -> None:
         """Blocks of declarations are checked with their scope."""
 
     # Bodies
 
-    def bodies(self) -> list[typed.Body]:
+    def bodies(self) -> list[typed.CheckedBody]:
         """Check what is needed: actions as soon as something calls them."""
-        found: list[typed.Body] = []
+        found: list[typed.CheckedBody] = []
         waiting = [job for job in reversed(self._jobs) if job.is_needed]
         while waiting:
             waiting += self._check(waiting.pop(), found)
         for job in self._jobs:
             if not job.is_needed:
-                findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
+                findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
                 message = f"nothing calls the action {job.name}; it is not compiled"
-                findings.warning(job.unit, Code.NEVER_CALLED, message)
+                findings.warning(job.unit, FindingCode.NEVER_CALLED, message)
         self._check_recursion()
         self._check_used()
         return found
@@ -280,10 +284,10 @@ class _ProgramChecker:
                 if entry.block.section not in _OWN or self.symbols.is_used(entry):
                     continue
                 file = entry.resolver.file
-                if Code.UNUSED_VARIABLE not in self._hidden:
+                if FindingCode.UNUSED_VARIABLE not in self._hidden:
                     message = f"nothing uses {entry.name}"
                     offset = file.tokens.offset(entry.node.at)
-                    file.diagnostics.warning(offset, message, "", Code.UNUSED_VARIABLE)
+                    file.diagnostics.warning(offset, message, "", FindingCode.UNUSED_VARIABLE)
 
     def _check_recursion(self) -> None:
         """Refuse functions that call themselves and need memory for what lives in one call."""
@@ -294,20 +298,20 @@ class _ProgramChecker:
                 continue
             message = f"{job.name} calls itself, and has variables that are no single values"
             hint = "such variables of a FUNCTION exist once"
-            findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
-            findings.error(job.unit, Code.NOT_SUPPORTED, f"{message}: not supported", hint)
+            findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
+            findings.error(job.unit, FindingCode.NOT_SUPPORTED, f"{message}: not supported", hint)
 
-    def _check(self, job: _Job, into: list[typed.Body]) -> list[_Job]:
+    def _check(self, job: _Job, into: list[typed.CheckedBody]) -> list[_Job]:
         """Check a body and return the actions that it is the first to call."""
         owner = job.owner
-        findings = Findings(job.file.tokens, job.file.diagnostics, self._hidden)
-        names = Names(owner.scope, self.symbols, findings)
+        findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
+        names = ScopeNames(owner.scope, self.symbols, findings)
         names.values = self._values.setdefault(owner.scope, {})
         result = self._result(job, names)
         checker = StatementChecker(names, findings, self._callable(owner))
         line = findings.line(job.unit)
         statements = checker.statements(job.nodes)
-        body = typed.Body(job.name, job.kind, job.file.path, line, statements, owner.block)
+        body = typed.CheckedBody(job.name, job.kind, job.file.path, line, statements, owner.block)
         body.result = result
         if job.kind in ("function", "block"):
             body.parameters, body.locals = self._variables(owner.scope)
@@ -338,7 +342,7 @@ class _ProgramChecker:
         return owner.actions[name]
 
     @staticmethod
-    def _result(job: _Job, names: Names) -> typed.Symbol | None:
+    def _result(job: _Job, names: ScopeNames) -> typed.Symbol | None:
         if job.function is None or job.function.result is None:
             return None
         data_type = plain(job.function.result)
@@ -358,7 +362,7 @@ class _ProgramChecker:
         return parameters, others
 
 
-def _needs_memory(body: typed.Body) -> bool:
+def _needs_memory(body: typed.CheckedBody) -> bool:
     """Return True for a function with an array, a structure, a string, or an address taken."""
     others = [*body.locals, *([body.result] if body.result is not None else [])]
     addressed = [symbol for symbol in body.parameters if not symbol.by_address]

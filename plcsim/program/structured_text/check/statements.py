@@ -10,7 +10,7 @@ from plcsim.program.structured_text.check.blocks import BlockChecker
 from plcsim.program.structured_text.check.kinds import BOOL, COUNTS, UDINT, VOID, kind_of
 from plcsim.program.structured_text.check.names import NOTHING
 from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax import tree
 from st_types.resolve.constants import EvaluationError
 from st_types.syntax import expressions as syntax
@@ -19,8 +19,8 @@ from st_types.types.derived import ReferenceType
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
-    from plcsim.program.structured_text.check.findings import Findings
-    from plcsim.program.structured_text.check.names import Names
+    from plcsim.program.structured_text.check.findings import FileFindings
+    from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
 
@@ -39,7 +39,7 @@ class StatementChecker(BlockChecker):
         called_actions: names of the actions that it calls.
     """
 
-    def __init__(self, names: Names, findings: Findings, actions: Collection[str]) -> None:
+    def __init__(self, names: ScopeNames, findings: FileFindings, actions: Collection[str]) -> None:
         super().__init__(names, findings)
         self.called_actions: set[str] = set()
         self._actions = actions
@@ -57,7 +57,7 @@ class StatementChecker(BlockChecker):
         for node in nodes:
             is_left = found and isinstance(found[-1], _LEAVING)
             if is_left and type(node) is not tree.LabelStatement:
-                self.findings.warning(node, Code.UNREACHABLE, "this is never reached")
+                self.findings.warning(node, FindingCode.UNREACHABLE, "this is never reached")
             _RULES[type(node)](self, node, found)
         self._labels = labels
         return found
@@ -130,7 +130,7 @@ class StatementChecker(BlockChecker):
         if isinstance(value.type, ReferenceType):
             return value
         if value.type is not VOID:
-            self.error(node, Code.NO_REFERENCE, f"{value.type} is no reference")
+            self.error(node, FindingCode.NO_REFERENCE, f"{value.type} is no reference")
         return NOTHING
 
     def _set_or_reset(self, node: tree.Assignment, line: int) -> Statement:
@@ -160,7 +160,9 @@ class StatementChecker(BlockChecker):
 
     def _action(self, node: Expression, name: str, line: int) -> Statement:
         if isinstance(node, syntax.Call) and node.arguments:
-            self.error(node, Code.WRONG_ARGUMENTS, f"{name} is an action and takes no arguments")
+            self.error(
+                node, FindingCode.WRONG_ARGUMENTS, f"{name} is an action and takes no arguments"
+            )
         self.called_actions.add(name)
         return typed.CallAction(line, name)
 
@@ -168,9 +170,9 @@ class StatementChecker(BlockChecker):
         value = self.called(node) if type(node) is syntax.Call else self.value(node)
         if isinstance(node, syntax.Binary) and node.operator == "=":
             message = "this compares; to assign, write :="
-            self.findings.warning(node, Code.COMPARED, message)
+            self.findings.warning(node, FindingCode.COMPARED, message)
         elif value.type is not VOID and not isinstance(node, syntax.Call):
-            self.findings.warning(node, Code.NO_EFFECT, "this statement does nothing")
+            self.findings.warning(node, FindingCode.NO_EFFECT, "this statement does nothing")
         return typed.Evaluate(line, value)
 
     # Conditions and loops
@@ -205,7 +207,7 @@ class StatementChecker(BlockChecker):
                 lower <= last and first <= upper
                 for lower, upper in taken[max(place - 1, 0) : place + 1]
             ):
-                self.error(low, Code.LABEL_TWICE, f"{first} has a label already")
+                self.error(low, FindingCode.LABEL_TWICE, f"{first} has a label already")
                 continue
             taken.insert(place, (first, last))
             ranges.append((first, last))
@@ -215,11 +217,11 @@ class StatementChecker(BlockChecker):
         try:
             value = self._label_value(node)
         except EvaluationError as err:
-            self.error(node, Code.WRONG_LABEL, f"this is no constant: {err.message}")
+            self.error(node, FindingCode.WRONG_LABEL, f"this is no constant: {err.message}")
             return None
         if isinstance(value, int):
             return int(value)
-        self.error(node, Code.WRONG_LABEL, "the label of a CASE is an integer")
+        self.error(node, FindingCode.WRONG_LABEL, "the label of a CASE is an integer")
         return None
 
     def _label_value(self, node: Expression) -> object:
@@ -273,7 +275,7 @@ class StatementChecker(BlockChecker):
 
     def _check_in_loop(self, node: syntax.Node, word: str) -> None:
         if not self._loops:
-            self.error(node, Code.NOT_IN_LOOP, f"{word} stands in no loop")
+            self.error(node, FindingCode.NOT_IN_LOOP, f"{word} stands in no loop")
 
     def _return(self, node: tree.ReturnStatement, into: list[Statement]) -> None:
         into.append(typed.Return(self.findings.line(node)))
@@ -286,12 +288,12 @@ class StatementChecker(BlockChecker):
             return
         near = self.findings.near(node.label, self._labels)
         message = f"no label {node.label} is here or around{near}"
-        self.error(node, Code.UNKNOWN_NAME, message, "a jump does not lead into a statement")
+        self.error(node, FindingCode.UNKNOWN_NAME, message, "a jump does not lead into a statement")
 
     def _mark(self, node: tree.LabelStatement, into: list[Statement]) -> None:
         label = self._key(node.label)
         if label in self._placed:
-            self.error(node, Code.DECLARED_TWICE, f"the label {node.label} is there twice")
+            self.error(node, FindingCode.DECLARED_TWICE, f"the label {node.label} is there twice")
             return
         self._placed.add(label)
         into.append(typed.Label(self.findings.line(node), label))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.program.structured_text.check.kinds import Type
-    from st_types.resolve.declared import Function
+    from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.scope import Scope
     from st_types.types.derived import ArrayType, DataBlockType
 
@@ -181,7 +181,7 @@ class Call:
     """
 
     type: Type
-    function: Function
+    function: DeclaredFunction
     arguments: Sequence[Value | None]
 
 
@@ -390,7 +390,7 @@ BodyKind = Literal["unit", "action", "block", "function"]
 
 
 @dataclass(slots=True, eq=False)
-class Body:
+class CheckedBody:
     """A checked body.
 
     Attributes:
@@ -417,7 +417,7 @@ class Body:
 
 
 @dataclass(slots=True, eq=False)
-class Program:
+class CheckedProgram:
     """A checked program, or the Structured Text of a library.
 
     Attributes:
@@ -428,5 +428,5 @@ class Program:
     """
 
     name: str
-    bodies: Sequence[Body]
+    bodies: Sequence[CheckedBody]
     scopes: Sequence[Scope]

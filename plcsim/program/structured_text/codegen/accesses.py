@@ -9,7 +9,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.places import Key, key_of
+from plcsim.program.structured_text.codegen.places import ScalarPlace, key_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -204,11 +204,11 @@ class Accesses:
 
     def __init__(self, *, this: bool) -> None:
         self.this = this
-        self.loaded: dict[Key, tuple[ir.Place, int]] = {}
-        self.stored: dict[int, set[Key]] = {}
+        self.loaded: dict[ScalarPlace, tuple[ir.Place, int]] = {}
+        self.stored: dict[int, set[ScalarPlace]] = {}
         self.changed: set[int] = set()
 
-    def changes(self, key: Key) -> bool:
+    def changes(self, key: ScalarPlace) -> bool:
         """Tell whether a copy of the variable may become wrong in a way that is not seen."""
         if key.is_in(self.changed, this=self.this):
             return True
@@ -224,12 +224,12 @@ class Accesses:
             return (root,) if root in self.stored else ()
         return self.stored if root == 0 else self.stored.keys() & {0, root}
 
-    def add_load(self, key: Key, place: ir.Place, weight: int) -> None:
+    def add_load(self, key: ScalarPlace, place: ir.Place, weight: int) -> None:
         """Count a load."""
         _, count = self.loaded.get(key, (place, 0))
         self.loaded[key] = place, count + weight
 
-    def add_store(self, place: ir.Place, key: Key | None) -> None:
+    def add_store(self, place: ir.Place, key: ScalarPlace | None) -> None:
         """Note a store; ``key`` is None where its address is known only when it runs."""
         if key:
             self.stored.setdefault(key.root, set()).add(key)

@@ -9,7 +9,7 @@ from plcsim.machine.opcodes import EMPTY, END, IF, UNREACHABLE
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.copies import Copies, join
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
-from plcsim.program.structured_text.codegen.places import Key, key_of
+from plcsim.program.structured_text.codegen.places import ScalarPlace, key_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -32,7 +32,7 @@ _IF: Final = IF + EMPTY
 _TRAP: Final = _IF + UNREACHABLE + END
 
 
-class ModuleContext(NamedTuple):
+class GenerationContext(NamedTuple):
     """What the functions of a module share while they are being compiled.
 
     Attributes:
@@ -46,14 +46,14 @@ class ModuleContext(NamedTuple):
     effects: Effects
 
 
-class Body:
+class FunctionWriter:
     """The code of one function while it is being written.
 
     Attributes:
         function: what is compiled.
-        indices: see `ModuleContext`.
-        segments: see `ModuleContext`.
-        effects: see `ModuleContext`.
+        indices: see `GenerationContext`.
+        segments: see `GenerationContext`.
+        effects: see `GenerationContext`.
         options: what is compiled in.
         statements: writes statements inside an expression.
         code: the instructions so far.
@@ -108,9 +108,9 @@ class Body:
     def __init__(
         self,
         function: ir.Function,
-        module: ModuleContext,
+        module: GenerationContext,
         options: CodegenOptions,
-        statements: Callable[[Body, Sequence[ir.Statement]], None],
+        statements: Callable[[FunctionWriter, Sequence[ir.Statement]], None],
     ) -> None:
         self.function = function
         self.indices = module.indices
@@ -163,7 +163,7 @@ class Body:
     def _local_for_copy(self, width: ir.Width) -> int:
         return self.local(VALUE_TYPES[ir.VALUE_TYPE[width]])
 
-    def key_of(self, place: ir.Place, width: ir.Width) -> Key | None:
+    def key_of(self, place: ir.Place, width: ir.Width) -> ScalarPlace | None:
         """Return the key of an access of which a copy may be kept."""
         return key_of(place, width, this=self.this) if self.options.copies else None
 
@@ -229,7 +229,7 @@ class Label:
     """Where branches meet.
 
     Attributes:
-        depth: of the block, as `Body.open` returns it.
+        depth: of the block, as `FunctionWriter.open` returns it.
         known: what is known on all paths that lead there, None where there is none.
     """
 

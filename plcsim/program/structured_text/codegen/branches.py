@@ -11,10 +11,10 @@ from plcsim.program.structured_text.codegen.copies import join
 from plcsim.program.structured_text.codegen.expressions import emit
 
 if TYPE_CHECKING:
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 
-def branch(body: Body, node: ir.Break | ir.Continue, opcode: bytes = BR) -> None:
+def branch(body: FunctionWriter, node: ir.Break | ir.Continue, opcode: bytes = BR) -> None:
     """Append Break or Continue."""
     labels = body.breaks if type(node) is ir.Break else body.continues
     label = labels[node.label]
@@ -26,7 +26,7 @@ def branch(body: Body, node: ir.Break | ir.Continue, opcode: bytes = BR) -> None
         body.copies.known = None
 
 
-def block(body: Body, node: ir.Block) -> None:
+def block(body: FunctionWriter, node: ir.Block) -> None:
     """Append a block that Break can leave."""
     label = body.breaks[node.label] = Label(body.open(BLOCK))
     body.statements(body, node.body)
@@ -35,7 +35,7 @@ def block(body: Body, node: ir.Block) -> None:
     body.copies.known = label.known
 
 
-def if_(body: Body, node: ir.If) -> None:
+def if_(body: FunctionWriter, node: ir.If) -> None:
     """Append an If, whose arms may be many: they are not nested."""
     if len(node.arms) > 1:
         _chain(body, node)
@@ -54,7 +54,7 @@ def _only_branch(arm: ir.Arm) -> ir.Break | ir.Continue | None:
     return first if isinstance(first, ir.Break | ir.Continue) else None
 
 
-def _two_ways(body: Body, arm: ir.Arm, node: ir.If) -> None:
+def _two_ways(body: FunctionWriter, arm: ir.Arm, node: ir.If) -> None:
     start = body.copies.fork()
     body.condition()
     body.open(IF)
@@ -67,7 +67,7 @@ def _two_ways(body: Body, arm: ir.Arm, node: ir.If) -> None:
     body.copies.known = join(then, body.copies.known)
 
 
-def _chain(body: Body, node: ir.If) -> None:
+def _chain(body: FunctionWriter, node: ir.If) -> None:
     """Append IF ... ELSIF ...: a block for each arm, which a false condition leaves."""
     end = Label(body.open(BLOCK))
     for arm in node.arms:
@@ -88,7 +88,7 @@ def _chain(body: Body, node: ir.If) -> None:
     body.copies.known = end.known
 
 
-def leave(body: Body, end: Label, node: ir.If | ir.Switch) -> None:
+def leave(body: FunctionWriter, end: Label, node: ir.If | ir.Switch) -> None:
     """Append a branch behind a statement, if some path leads here.
 
     Behind the last one of a function that is a return: a jump less, and in large state machines

@@ -15,7 +15,7 @@ from plcsim.program.structured_text.codegen.accesses import roots_of
 from plcsim.program.structured_text.codegen.expressions import emit
 
 if TYPE_CHECKING:
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 MOST_INLINE: Final = 64
 """Bytes that are moved by single accesses."""
@@ -42,7 +42,7 @@ def _steps(count: int) -> list[Step]:
     return found
 
 
-def copy_bytes(body: Body, node: ir.CopyBytes) -> None:
+def copy_bytes(body: FunctionWriter, node: ir.CopyBytes) -> None:
     """Append a copy."""
     count = _inline_count(node.count)
     if count is None:
@@ -52,7 +52,7 @@ def copy_bytes(body: Body, node: ir.CopyBytes) -> None:
     body.copies.forget_roots(roots_of(node.target))
 
 
-def fill_bytes(body: Body, node: ir.FillBytes) -> None:
+def fill_bytes(body: FunctionWriter, node: ir.FillBytes) -> None:
     """Append a fill."""
     count = _inline_count(node.count)
     if count is None or type(node.value) is not ir.Const:
@@ -68,13 +68,13 @@ def _inline_count(count: ir.Expression) -> int | None:
     return None
 
 
-def _call(body: Body, helper: str, *arguments: ir.Expression) -> None:
+def _call(body: FunctionWriter, helper: str, *arguments: ir.Expression) -> None:
     for argument in arguments:
         emit(body, argument)
     body.code += opcodes.CALL + uleb(body.indices[helper])
 
 
-def _copy_inline(body: Body, node: ir.CopyBytes, count: int) -> None:
+def _copy_inline(body: FunctionWriter, node: ir.CopyBytes, count: int) -> None:
     """Append all loads, then all stores: the parts may overlap."""
     emit(body, node.target)
     emit(body, node.source)
@@ -87,7 +87,7 @@ def _copy_inline(body: Body, node: ir.CopyBytes, count: int) -> None:
         body.code += store + memarg(offset)
 
 
-def _fill_inline(body: Body, address: ir.Expression, value: int, count: int) -> None:
+def _fill_inline(body: FunctionWriter, address: ir.Expression, value: int, count: int) -> None:
     emit(body, address)
     target = uleb(body.scratch(opcodes.I32))
     body.code += opcodes.LOCAL_SET + target

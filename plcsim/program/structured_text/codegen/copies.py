@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable
 
     from plcsim.program.structured_text import ir
-    from plcsim.program.structured_text.codegen.places import Key
+    from plcsim.program.structured_text.codegen.places import ScalarPlace
 
 MOST_COPIES: Final = 24
 """Copies alive at a time, beside those that a loop holds on to."""
@@ -25,7 +25,7 @@ MOST_COPIES: Final = 24
 MOST_LOCALS: Final = 20_000
 """Locals of one function for copies; WebAssembly allows 50,000 in all."""
 
-Known = dict["Key", int]
+Known = dict["ScalarPlace", int]
 """What locals hold at one point of the code, oldest first: the local of each key."""
 
 
@@ -45,16 +45,16 @@ class Copies:
     def __init__(self, new_local: Callable[[ir.Width], int], *, this: bool) -> None:
         self.known: Known | None = {}
         self._new_local = new_local
-        self._local_of: dict[Key, int] = {}
+        self._local_of: dict[ScalarPlace, int] = {}
         self._this = this
-        self._seen: dict[int, Key | None] = {}
-        self._held: set[Key] = set()
+        self._seen: dict[int, ScalarPlace | None] = {}
+        self._held: set[ScalarPlace] = set()
 
-    def local_of(self, key: Key) -> int | None:
+    def local_of(self, key: ScalarPlace) -> int | None:
         """Return the local that holds the variable here."""
         return self.known.get(key) if self.known else None
 
-    def note(self, key: Key) -> int | None:
+    def note(self, key: ScalarPlace) -> int | None:
         """Return the local that is now to be set to the value of the variable.
 
         None where there is to be no copy: locals are used up, or nothing leads here.
@@ -80,7 +80,7 @@ class Copies:
         oldest = next(key for key in known if key not in self._held)
         del known[oldest]
 
-    def forget_met(self, key: Key) -> None:
+    def forget_met(self, key: ScalarPlace) -> None:
         """Forget what a store to another place than `known` ones may have changed."""
         if self.known and (self._this or self._seen.get(key.root, key) != key):
             for other in [k for k in self.known if k != key and k.meets(key)]:
@@ -96,17 +96,17 @@ class Copies:
         """Return what is known here, to go on from it at another place of the code."""
         return None if self.known is None else self.known.copy()
 
-    def hold(self, keys: Iterable[Key]) -> set[Key]:
+    def hold(self, keys: Iterable[ScalarPlace]) -> set[ScalarPlace]:
         """Keep these copies alive from here on; return what `release` takes."""
         before = self._held
         self._held = before.union(keys)
         return before
 
-    def is_held(self, key: Key) -> bool:
+    def is_held(self, key: ScalarPlace) -> bool:
         """Tell whether a loop around this point keeps the copy."""
         return key in self._held
 
-    def release(self, before: set[Key]) -> None:
+    def release(self, before: set[ScalarPlace]) -> None:
         """End what `hold` began."""
         self._held = before
 

@@ -23,7 +23,7 @@ from plcsim.program.structured_text.codegen.single import single_calculation, si
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 
 @cache
@@ -42,7 +42,7 @@ Offset = bytes | Indexed
 """What an access adds to the address on the stack: a memory argument, or one with a hole."""
 
 
-def emit(body: Body, expression: ir.Expression) -> None:
+def emit(body: FunctionWriter, expression: ir.Expression) -> None:
     """Append the instructions of an expression.
 
     Chains of operators, which may be as long as a program, take no depth of Python's stack.
@@ -72,7 +72,7 @@ def emit(body: Body, expression: ir.Expression) -> None:
             _EMIT[kind](body, node)
 
 
-def address(body: Body, place: ir.Place) -> Offset:
+def address(body: FunctionWriter, place: ir.Place) -> Offset:
     """Append the instructions of an address; what they leave out is for `access`."""
     base = place.base
     if isinstance(base, ir.Segment):
@@ -87,7 +87,7 @@ def address(body: Body, place: ir.Place) -> Offset:
     return found
 
 
-def _emit_terms(body: Body, terms: list[tuple[ir.Expression, int]]) -> None:
+def _emit_terms(body: FunctionWriter, terms: list[tuple[ir.Expression, int]]) -> None:
     """Append the sum of an address's terms."""
     if not terms:
         body.code += opcodes.I32_CONST + b"\0"
@@ -99,7 +99,7 @@ def _emit_terms(body: Body, terms: list[tuple[ir.Expression, int]]) -> None:
             body.code += opcodes.I32_ADD
 
 
-def access(body: Body, opcode: bytes, offset: Offset) -> None:
+def access(body: FunctionWriter, opcode: bytes, offset: Offset) -> None:
     """Append a load or a store whose address `address` has begun."""
     body.code += opcode
     if isinstance(offset, bytes):
@@ -109,7 +109,7 @@ def access(body: Body, opcode: bytes, offset: Offset) -> None:
         body.hole(offset.segment, offset.offset)
 
 
-def _load(body: Body, node: ir.Load) -> None:
+def _load(body: FunctionWriter, node: ir.Load) -> None:
     key = body.key_of(node.place, node.width)
     local = body.copies.local_of(key) if key else None
     if local is not None:
@@ -121,7 +121,7 @@ def _load(body: Body, node: ir.Load) -> None:
         body.code += local_tee(local)
 
 
-def _address_of(body: Body, node: ir.AddressOf) -> None:
+def _address_of(body: FunctionWriter, node: ir.AddressOf) -> None:
     place = node.place
     if isinstance(place.base, ir.Segment):
         body.code += opcodes.I32_CONST
@@ -132,11 +132,11 @@ def _address_of(body: Body, node: ir.AddressOf) -> None:
         body.code += i32_const(place.offset) + opcodes.I32_ADD
 
 
-def _local(body: Body, node: ir.Local) -> None:
+def _local(body: FunctionWriter, node: ir.Local) -> None:
     body.code += local_get(node.index)
 
 
-def _const(body: Body, node: ir.Const) -> None:
+def _const(body: FunctionWriter, node: ir.Const) -> None:
     body.code += _CONST[node.type](node.value)
 
 
@@ -158,7 +158,7 @@ _CONST: Final[Mapping[ir.ValueType, Callable[[float], bytes]]] = {
 }
 
 
-def _truncate(body: Body, node: ir.Convert) -> None:
+def _truncate(body: FunctionWriter, node: ir.Convert) -> None:
     """Append a conversion towards zero, to the integer indefinite where the value does not fit.
 
     The absolute value is compared, so NaN does not fit either; the smallest integer does not, and
@@ -181,7 +181,7 @@ _REAL_OPERAND: Final[Mapping[ir.ConvertOperator, ir.ValueType]] = {
 }
 
 
-def _if_expression(body: Body, node: ir.IfExpression) -> None:
+def _if_expression(body: FunctionWriter, node: ir.IfExpression) -> None:
     emit(body, node.condition)
     start = body.copies.fork()
     body.open(opcodes.IF, bytes([VALUE_TYPES[node.type]]))
@@ -193,7 +193,7 @@ def _if_expression(body: Body, node: ir.IfExpression) -> None:
     body.copies.known = join(then, body.copies.known)
 
 
-def _call(body: Body, node: ir.Call) -> None:
+def _call(body: FunctionWriter, node: ir.Call) -> None:
     if node.function == "rt.string_compare":
         _compare_strings(body, node)
         return
@@ -203,7 +203,7 @@ def _call(body: Body, node: ir.Call) -> None:
     body.copies.forget_roots(body.effects.of_call(node))
 
 
-def _compare_strings(body: Body, node: ir.Call) -> None:
+def _compare_strings(body: FunctionWriter, node: ir.Call) -> None:
     """Append a comparison that calls the helper only where the first characters are the same."""
     left, right, difference = (uleb(body.scratch(opcodes.I32, slot)) for slot in range(3))
     for argument in node.arguments:
@@ -217,7 +217,7 @@ def _compare_strings(body: Body, node: ir.Call) -> None:
     body.code += opcodes.CALL + uleb(body.indices[node.function]) + opcodes.END
 
 
-def _checked(body: Body, node: ir.Checked) -> None:
+def _checked(body: FunctionWriter, node: ir.Checked) -> None:
     emit(body, node.index)
     scratch = uleb(body.scratch(opcodes.I32))
     body.code += opcodes.LOCAL_TEE + scratch
@@ -226,12 +226,12 @@ def _checked(body: Body, node: ir.Checked) -> None:
     body.code += opcodes.LOCAL_GET + scratch
 
 
-def _statement_expression(body: Body, node: ir.StatementExpression) -> None:
+def _statement_expression(body: FunctionWriter, node: ir.StatementExpression) -> None:
     body.statements(body, node.statements)
     emit(body, node.value)
 
 
-_EMIT: Final[Mapping[type, Callable[[Body, Any], None]]] = {
+_EMIT: Final[Mapping[type, Callable[[FunctionWriter, Any], None]]] = {
     ir.Const: _const,
     ir.Load: _load,
     ir.Local: _local,

@@ -11,7 +11,7 @@ from plcsim.program.structured_text.codegen.decode import number_at
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
     from plcsim.program.structured_text.codegen.decode import Instruction
 
 _BLOCK, _LOOP, _IF, _ELSE, _END, _BR, _BR_IF = (
@@ -38,7 +38,7 @@ class Flow:
         body: the function, as it was compiled.
     """
 
-    def __init__(self, sequence: Sequence[Instruction], body: Body) -> None:
+    def __init__(self, sequence: Sequence[Instruction], body: FunctionWriter) -> None:
         self._sequence = sequence
         self._code = body.code
         self._polls = body.polls

@@ -9,9 +9,9 @@ import numpy as np
 from plcsim.machine.encoder import ModuleWriter, Signature, sleb
 from plcsim.machine.opcodes import I64, I64_CONST, UNREACHABLE
 from plcsim.program.structured_text.codegen.accesses import Effects
-from plcsim.program.structured_text.codegen.body import Body, ModuleContext
+from plcsim.program.structured_text.codegen.body import FunctionWriter, GenerationContext
 from plcsim.program.structured_text.codegen.instrument import Instrument
-from plcsim.program.structured_text.codegen.lines import FunctionLines, LineTable, pack
+from plcsim.program.structured_text.codegen.lines import FunctionLines, ModuleLines, pack
 from plcsim.program.structured_text.codegen.loops import poll
 from plcsim.program.structured_text.codegen.object_code import Holes, ObjectCode
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
@@ -76,8 +76,8 @@ class _Compiler:
         self._writer = ModuleWriter(module.name)
         self._indices = _Indices(self._writer)
         segments = {id(segment): number for number, segment in enumerate(module.segments)}
-        self._context = ModuleContext(self._indices, segments, Effects(module))
-        self._bodies: list[Body] = []
+        self._context = GenerationContext(self._indices, segments, Effects(module))
+        self._bodies: list[FunctionWriter] = []
         self._instrument = Instrument() if options.counters else None
         self._import()
         for function in module.functions:
@@ -95,14 +95,14 @@ class _Compiler:
 
     def compile(self, function: ir.Function) -> None:
         """Compile a function; where it calls, it polls the budget, so that calls end as well."""
-        body = Body(function, self._context, self._options, statements)
+        body = FunctionWriter(function, self._context, self._options, statements)
         if function.kind != "unit" and self._context.effects.calls_of(function.name):
             poll(body)
         self._write(body)
         if function.exported:
             self._writer.export_function(function.name, self._indices[function.name])
 
-    def _write(self, body: Body) -> None:
+    def _write(self, body: FunctionWriter) -> None:
         statements(body, body.function.body)
         if body.function.result is not None:
             body.code += UNREACHABLE  # every path has returned, or goes on for ever
@@ -114,7 +114,7 @@ class _Compiler:
     def finish(self) -> ObjectCode:
         """Compile the helpers that were called, and put everything together."""
         for function in self._indices.helpers:
-            self._write(Body(function, self._context, HELPER_OPTIONS, statements))
+            self._write(FunctionWriter(function, self._context, HELPER_OPTIONS, statements))
         profile = self._profile()
         encoded = self._writer.encode()
         holes = self._holes(encoded.starts)
@@ -147,7 +147,7 @@ class _Compiler:
         holes[:, 0] += np.repeat(np.array(starts, np.int64), counts)
         return holes
 
-    def _lines(self, starts: Sequence[int]) -> LineTable:
+    def _lines(self, starts: Sequence[int]) -> ModuleLines:
         functions: list[FunctionLines] = []
         traps: dict[int, str] = {}
         for body, start in zip(self._bodies, starts, strict=True):
@@ -159,7 +159,7 @@ class _Compiler:
                 FunctionLines(function.name, function.kind, file, function.line, start, end, steps)
             )
             traps.update({start + position: reason for position, reason in body.traps})
-        return LineTable(functions, traps)
+        return ModuleLines(functions, traps)
 
 
 def _signature(function: ir.Function | ir.Signature) -> Signature:

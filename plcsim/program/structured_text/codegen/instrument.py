@@ -19,7 +19,7 @@ from plcsim.program.structured_text.codegen.flow import Flow
 from plcsim.program.structured_text.codegen.profile import Arc, LineCost
 
 if TYPE_CHECKING:
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 OVERHEAD: Final = 0
 """Global variable that sums up the instructions that counting has cost; the counters follow it."""
@@ -60,7 +60,7 @@ class Instrument:
         self.costs: list[LineCost] = []
         self.arcs: list[Arc] = []
 
-    def add(self, body: Body, file: int) -> None:
+    def add(self, body: FunctionWriter, file: int) -> None:
         """Put counters into the code of a function; all positions that it notes move along.
 
         Args:
@@ -84,7 +84,7 @@ class Instrument:
 class _Counted:
     """One function while it gets its counters."""
 
-    def __init__(self, body: Body, instrument: Instrument, file: int) -> None:
+    def __init__(self, body: FunctionWriter, instrument: Instrument, file: int) -> None:
         self.code = bytearray()
         self._body = body
         self._instrument = instrument

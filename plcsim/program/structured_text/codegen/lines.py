@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text import ir
 
 
-class Location(NamedTuple):
+class InstructionLocation(NamedTuple):
     """Where an instruction comes from.
 
     Attributes:
@@ -100,7 +100,7 @@ def _unpack(data: bytes) -> Iterator[int]:
             number = shift = 0
 
 
-class LineTable:
+class ModuleLines:
     """Lines of all functions of a module.
 
     Args:
@@ -113,7 +113,7 @@ class LineTable:
         self.traps = traps
         self._starts = [function.start for function in functions]
 
-    def find(self, offset: int) -> Location | None:
+    def find(self, offset: int) -> InstructionLocation | None:
         """Return where an instruction comes from; None for one of no function's."""
         place = bisect_right(self._starts, offset) - 1
         function = self.functions[place] if place >= 0 else None
@@ -121,4 +121,4 @@ class LineTable:
             return None
         line = function.line_at(offset)
         trap = self.traps.get(offset, "")
-        return Location(function.name, function.kind, function.file, line, trap)
+        return InstructionLocation(function.name, function.kind, function.file, line, trap)

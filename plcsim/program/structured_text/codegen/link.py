@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from plcsim.machine import Extern, Instance, Machine
     from plcsim.program.structured_text import ir
-    from plcsim.program.structured_text.codegen.lines import LineTable
+    from plcsim.program.structured_text.codegen.lines import ModuleLines
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
 
 
@@ -29,7 +29,7 @@ class Linker:
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
         self._mathematics: dict[str, Extern] = {}
-        self._lines: dict[str, LineTable] = {}
+        self._lines: dict[str, ModuleLines] = {}
 
     def link(
         self,

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.program.structured_text.codegen.accesses import Accesses
-    from plcsim.program.structured_text.codegen.body import Body
-    from plcsim.program.structured_text.codegen.places import Key
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
+    from plcsim.program.structured_text.codegen.places import ScalarPlace
 
 CELL: Final = 8
 """Bytes of a cell of the system area."""
@@ -56,7 +56,7 @@ _BUDGET: Final = SYSTEM_AREA + BUDGET * CELL + CELL // 2
 _IS_SPENT: Final = I32_CONST + sleb(_BUDGET) + I32_LOAD + NO_OFFSET + I32_CONST + sleb(0) + I32_LT_S
 
 
-def poll(body: Body) -> None:
+def poll(body: FunctionWriter) -> None:
     """Append the end of the program where the watchdog asks for it (see `core.system_area`)."""
     if body.options.budget:
         start = len(body.code)
@@ -65,7 +65,7 @@ def poll(body: Body) -> None:
         body.polls[start] = len(body.code)
 
 
-def loop(body: Body, node: ir.Loop) -> None:
+def loop(body: FunctionWriter, node: ir.Loop) -> None:
     """Append a loop."""
     if body.options.copies and id(node) not in body.accesses:
         body.accesses = loop_accesses(node, body.effects, this=body.this)
@@ -81,7 +81,7 @@ def loop(body: Body, node: ir.Loop) -> None:
     body.copies.release(held)
 
 
-def _preload(body: Body, node: ir.Loop) -> Sequence[Key]:
+def _preload(body: FunctionWriter, node: ir.Loop) -> Sequence[ScalarPlace]:
     """Load what the loop is to keep in locals; return all that it keeps."""
     known = body.copies.known
     accesses = body.accesses.get(id(node))
@@ -94,14 +94,14 @@ def _preload(body: Body, node: ir.Loop) -> Sequence[Key]:
     return tuple(known)
 
 
-def _wanted(accesses: Accesses, known: dict[Key, int]) -> list[Key]:
+def _wanted(accesses: Accesses, known: dict[ScalarPlace, int]) -> list[ScalarPlace]:
     """Return what the loop loads most, of what may be kept and is not in a local yet."""
     loaded = [key for key in accesses.loaded if key not in known and not accesses.changes(key)]
     loaded.sort(key=lambda key: -accesses.loaded[key][1])
     return loaded[:MOST_PRELOADED]
 
 
-def _load_copy(body: Body, key: Key, place: ir.Place) -> None:
+def _load_copy(body: FunctionWriter, key: ScalarPlace, place: ir.Place) -> None:
     local = body.copies.note(key)
     if local is not None:
         access(body, LOAD[key.width], address(body, place))
@@ -140,7 +140,7 @@ def _is_below(limit: int, parts: Sequence[ir.Expression | ir.Statement], *withou
     return True
 
 
-def _plain(body: Body, node: ir.Loop) -> None:
+def _plain(body: FunctionWriter, node: ir.Loop) -> None:
     head = _open_head(body, node)
     body.continues[node.label] = head
     last = node.body[-1] if node.body else None
@@ -154,7 +154,7 @@ def _plain(body: Body, node: ir.Loop) -> None:
     body.close()
 
 
-def _turned(body: Body, node: ir.Loop, test: ir.Arm) -> None:
+def _turned(body: FunctionWriter, node: ir.Loop, test: ir.Arm) -> None:
     _leave_if(body, node, test)
     head = _open_head(body, node)
     _pass(body, node)
@@ -168,7 +168,7 @@ def _turned(body: Body, node: ir.Loop, test: ir.Arm) -> None:
 _NOT_DOUBLED: Final = (ir.Call, ir.StatementExpression, ir.Loop, ir.Block, ir.Switch)
 
 
-def _leave_if(body: Body, node: ir.Loop, test: ir.Arm) -> None:
+def _leave_if(body: FunctionWriter, node: ir.Loop, test: ir.Arm) -> None:
     """Append a test that leaves the loop where it is true."""
     body.mark(test.line)
     emit(body, test.condition)
@@ -178,7 +178,7 @@ def _leave_if(body: Body, node: ir.Loop, test: ir.Arm) -> None:
     body.branch(BR_IF, exit_.depth)
 
 
-def _pass(body: Body, node: ir.Loop) -> None:
+def _pass(body: FunctionWriter, node: ir.Loop) -> None:
     """Append what follows the test; Continue leads behind it."""
     bottom = body.continues[node.label] = Label(body.open(BLOCK))
     body.statements(body, node.body[1:])
@@ -187,7 +187,7 @@ def _pass(body: Body, node: ir.Loop) -> None:
     body.copies.known = bottom.known
 
 
-def _open_head(body: Body, node: ir.Loop) -> Label:
+def _open_head(body: FunctionWriter, node: ir.Loop) -> Label:
     """Begin the part that is repeated, where only what the whole loop keeps is known."""
     known = body.copies.known
     if known is not None:
@@ -198,7 +198,7 @@ def _open_head(body: Body, node: ir.Loop) -> Label:
     return head
 
 
-def _repeat_unless(body: Body, node: ir.Loop, test: ir.Arm, head: Label) -> None:
+def _repeat_unless(body: FunctionWriter, node: ir.Loop, test: ir.Arm, head: Label) -> None:
     """Append a test that leaves the loop at its end; it falls through to what follows."""
     if body.copies.known is None:
         return

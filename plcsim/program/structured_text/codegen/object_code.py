@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from plcsim.program.structured_text import ir
-    from plcsim.program.structured_text.codegen.lines import LineTable
+    from plcsim.program.structured_text.codegen.lines import ModuleLines
     from plcsim.program.structured_text.codegen.profile import Profile
 
 
@@ -45,7 +45,7 @@ class ObjectCode:
         wasm: bytes,
         segments: Sequence[ir.Segment],
         holes: Holes,
-        lines: LineTable,
+        lines: ModuleLines,
         imports: Sequence[ir.Import] = (),
         profile: Profile | None = None,
     ) -> None:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
 THIS: Final = 0
-"""Base of the members of the block whose body or action is running, in a `Key`."""
+"""Base of the members of the block whose body or action is running, in a `ScalarPlace`."""
 
 NEAR: Final = 0x8000
 """Below a segment's start this many bytes are no variable: the nil pages lie before the first."""
@@ -18,7 +18,7 @@ NEAR: Final = 0x8000
 HIGHEST: Final = 0x7FFF_FFFF
 
 
-class Key(NamedTuple):
+class ScalarPlace(NamedTuple):
     """A scalar at a fixed place: accesses with one key meet the same variable.
 
     Attributes:
@@ -33,7 +33,7 @@ class Key(NamedTuple):
     offset: int
     width: ir.Width
 
-    def meets(self, other: Key) -> bool:
+    def meets(self, other: ScalarPlace) -> bool:
         """Tell whether the two may have bytes in common."""
         if self.base != other.base:  # two segments have no byte in common
             known_apart = THIS not in (self.base, other.base) or 0 not in (self.root, other.root)
@@ -57,7 +57,7 @@ class Key(NamedTuple):
         return this and bool(roots) and (self.root == 0 or 0 in roots)
 
 
-def key_of(place: ir.Place, width: ir.Width, *, this: bool) -> Key | None:
+def key_of(place: ir.Place, width: ir.Width, *, this: bool) -> ScalarPlace | None:
     """Return the key of an access, None where its address is known only when it runs.
 
     Args:
@@ -67,9 +67,9 @@ def key_of(place: ir.Place, width: ir.Width, *, this: bool) -> Key | None:
     """
     base = place.base
     if type(base) is ir.Segment:
-        return Key(place.root, id(base), place.offset, width)
+        return ScalarPlace(place.root, id(base), place.offset, width)
     if this and type(base) is ir.Local and base.index == 0:
-        return Key(place.root, THIS, place.offset, width)
+        return ScalarPlace(place.root, THIS, place.offset, width)
     return None
 
 

@@ -17,10 +17,10 @@ from plcsim.program.structured_text.codegen.switch import switch
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 
-def statements(body: Body, sequence: Sequence[ir.Statement]) -> None:
+def statements(body: FunctionWriter, sequence: Sequence[ir.Statement]) -> None:
     """Append the instructions of statements, as far as some path leads to them."""
     for statement in sequence:
         if body.copies.known is None:
@@ -29,7 +29,7 @@ def statements(body: Body, sequence: Sequence[ir.Statement]) -> None:
         _STATEMENTS[type(statement)](body, statement)
 
 
-def _store(body: Body, node: ir.Store) -> None:
+def _store(body: FunctionWriter, node: ir.Store) -> None:
     width = node.width
     offset = address(body, node.place)
     emit(body, node.value)
@@ -74,25 +74,25 @@ _FITS: Final[Mapping[type, Callable[[Any, ir.Width], bool]]] = {
 _BITWISE: Final = frozenset({"and", "or", "xor"})
 
 
-def _set_local(body: Body, node: ir.SetLocal) -> None:
+def _set_local(body: FunctionWriter, node: ir.SetLocal) -> None:
     emit(body, node.value)
     body.code += opcodes.LOCAL_SET + uleb(node.index)
 
 
-def _evaluate(body: Body, node: ir.Evaluate) -> None:
+def _evaluate(body: FunctionWriter, node: ir.Evaluate) -> None:
     emit(body, node.value)
     if node.value.type is not None:
         body.code += opcodes.DROP
 
 
-def _return(body: Body, node: ir.Return) -> None:
+def _return(body: FunctionWriter, node: ir.Return) -> None:
     if node.value is not None:
         emit(body, node.value)
     body.code += opcodes.RETURN
     body.copies.known = None
 
 
-_STATEMENTS: Final[Mapping[type, Callable[[Body, Any], None]]] = {
+_STATEMENTS: Final[Mapping[type, Callable[[FunctionWriter, Any], None]]] = {
     ir.Store: _store,
     ir.SetLocal: _set_local,
     ir.Evaluate: _evaluate,

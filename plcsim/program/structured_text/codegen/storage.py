@@ -14,7 +14,7 @@ import numpy as np
 import plcsim
 import st_types
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.lines import FunctionLines, LineTable
+from plcsim.program.structured_text.codegen.lines import FunctionLines, ModuleLines
 from plcsim.program.structured_text.codegen.object_code import ObjectCode
 from plcsim.program.structured_text.codegen.profile import Arc, LineCost, Profile
 
@@ -83,7 +83,7 @@ def _load(  # the parts of `dump`
         wasm,
         [ir.Segment(*one) for one in segments],
         np.frombuffer(holes, "<i4").reshape(-1, 3).astype(np.int64),
-        LineTable([FunctionLines(*one) for one in functions], traps),
+        ModuleLines([FunctionLines(*one) for one in functions], traps),
         [
             ir.Import(space, field, ir.Signature(parameters, result))
             for space, field, parameters, result in imports

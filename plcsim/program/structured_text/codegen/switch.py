@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.program.structured_text import ir
-    from plcsim.program.structured_text.codegen.body import Body
+    from plcsim.program.structured_text.codegen.body import FunctionWriter
 
 SHORT: Final = 3
 """Ranges that are compared one after another."""
@@ -43,7 +43,7 @@ Range = tuple[int, int, int]
 """Lowest and highest value, and the depth of the block that the case follows."""
 
 
-def switch(body: Body, node: ir.Switch) -> None:
+def switch(body: FunctionWriter, node: ir.Switch) -> None:
     """Append a Switch: blocks for all cases, one inside the other, and a branch to one of them."""
     end = Label(body.open(BLOCK))
     other = body.open(BLOCK)
@@ -73,7 +73,7 @@ def switch(body: Body, node: ir.Switch) -> None:
     body.copies.known = end.known
 
 
-def _choose(body: Body, ranges: Sequence[Range], other: int) -> None:
+def _choose(body: FunctionWriter, ranges: Sequence[Range], other: int) -> None:
     """Append a branch to the block of the range that holds the value on the stack."""
     if _is_dense(ranges):
         _table(body, ranges, other)
@@ -91,7 +91,7 @@ def _is_dense(ranges: Sequence[Range]) -> bool:
     return entries <= min(MOST_ENTRIES, SPARSE * len(ranges))
 
 
-def _table(body: Body, ranges: Sequence[Range], other: int) -> None:
+def _table(body: FunctionWriter, ranges: Sequence[Range], other: int) -> None:
     lowest, highest = ranges[0][0], ranges[-1][1]
     entries = [other] * (highest - lowest + 1)
     for low, high, depth in ranges:
@@ -103,7 +103,7 @@ def _table(body: Body, ranges: Sequence[Range], other: int) -> None:
         body.code += uleb(body.depth - depth)
 
 
-def _search(body: Body, value: bytes, ranges: Sequence[Range], other: int) -> None:
+def _search(body: FunctionWriter, value: bytes, ranges: Sequence[Range], other: int) -> None:
     """Append comparisons that branch to the range of a value; no range falls through."""
     if len(ranges) <= SHORT:
         for one in ranges:
@@ -118,7 +118,7 @@ def _search(body: Body, value: bytes, ranges: Sequence[Range], other: int) -> No
     body.close()
 
 
-def _compare(body: Body, value: bytes, one: Range) -> None:
+def _compare(body: FunctionWriter, value: bytes, one: Range) -> None:
     low, high, depth = one
     body.code += LOCAL_GET + value + i32_const(low)
     if low == high:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.lower.memory import (
     Hidden,
-    Variables,
+    VariablePlaces,
     is_scalar,
     width_of,
 )
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from st_types.types.derived import DataBlockType
 
 
-class ModuleContext:
+class LoweringContext:
     """A module while it is made.
 
     Args:
@@ -39,7 +39,7 @@ class ModuleContext:
     def __init__(self, areas: Areas, semantics: Semantics) -> None:
         self.semantics = semantics
         self.hidden = Hidden()
-        self.variables = Variables(areas, self.hidden)
+        self.variables = VariablePlaces(areas, self.hidden)
         self.imports: dict[str, ir.Import] = {}
         self.own: set[str] = set()
 
@@ -73,7 +73,7 @@ class FunctionContext:
 
     def __init__(
         self,
-        module: ModuleContext,
+        module: LoweringContext,
         block: DataBlockType[object] | None,
         parameters: Sequence[ir.ValueType],
     ) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.calls import parameters_of
 from plcsim.program.structured_text.check.kinds import (
-    Kind,
+    TypeKind,
     is_unsigned,
     kind_of,
     number_type,
@@ -37,7 +37,7 @@ _MATHEMATICS: Final[Mapping[str, str]] = {
     "LN": "rt.log",
     "LOG": "rt.log10",
 }
-_TEXTS = (Kind.STRING, Kind.WSTRING)
+_TEXTS = (TypeKind.STRING, TypeKind.WSTRING)
 
 
 class FunctionLowering(BitLowering):
@@ -90,7 +90,7 @@ class FunctionLowering(BitLowering):
     ) -> ir.Expression:
         kind = kind_of(data_type)
         if kind in _TEXTS:
-            helper = "rt.string_compare" if kind is Kind.STRING else "rt.wstring_compare"
+            helper = "rt.string_compare" if kind is TypeKind.STRING else "rt.wstring_compare"
             a, b = ir.Call("i32", helper, (a, b)), ir.Const("i32", 0)
             name: Any = f"{operator}_s"
         elif a.type in ("f32", "f64"):

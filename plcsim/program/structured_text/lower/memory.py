@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.check.kinds import ANY_REAL, Kind, kind_of
+from plcsim.program.structured_text.check.kinds import ANY_REAL, TypeKind, kind_of
 from st_types.types.elementary import (
     BOOL,
     BYTE,
@@ -44,7 +44,14 @@ MAX_HIDDEN: Final = 1 << 24
 """Bytes of a variable that lives for one call, or of a constant that is no single value."""
 
 SCALARS: Final = frozenset(
-    [Kind.BOOL, Kind.INTEGER, Kind.REAL, Kind.TIME, Kind.DATE, Kind.REFERENCE]
+    [
+        TypeKind.BOOL,
+        TypeKind.INTEGER,
+        TypeKind.REAL,
+        TypeKind.TIME,
+        TypeKind.DATE,
+        TypeKind.REFERENCE,
+    ]
 )
 """Kinds whose values fit into one value of the stack."""
 
@@ -117,7 +124,7 @@ class Hidden:
         return self.segment
 
 
-class Variables:
+class VariablePlaces:
     """The places of all variables of a module.
 
     Args:

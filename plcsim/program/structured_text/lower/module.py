@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.lower.context import (
     FunctionContext,
-    ModuleContext,
+    LoweringContext,
     value_type_of,
 )
 from plcsim.program.structured_text.lower.memory import constant_of, is_scalar, width_of
@@ -18,13 +18,15 @@ from st_types.syntax.collector import collector_paused
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from plcsim.program.structured_text.check.typed import Body, Program, Symbol
+    from plcsim.program.structured_text.check.typed import CheckedBody, CheckedProgram, Symbol
     from plcsim.program.structured_text.lower.memory import Areas
     from plcsim.program.structured_text.lower.semantics import Semantics
 
 
 @collector_paused()
-def lower(program: Program, areas: Areas, semantics: Semantics = AUTOMATION_STUDIO) -> ir.Module:
+def lower(
+    program: CheckedProgram, areas: Areas, semantics: Semantics = AUTOMATION_STUDIO
+) -> ir.Module:
     """Return the intermediate representation of a program.
 
     Functions are named ``init``, ``cyclic``, ``exit`` (exported), ``action NAME``,
@@ -36,7 +38,7 @@ def lower(program: Program, areas: Areas, semantics: Semantics = AUTOMATION_STUD
         areas: where the variables of its scope and of those around it lie.
         semantics: of its dialect.
     """
-    module = ModuleContext(areas, semantics)
+    module = LoweringContext(areas, semantics)
     module.own = {function_name(body) for body in program.bodies}
     files = list(dict.fromkeys(body.path for body in program.bodies))
     functions = [_function(module, body, files.index(body.path)) for body in program.bodies]
@@ -45,7 +47,7 @@ def lower(program: Program, areas: Areas, semantics: Semantics = AUTOMATION_STUD
     return ir.Module(program.name, functions, module.imports, segments, files)
 
 
-def function_name(body: Body) -> str:
+def function_name(body: CheckedBody) -> str:
     """Return the name of the function that a body becomes."""
     if body.kind == "unit":
         return body.name
@@ -54,7 +56,7 @@ def function_name(body: Body) -> str:
     return f"{body.kind} {body.name}"
 
 
-def _function(module: ModuleContext, body: Body, file: int) -> ir.Function:
+def _function(module: LoweringContext, body: CheckedBody, file: int) -> ir.Function:
     parameters, result = _signature(body)
     context = FunctionContext(module, body.block, parameters)
     _place_parameters(context, body)
@@ -77,7 +79,7 @@ def _function(module: ModuleContext, body: Body, file: int) -> ir.Function:
     )
 
 
-def _signature(body: Body) -> tuple[list[ir.ValueType], ir.ValueType | None]:
+def _signature(body: CheckedBody) -> tuple[list[ir.ValueType], ir.ValueType | None]:
     """Return parameters and result; a result that is no scalar goes to the first parameter."""
     if body.kind != "function":
         return (["i32"] if body.block is not None else []), None
@@ -91,7 +93,7 @@ def _signature(body: Body) -> tuple[list[ir.ValueType], ir.ValueType | None]:
     return ["i32", *parameters], None
 
 
-def _place_parameters(context: FunctionContext, body: Body) -> None:
+def _place_parameters(context: FunctionContext, body: CheckedBody) -> None:
     """Parameters stay in their locals, unless the address of one is taken."""
     first = 0
     if body.result is not None and not is_scalar(body.result.type):
@@ -107,7 +109,7 @@ def _place_parameters(context: FunctionContext, body: Body) -> None:
         context.add_variable(body.result)
 
 
-def _initial_statements(context: FunctionContext, body: Body) -> list[ir.Statement]:
+def _initial_statements(context: FunctionContext, body: CheckedBody) -> list[ir.Statement]:
     """Give variables that live for one call their initial values."""
     found: list[ir.Statement] = []
     first = 1 if body.result is not None and body.result.by_address else 0
@@ -142,7 +144,7 @@ def _initialised(context: FunctionContext, symbol: Symbol, line: int) -> Sequenc
     return [ir.CopyBytes(line, target, ir.AddressOf(source), size)]
 
 
-def _returned(lowering: StatementLowering, body: Body) -> ir.Expression | None:
+def _returned(lowering: StatementLowering, body: CheckedBody) -> ir.Expression | None:
     """Return the value of the function's result, None where it has none or lies in memory."""
     result = body.result
     if result is None or result.by_address:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from plcsim.program.structured_text.check import typed
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
-    Kind,
+    TypeKind,
     is_unsigned,
     kind_of,
     number_type,
@@ -81,4 +81,6 @@ def _is_pure_chain(node: Value) -> bool:
 def _is_unsigned_word(data_type: Type) -> bool:
     if isinstance(data_type, ReferenceType):
         return True
-    return data_type.size >= 4 and is_unsigned(data_type) and kind_of(data_type) is not Kind.REAL
+    return (
+        data_type.size >= 4 and is_unsigned(data_type) and kind_of(data_type) is not TypeKind.REAL
+    )

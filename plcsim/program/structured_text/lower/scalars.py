@@ -11,7 +11,7 @@ from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     BOOL,
     VOID,
-    Kind,
+    TypeKind,
     kind_of,
     number_type,
 )
@@ -35,7 +35,7 @@ MAX_REPEATED: Final = 8
 work it out once, or the code would double with each."""
 
 _SECONDS_OF_DAY = 86_400
-_TEXTS = (Kind.STRING, Kind.WSTRING)
+_TEXTS = (TypeKind.STRING, TypeKind.WSTRING)
 
 
 class ScalarLowering(ValueLowering):

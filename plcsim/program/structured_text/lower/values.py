@@ -10,7 +10,7 @@ from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     ANY_REAL,
     BOOL,
-    Kind,
+    TypeKind,
     is_unsigned,
     kind_of,
     number_type,
@@ -103,7 +103,7 @@ class ValueLowering(PlaceLowering):
 
     def _literal(self, node: typed.Constant, text: str) -> ir.Place:
         hidden = self.module.hidden
-        is_wide = kind_of(node.type) is Kind.WSTRING
+        is_wide = kind_of(node.type) is TypeKind.WSTRING
         data = literal_data(text, is_wide=is_wide)
         return ir.Place(hidden.segment, hidden.literal(data, 2 if is_wide else 1))
 
@@ -241,8 +241,8 @@ class ValueLowering(PlaceLowering):
 
     def _compare(self, node: typed.Compare) -> ir.Expression:
         kind = kind_of(node.operands)
-        if kind in (Kind.STRING, Kind.WSTRING):
-            helper = "rt.string_compare" if kind is Kind.STRING else "rt.wstring_compare"
+        if kind in (TypeKind.STRING, TypeKind.WSTRING):
+            helper = "rt.string_compare" if kind is TypeKind.STRING else "rt.wstring_compare"
             order = ir.Call("i32", helper, (self.address(node.left), self.address(node.right)))
             operator = _COMPARISONS_BY_SIGN[node.operator, False]
             return ir.Compare("i32", operator, order, ir.Const("i32", 0))
@@ -251,7 +251,7 @@ class ValueLowering(PlaceLowering):
         assert value_type is not None
         if value_type in ("f32", "f64"):
             return ir.Compare(value_type, _COMPARISONS[node.operator], a, b)
-        unsigned = is_unsigned(number_type(node.operands)) or kind is Kind.REFERENCE
+        unsigned = is_unsigned(number_type(node.operands)) or kind is TypeKind.REFERENCE
         return ir.Compare(value_type, _COMPARISONS_BY_SIGN[node.operator, unsigned], a, b)
 
     # Temporaries
@@ -286,7 +286,7 @@ def literal_data(text: str, *, is_wide: bool) -> bytes:
         return encode_string(text.encode("utf-8", "surrogatepass"), 4 * len(text)) + b"\0"
 
 
-_AGGREGATES = frozenset([Kind.STRING, Kind.WSTRING, Kind.STRUCT, Kind.ARRAY])
+_AGGREGATES = frozenset([TypeKind.STRING, TypeKind.WSTRING, TypeKind.STRUCT, TypeKind.ARRAY])
 _SPECIAL: dict[
     str, Callable[[ValueLowering, typed.Binary, ir.Expression | None], ir.Expression]
 ] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.preprocessor import preprocess
 from plcsim.program.structured_text.syntax.tree import StructuredTextFile
 from plcsim.program.structured_text.syntax.units import UnitParser
@@ -33,7 +33,7 @@ def parse_structured_text(
         defines: macros that are defined before the first line, each with its replacement.
     """
     if not is_text(source.text):
-        diagnostics = DiagnosticLog(source, Code.SYNTAX)
+        diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
         diagnostics.error(
             0, "the file is no text", "it is encrypted, binary, or UTF-16 without BOM"
         )
@@ -62,12 +62,12 @@ def is_text(text: str) -> bool:
 
 
 def _parse(source: Source, defines: Mapping[str, str]) -> StructuredTextFile:
-    diagnostics = DiagnosticLog(source, Code.SYNTAX)
+    diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
     tokens = Tokens(source)
     parser = UnitParser(tokens, diagnostics)
     if defines or "directive" in parser.keys:
         preprocess(tokens, defines, diagnostics)
         parser = UnitParser(tokens, diagnostics)
     file = parser.structured_text_file()
-    diagnostics.code = Code.DECLARATION
+    diagnostics.code = FindingCode.DECLARATION
     return file

@@ -16,7 +16,7 @@ from st_types.types.derived import ArrayType, EnumerationType, StructType, resol
 from st_types.types.elementary import ELEMENTARY, UDINT, DataType
 from st_types.writers.c_header import Header, c_header
 from st_types.writers.c_types import c_type_block
-from st_types.writers.python_source import Module, python_source
+from st_types.writers.python_source import PythonModule, python_source
 
 ROOT = Path(__file__).parents[4]
 FILES = sorted(
@@ -139,7 +139,7 @@ def test_functions_take_and_give_handles(table: Scope) -> None:
 
 def test_a_python_program_sees_the_node(table: Scope) -> None:
     module: dict[str, object] = {"__name__": "cros_types"}
-    exec(compile(python_source(Module("cros", table), "cROS"), "cros_types", "exec"), module)
+    exec(compile(python_source(PythonModule("cros", table), "cROS"), "cros_types", "exec"), module)
     node = module["CrosNode"]()  # type: ignore[operator]  # mypy does not know what was executed
     assert node.log_level == 2
     node.pubs[4].topic_name = "/joint_states"

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from crosnode.errors import MessageValueError
 from crosnode.messages import MessageTypes, Time
-from crosnode.plc.conversion import Surroundings, tag_conversion
+from crosnode.plc.conversion import ConversionContext, tag_conversion
 from plcsim.core.errors import ConfigurationError
 from st_types import (
     ARRAY,
@@ -75,7 +75,7 @@ def defined(text: str) -> Any:
 
 def pair(data_type: Any, message_type: Any) -> Any:
     data_type = type_of(data_type) if isinstance(data_type, type) else data_type
-    return tag_conversion(Surroundings(TYPES, CUTS), message_type, data_type, "p.tag")
+    return tag_conversion(ConversionContext(TYPES, CUTS), message_type, data_type, "p.tag")
 
 
 def through(data_type: Any, text: str, value: Any) -> Any:

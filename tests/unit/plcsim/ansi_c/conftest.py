@@ -1,6 +1,6 @@
 import pytest
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.toolchain import find_toolchain, system_clang, zig
 from plcsim.core.errors import ConfigurationError
@@ -46,7 +46,7 @@ def built(source, toolchain):
     """``built("int x;")``: what a file of C becomes, built without a cache."""
 
     def built(text, name="main.c", with_=toolchain):
-        order = Order("program", [source(name, text)], [INCLUDE])
+        order = BuildOrder("program", [source(name, text)], [INCLUDE])
         return build(order, with_, CodeCache(None))
 
     return built

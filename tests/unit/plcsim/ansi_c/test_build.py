@@ -1,6 +1,6 @@
 import pytest
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.core.errors import ConfigurationError
 from plcsim.machine import CodeCache
@@ -18,7 +18,7 @@ void _CYCLIC main_cyclic(void) { counter += part(STEP); }
 def test_several_files_become_one_module(each_toolchain, source):
     source("part.h", "#define STEP 2\n")
     files = [source("main.c", UNIT), source("part.c", "int part(int a) { return a + 1; }")]
-    built = build(Order("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
+    built = build(BuildOrder("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
     module = read_shared(built.wasm)
     assert "_CYCLIC" in module.functions
     assert module.addresses == ["counter"]
@@ -31,7 +31,7 @@ def test_c_and_cpp_are_linked(each_toolchain, source):
         source("twice.cpp", 'template <class T> T d(T a) { return a + a; }\n'
                'extern "C" int twice(int a) { return d(a); }'),
     ]  # fmt: skip
-    built = build(Order("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
+    built = build(BuildOrder("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
     assert {"run", "twice"} <= set(read_shared(built.wasm).functions)
 
 
@@ -41,7 +41,7 @@ def test_every_error_of_every_file_is_told_with_its_place(each_toolchain, source
         source("b.c", "#include <nowhere.h>\n"),
     ]
     with pytest.raises(ConfigurationError) as caught:
-        build(Order("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
+        build(BuildOrder("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
     first, second, third = caught.value.findings
     assert first.startswith(f"{files[0]}:3:10: use of undeclared identifier 'undeclared'")
     assert second.startswith(f"{files[0]}:5:23: expected ';'")
@@ -51,7 +51,7 @@ def test_every_error_of_every_file_is_told_with_its_place(each_toolchain, source
 def test_two_definitions_of_a_function_are_told_with_their_files(each_toolchain, source):
     files = [source("a.c", "int f(void) { return 1; }"), source("b.c", "int f(void) { return 2; }")]
     with pytest.raises(ConfigurationError) as caught:
-        build(Order("program main", files, []), each_toolchain, CodeCache(None))
+        build(BuildOrder("program main", files, []), each_toolchain, CodeCache(None))
     assert "duplicate symbol: f" in str(caught.value)
     assert str(files[1]) in str(caught.value)
 
@@ -67,14 +67,14 @@ def test_two_definitions_of_a_function_are_told_with_their_files(each_toolchain,
     ],
 )
 def test_what_the_controller_s_compiler_takes_is_taken(each_toolchain, source, text):
-    build(Order("p", [source("a.c", text)], []), each_toolchain, CodeCache(None))
+    build(BuildOrder("p", [source("a.c", text)], []), each_toolchain, CodeCache(None))
 
 
 def test_warnings_are_kept_with_their_places(source, toolchain, tmp_path):
     file = source("a.c", "int f(void) { return undeclared(); }")
     cache = CodeCache(tmp_path / "cache")
     for _ in range(2):
-        (warning,) = build(Order("p", [file], []), toolchain, cache).warnings
+        (warning,) = build(BuildOrder("p", [file], []), toolchain, cache).warnings
         assert warning.startswith(f"{file}:1:22: ")
         assert "undeclared" in warning
 
@@ -82,7 +82,7 @@ def test_warnings_are_kept_with_their_places(source, toolchain, tmp_path):
 def test_nothing_is_compiled_twice(source, toolchain, tmp_path, monkeypatch):
     source("part.h", "#define STEP 2\n")
     files = [source("main.c", UNIT), source("part.c", "int part(int a) { return a + 1; }")]
-    cache, order = CodeCache(tmp_path / "cache"), Order("p", files, [INCLUDE])
+    cache, order = CodeCache(tmp_path / "cache"), BuildOrder("p", files, [INCLUDE])
     first = build(order, toolchain, cache)
     compiled = counted(monkeypatch)
     assert build(order, toolchain, cache).wasm == first.wasm
@@ -102,7 +102,7 @@ def test_what_has_changed_is_compiled_again(
 ):
     source("part.h", "#define STEP 2\n")
     files = [source("main.c", UNIT), source("part.c", "int part(int a) { return a + 1; }")]
-    cache, order = CodeCache(tmp_path / "cache"), Order("p", files, [INCLUDE])
+    cache, order = CodeCache(tmp_path / "cache"), BuildOrder("p", files, [INCLUDE])
     first = build(order, toolchain, cache).wasm
     source(changed, text)
     compiled = counted(monkeypatch)
@@ -113,7 +113,7 @@ def test_what_has_changed_is_compiled_again(
 def test_a_header_that_is_gone_is_missed(source, toolchain, tmp_path):
     header = source("part.h", "#define STEP 2\n")
     files = [source("main.c", UNIT), source("part.c", "int part(int a) { return a + 1; }")]
-    cache, order = CodeCache(tmp_path / "cache"), Order("p", files, [INCLUDE])
+    cache, order = CodeCache(tmp_path / "cache"), BuildOrder("p", files, [INCLUDE])
     build(order, toolchain, cache)
     header.unlink()
     with pytest.raises(ConfigurationError, match=r"'part\.h' file not found"):
@@ -122,7 +122,9 @@ def test_a_header_that_is_gone_is_missed(source, toolchain, tmp_path):
 
 def test_other_options_make_another_module(source, toolchain, tmp_path):
     file, cache = source("a.c", "int f(void) { return X; }"), CodeCache(tmp_path / "cache")
-    one, two = (build(Order("p", [file], [], [f"-DX={n}"]), toolchain, cache).wasm for n in (1, 2))
+    one, two = (
+        build(BuildOrder("p", [file], [], [f"-DX={n}"]), toolchain, cache).wasm for n in (1, 2)
+    )
     assert one != two
 
 
@@ -130,9 +132,9 @@ def test_names_with_blanks_and_signs_are_files_like_others(source, toolchain, tm
     source("my $ #1.h", "#define X 5\n")
     file = source("a b.c", '#include "my $ #1.h"\nint f(void) { return X; }')
     cache = CodeCache(tmp_path / "cache")
-    first = build(Order("p", [file], []), toolchain, cache).wasm
+    first = build(BuildOrder("p", [file], []), toolchain, cache).wasm
     source("my $ #1.h", "#define X 6\n")
-    assert build(Order("p", [file], []), toolchain, cache).wasm != first
+    assert build(BuildOrder("p", [file], []), toolchain, cache).wasm != first
 
 
 def counted(monkeypatch):

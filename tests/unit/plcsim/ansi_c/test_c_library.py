@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.c_library import (
     BINARY,
     MUSL,
@@ -48,7 +48,7 @@ def test_the_binary_is_that_of_the_sources():
 
 
 def test_each_compiler_builds_it_without_a_warning(each_toolchain):
-    order = Order("C library", sources(), [MUSL, INCLUDE], OPTIONS)
+    order = BuildOrder("C library", sources(), [MUSL, INCLUDE], OPTIONS)
     assert build(order, each_toolchain, CodeCache(None)).warnings == []
 
 

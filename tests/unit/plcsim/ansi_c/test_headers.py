@@ -2,7 +2,7 @@ import subprocess
 
 import pytest
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE, identity_of, program_headers, written_headers
 from plcsim.machine import CodeCache
 from st_types.resolve.scope import Scope
@@ -52,7 +52,7 @@ def headers():
 def test_a_program_finds_what_is_declared_around_it(headers, each_toolchain, source, tmp_path):
     folder = written_headers("x", lambda: headers, tmp_path / "include")
     file = source("main.c", CHECK)
-    built = build(Order("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
+    built = build(BuildOrder("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
     assert built.warnings == []
 
 
@@ -93,7 +93,7 @@ def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, sour
     assert "strcpy(" not in headers["asstring.h"]
     folder = written_headers("x", lambda: headers, tmp_path / "include")
     file = source("main.c", "#include <AsDefault.h>\nchar *f(char *a) { return strcpy(a, a); }")
-    built = build(Order("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
+    built = build(BuildOrder("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
     assert built.warnings == []
 
 
@@ -110,7 +110,7 @@ def test_types_are_those_of_the_32_bit_target(each_toolchain, source):
     enum e { A, B }; SAME(sizeof(enum e), 4);
     """
     file = source("a.c", text)
-    build(Order("p", [file], [INCLUDE]), each_toolchain, CodeCache(None))
+    build(BuildOrder("p", [file], [INCLUDE]), each_toolchain, CodeCache(None))
     command = ["gcc", "-m32", "-ffreestanding", "-fsyntax-only", f"-I{INCLUDE}", str(file)]
     native = subprocess.run(command, capture_output=True, text=True, check=False)
     assert "static assertion" not in native.stderr

@@ -3,13 +3,13 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 
-from plcsim.ansi_c.heap import Heap, is_of_heap
+from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
 from plcsim.machine import MachineFault
 from tests.unit.plcsim.ansi_c.c_library_world import World
 
 WORLD = World()
 SIZE = 8000
-HEAP = Heap("test", WORLD.machine, WORLD.library, SIZE)
+HEAP = ProgramHeap("test", WORLD.machine, WORLD.library, SIZE)
 
 
 def function(name, params, results="I"):

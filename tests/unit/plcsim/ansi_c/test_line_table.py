@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.line_table import read_line_table
 from plcsim.machine import CodeCache
 from plcsim.machine.errors import MachineError
@@ -27,7 +27,7 @@ int other(int a)
 
 def test_code_belongs_to_the_lines_that_it_was_made_of(each_toolchain, source):
     file = source("main.c", TEXT)
-    module = read_shared(build(Order("p", [file]), each_toolchain, CodeCache(None)).wasm)
+    module = read_shared(build(BuildOrder("p", [file]), each_toolchain, CodeCache(None)).wasm)
     table = read_line_table(module.section(".debug_line"))
     wasm, start = module.wasm, module.code_start
     divisions = [at for at in range(start, len(wasm)) if wasm[at] == 0x6D][:1]

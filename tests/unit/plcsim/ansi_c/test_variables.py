@@ -1,6 +1,6 @@
 import pytest
 
-from plcsim.ansi_c.build import Order, build
+from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.variables import own_variables
 from plcsim.machine import CodeCache
@@ -31,7 +31,9 @@ EXPECTED = {
 
 @pytest.fixture
 def found(each_toolchain, source):
-    wasm = build(Order("p", [source("a.c", TEXT)], [INCLUDE]), each_toolchain, CodeCache(None)).wasm
+    wasm = build(
+        BuildOrder("p", [source("a.c", TEXT)], [INCLUDE]), each_toolchain, CodeCache(None)
+    ).wasm
     declared = parse_text("TYPE Pair : STRUCT on : BOOL; x : LREAL; END_STRUCT; END_TYPE")
     scope = Scope("p", [declared])
     module = read_shared(wasm)
@@ -64,5 +66,5 @@ def test_members_lie_where_the_compiler_has_put_them(found):
 
 def test_a_module_without_variables_has_none(each_toolchain, source):
     file = source("a.c", "int f(void) { return 1; }")
-    module = read_shared(build(Order("p", [file]), each_toolchain, CodeCache(None)).wasm)
+    module = read_shared(build(BuildOrder("p", [file]), each_toolchain, CodeCache(None)).wasm)
     assert own_variables(module, Scope("p", []), [], "p") is None

@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("scipy", reason="the extra campaign is not installed")
 
 from plcsim.campaign import CampaignError, Falsify, Integer, Uniform
-from plcsim.campaign.result import Order, Outcome, Result
+from plcsim.campaign.result import PlannedRun, Result, RunOutcome
 
 VARIABLES = {"a": Uniform(-10, 10), "b": Uniform(-10, 10), "n": Integer(0, 9)}
 
@@ -17,23 +17,23 @@ class Bowl:
 
     def __init__(self, depth: float) -> None:
         self.depth = depth
-        self.done: list[Order] = []
+        self.done: list[PlannedRun] = []
 
-    def perform(self, orders: Sequence[Order]) -> Iterable[Result]:
+    def perform(self, orders: Sequence[PlannedRun]) -> Iterable[Result]:
         """Return the results backwards: nothing may depend on their order."""
         self.done += orders
         return [self.result(order) for order in reversed(orders)]
 
-    def result(self, order: Order) -> Result:
+    def result(self, order: PlannedRun) -> Result:
         a, b, n = (float(order.values[name]) for name in "abn")
         margin = (a - 3.3) ** 2 + (b + 7.1) ** 2 + abs(n - 4) - self.depth
-        return Result(order, Outcome.FAILED if margin < 0 else Outcome.PASSED, margin=margin)
+        return Result(order, RunOutcome.FAILED if margin < 0 else RunOutcome.PASSED, margin=margin)
 
 
 def test_the_margin_leads_to_the_failure() -> None:
     bowl = Bowl(depth=0.01)  # 0.0008 % of the space
     Falsify(3000).search(VARIABLES, 1, bowl.perform)
-    assert any(bowl.result(order).outcome is Outcome.FAILED for order in bowl.done)
+    assert any(bowl.result(order).outcome is RunOutcome.FAILED for order in bowl.done)
     assert len(bowl.done) < 3000
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.campaign.definition import load_campaign
-from plcsim.campaign.result import Order, Outcome, Result
+from plcsim.campaign.result import PlannedRun, Result, RunOutcome
 from plcsim.campaign.single_run import SingleRun
 
 Write = Callable[[str], Path]
@@ -30,13 +30,13 @@ RAMP = """
 
 
 def perform(file: Path, **values: float) -> Result:
-    order = Order(3, 5, {name.replace("_", "."): value for name, value in values.items()})
+    order = PlannedRun(3, 5, {name.replace("_", "."): value for name, value in values.items()})
     return SingleRun(load_campaign(file), order).perform(file)
 
 
 def test_a_run_that_holds_is_measured(campaign_file: Write) -> None:
     result = perform(campaign_file(RAMP), ramp_step=2.0)
-    assert result.outcome is Outcome.PASSED
+    assert result.outcome is RunOutcome.PASSED
     assert result.margin == 150
     assert result.measured == {
         "ramp.value": 200,
@@ -49,7 +49,7 @@ def test_a_run_that_holds_is_measured(campaign_file: Write) -> None:
 
 def test_what_has_always_to_hold_ends_the_run(campaign_file: Write) -> None:
     result = perform(campaign_file(RAMP), ramp_step=8.0)
-    assert result.outcome is Outcome.FAILED
+    assert result.outcome is RunOutcome.FAILED
     assert result.message == "stays below 500: does not hold at 0.625 s, margin -4"
     assert result.cause == "stays below 500"
     assert result.margin == -4
@@ -73,14 +73,14 @@ def test_what_has_to_hold_once(campaign_file: Write) -> None:
         )
         """
     )
-    assert perform(file, ramp_step=2.0).outcome is Outcome.PASSED
+    assert perform(file, ramp_step=2.0).outcome is RunOutcome.PASSED
     missed = perform(file, ramp_step=5.0)
-    assert (missed.outcome, missed.margin) == (Outcome.FAILED, -1)
+    assert (missed.outcome, missed.margin) == (RunOutcome.FAILED, -1)
 
 
 def test_service_is_a_failure_grouped_by_its_reason(campaign_file: Write) -> None:
     result = perform(campaign_file(RAMP), ramp_step=1.0, ramp_trouble=1)
-    assert result.outcome is Outcome.FAILED
+    assert result.outcome is RunOutcome.FAILED
     assert "division by zero" in result.message
     assert "main.py" in result.message
 
@@ -98,12 +98,12 @@ def test_a_scenario_and_what_it_returns(campaign_file: Write) -> None:
         """
     )
     good = perform(file, goal=4.0, ramp_step=2.0)
-    assert (good.outcome, good.measured) == (Outcome.PASSED, {"took_ms": 15.0})
+    assert (good.outcome, good.measured) == (RunOutcome.PASSED, {"took_ms": 15.0})
     bad = perform(file, goal=5.0, ramp_step=2.0)
-    assert bad.outcome is Outcome.FAILED
+    assert bad.outcome is RunOutcome.FAILED
     assert "goes beyond" in bad.message
     never = perform(file, goal=9.0, ramp_step=0.0)
-    assert never.outcome is Outcome.FAILED
+    assert never.outcome is RunOutcome.FAILED
     assert never.cause.startswith("waited …")
 
 
@@ -118,7 +118,7 @@ def test_errors_of_the_campaign_say_nothing_of_the_program(campaign_file: Write)
         """
     )
     result = perform(file, speed=0.5)
-    assert result.outcome is Outcome.ERROR
+    assert result.outcome is RunOutcome.ERROR
     assert result.message.startswith("KeyError: 0.5")
     assert "ramps.py:7" in result.message
 

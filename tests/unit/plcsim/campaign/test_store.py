@@ -8,14 +8,16 @@ import pytest
 pytest.importorskip("pyarrow", reason="the extra campaign is not installed")
 
 from plcsim.campaign.errors import CampaignError
-from plcsim.campaign.result import Order, Outcome, Result
-from plcsim.campaign.store import About, Examples, Store, read_folder
+from plcsim.campaign.result import PlannedRun, Result, RunOutcome
+from plcsim.campaign.store import About, Examples, ResultStore, read_folder
 
 ABOUT = About("overflow.py", "c0ffee", 3, "1.0")
-PASSED = Result(Order(0, 10, {"a.x": 0.1, "on": True}), Outcome.PASSED, margin=1.5, host_s=0.25)
+PASSED = Result(
+    PlannedRun(0, 10, {"a.x": 0.1, "on": True}), RunOutcome.PASSED, margin=1.5, host_s=0.25
+)
 FAILED = Result(
-    Order(1, 11, {"a.x": 1 / 3, "on": False}),
-    Outcome.FAILED,
+    PlannedRun(1, 11, {"a.x": 1 / 3, "on": False}),
+    RunOutcome.FAILED,
     "spilled",
     "no spill",
     -0.5,
@@ -25,7 +27,7 @@ FAILED = Result(
 
 
 def test_what_was_written_is_read_exactly(tmp_path: Path) -> None:
-    store = Store(tmp_path / "r", ABOUT)
+    store = ResultStore(tmp_path / "r", ABOUT)
     store.add(FAILED)
     store.add(PASSED)
     store.complete()
@@ -33,10 +35,10 @@ def test_what_was_written_is_read_exactly(tmp_path: Path) -> None:
 
 
 def test_an_interrupted_campaign_goes_on(tmp_path: Path) -> None:
-    first = Store(tmp_path / "r", ABOUT)
+    first = ResultStore(tmp_path / "r", ABOUT)
     first.add(PASSED)
     first.flush()
-    second = Store(tmp_path / "r", ABOUT)
+    second = ResultStore(tmp_path / "r", ABOUT)
     assert second.done == {0}
     second.add(FAILED)
     second.complete()
@@ -44,11 +46,11 @@ def test_an_interrupted_campaign_goes_on(tmp_path: Path) -> None:
         "campaign.json",
         "results.parquet",
     ]
-    assert Store(tmp_path / "r", ABOUT).done == {0, 1}
+    assert ResultStore(tmp_path / "r", ABOUT).done == {0, 1}
 
 
 def test_parts_with_other_columns_and_kinds_of_numbers_become_one_file(tmp_path: Path) -> None:
-    store = Store(tmp_path / "r", ABOUT)
+    store = ResultStore(tmp_path / "r", ABOUT)
     store.add(replace(PASSED, measured={"t": 1}))
     store.flush()
     store.add(replace(FAILED, measured={"t": 1.5, "u": True}))
@@ -58,29 +60,29 @@ def test_parts_with_other_columns_and_kinds_of_numbers_become_one_file(tmp_path:
 
 
 def test_results_of_something_else_are_not_mixed(tmp_path: Path) -> None:
-    Store(tmp_path / "r", ABOUT)
+    ResultStore(tmp_path / "r", ABOUT)
     with pytest.raises(CampaignError, match=r"were changed; --fresh begins again"):
-        Store(tmp_path / "r", replace(ABOUT, content="other"))
-    assert Store(tmp_path / "r", replace(ABOUT, content="other"), fresh=True).done == set()
+        ResultStore(tmp_path / "r", replace(ABOUT, content="other"))
+    assert ResultStore(tmp_path / "r", replace(ABOUT, content="other"), fresh=True).done == set()
 
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path: Path) -> None:
     (tmp_path / "thesis.txt").write_text("mine")
     for fresh in (False, True):
         with pytest.raises(CampaignError, match="other files"):
-            Store(tmp_path, ABOUT, fresh=fresh)
+            ResultStore(tmp_path, ABOUT, fresh=fresh)
     assert (tmp_path / "thesis.txt").read_text() == "mine"
 
 
 def test_a_broken_file_is_named(tmp_path: Path) -> None:
-    Store(tmp_path / "r", ABOUT)
+    ResultStore(tmp_path / "r", ABOUT)
     (tmp_path / "r" / "part-000000.parquet").write_bytes(b"PAR1 half a file")
     with pytest.raises(CampaignError, match=r"part-000000.parquet: cannot be read"):
-        Store(tmp_path / "r", ABOUT)
+        ResultStore(tmp_path / "r", ABOUT)
 
 
 def test_one_name_of_two_kinds_is_told(tmp_path: Path) -> None:
-    store = Store(tmp_path / "r", ABOUT)
+    store = ResultStore(tmp_path / "r", ABOUT)
     store.add(replace(PASSED, measured={"t": 1}))
     store.add(replace(FAILED, measured={"t": "late"}))
     with pytest.raises(CampaignError, match="measured t: has values of several kinds"):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.cli.command_tree import Argument, ArgumentKind, command_tree
+from plcsim.cli.command_tree import ArgumentKind, CommandArgument, command_tree
 from plcsim.cli.parser import CommandParser
 
 
@@ -38,9 +38,9 @@ def test_commands_are_found_at_every_depth(root):
 def test_arguments_say_what_is_typed_for_them(root):
     build = root.commands[0]
     assert build.arguments == (
-        Argument(("-o", "--output"), "by default None", ArgumentKind.FILE, "FILE"),
-        Argument(("--fast",), "100 % faster", ArgumentKind.NOTHING, "fast"),
-        Argument(("--level",), "", ArgumentKind.CHOICE, "level", ("1", "2")),
-        Argument(("--name",), "", ArgumentKind.TEXT, "NAME"),
-        Argument((), "", ArgumentKind.FOLDER, "PROJECT"),
+        CommandArgument(("-o", "--output"), "by default None", ArgumentKind.FILE, "FILE"),
+        CommandArgument(("--fast",), "100 % faster", ArgumentKind.NOTHING, "fast"),
+        CommandArgument(("--level",), "", ArgumentKind.CHOICE, "level", ("1", "2")),
+        CommandArgument(("--name",), "", ArgumentKind.TEXT, "NAME"),
+        CommandArgument((), "", ArgumentKind.FOLDER, "PROJECT"),
     )

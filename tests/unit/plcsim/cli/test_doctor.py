@@ -8,7 +8,7 @@ from plcsim.cli import doctor
 from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.statistics import Summary
-from plcsim.doctor.loops import Measurement, Order
+from plcsim.doctor.loops import LoopOrder, Measurement
 from plcsim.host.realtime import Rights
 
 ALL = Rights(("SCHED_FIFO 50", "CPU 1", "locked memory", "no deep sleep"), ())
@@ -47,7 +47,7 @@ def host_gives(monkeypatch):
 def test_the_tick_and_the_length_are_taken_from_the_arguments(host_gives):
     orders = host_gives(ALL)
     assert run("--tick", "2ms", "--seconds", "3") == 0
-    assert orders == [Order(2_000_000, 1500, rights) for rights in (False, False, True, True)]
+    assert orders == [LoopOrder(2_000_000, 1500, rights) for rights in (False, False, True, True)]
 
 
 def test_a_long_tick_is_measured_for_some_cycles_at_least(host_gives):

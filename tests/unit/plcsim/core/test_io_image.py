@@ -4,7 +4,7 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.io_image import Copy, IoImage, Line
+from plcsim.core.io_image import IoImage, Line, VariableCopy
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from st_types import BOOL, UINT, var
@@ -113,7 +113,7 @@ def test_outputs_are_published_by_their_class_neighbours_together(plc, at):
 
 
 def test_a_variable_goes_to_another_one_with_the_cycles_of_both(plc, at):
-    copy = Copy(at("fast.count").address, at("slow.copied").address, 2, 1, 2)
+    copy = VariableCopy(at("fast.count").address, at("slow.copied").address, 2, 1, 2)
     connect(plc, copies=[copy])
     plc.run_for(12 * MS)
     assert (value(plc, "fast.count"), value(plc, "slow.copied")) == (1, 1)
@@ -124,7 +124,7 @@ def test_a_variable_goes_to_another_one_with_the_cycles_of_both(plc, at):
 
 
 def test_a_boot_disconnects_everything(plc, at):
-    copy = Copy(at("fast.count").address, at("slow.copied").address, 2, 1, 2)
+    copy = VariableCopy(at("fast.count").address, at("slow.copied").address, 2, 1, 2)
     connect(plc, {1: [line(at, "a", "fast.start")]}, copies=[copy])
     write(plc, "IoMap.M.a", True)
     plc.run_for(20 * MS)

@@ -4,7 +4,7 @@ import pytest
 
 from plcsim.core.statistics import Histogram
 from plcsim.doctor.host import Host
-from plcsim.doctor.loops import Measurement, Order
+from plcsim.doctor.loops import LoopOrder, Measurement
 from plcsim.doctor.verdict import Comparison
 
 MS = 1_000_000
@@ -15,7 +15,7 @@ def measurement_of(lateness_ns, missed=0, loop="plcsim", *, realtime=True, stole
     histogram = Histogram()
     for late_ns in lateness_ns:
         histogram.record(late_ns)
-    order = Order(MS, len(lateness_ns), realtime)
+    order = LoopOrder(MS, len(lateness_ns), realtime)
     return Measurement(loop, order, missed, histogram.summary(), stolen_percent)
 
 

@@ -9,7 +9,7 @@ from plcsim.doctor import loops
 from plcsim.doctor.errors import MeasurementError
 from plcsim.doctor.loops import (
     CLoop,
-    Order,
+    LoopOrder,
     PythonLoop,
     ScanLoop,
     compile_floor,
@@ -21,7 +21,7 @@ from plcsim.doctor.loops import (
 from plcsim.project.plc_toml import read_project
 
 MS = 1_000_000
-ORDER = Order(cycle_ns=MS, cycles=20, realtime=False)
+ORDER = LoopOrder(cycle_ns=MS, cycles=20, realtime=False)
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_every_loop_wakes_as_often_as_ordered_and_never_early(tmp_path, request,
 
 
 def test_the_floor_skips_what_it_missed(floor):
-    grid = Order(cycle_ns=1, cycles=5, realtime=False)  # no host wakes within a nanosecond
+    grid = LoopOrder(cycle_ns=1, cycles=5, realtime=False)  # no host wakes within a nanosecond
     figures = CLoop(floor).run(grid)
     assert figures.missed >= grid.cycles
     assert figures.lateness.maximum_ns < 1_000_000_000
@@ -54,7 +54,7 @@ def test_the_floor_skips_what_it_missed(floor):
 
 @pytest.mark.parametrize("realtime", [False, True])
 def test_the_empty_project_asks_for_the_rights_it_is_measured_with(tmp_path, realtime):
-    project = read_project(write_project(tmp_path, Order(MS, 1, realtime)))
+    project = read_project(write_project(tmp_path, LoopOrder(MS, 1, realtime)))
     assert project.plc.realtime == ("require" if realtime else "off")
     assert (project.plc.tick_ns, project.classes[0].cycle_ns) == (MS, MS)
     assert project.plc.priority == loops.PRIORITY
@@ -104,12 +104,12 @@ def test_the_rights_of_a_fresh_process_are_either_given_or_refused():
 def test_a_scan_that_is_refused_its_rights_says_so(tmp_path, monkeypatch):
     monkeypatch.setattr(loops, "PRIORITY", 0)  # SCHED_FIFO has none below 1
     with pytest.raises(MeasurementError, match="priority: 0 is outside"):
-        ScanLoop(tmp_path).run(Order(MS, 1, realtime=True))
+        ScanLoop(tmp_path).run(LoopOrder(MS, 1, realtime=True))
 
 
 def test_bare_loops_get_no_priority_without_rights():
-    assert Order(MS, 5, realtime=False).arguments()[:3] == ["1000000", "5", "0"]
-    assert Order(MS, 5, realtime=True).arguments()[2] == str(loops.PRIORITY)
+    assert LoopOrder(MS, 5, realtime=False).arguments()[:3] == ["1000000", "5", "0"]
+    assert LoopOrder(MS, 5, realtime=True).arguments()[2] == str(loops.PRIORITY)
 
 
 def test_modules_run_with_this_interpreter(monkeypatch):

@@ -8,7 +8,7 @@ from pathlib import Path
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
 from plcsim.core.system import State
-from plcsim.modbus.map.changes import Change
+from plcsim.modbus.map.changes import TagChange
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.resolve import resolve
 from plcsim.modbus.service.connection import ModbusConnection, ModbusLimits
@@ -62,10 +62,10 @@ class Log:
     """An audit log that remembers."""
 
     def __init__(self) -> None:
-        self.applied_tags: list[Change] = []
+        self.applied_tags: list[TagChange] = []
         self.refused_codes: list[tuple[str, int]] = []
 
-    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+    def applied(self, origin: Origin, changed: Sequence[TagChange]) -> None:
         self.applied_tags += changed
 
     def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:

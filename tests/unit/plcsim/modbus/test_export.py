@@ -8,8 +8,8 @@ import tomllib
 import pytest
 
 from plcsim.modbus.export import FORMATS
-from plcsim.modbus.export.entry import Export, ExportEntry, extent
-from plcsim.modbus.map import Row
+from plcsim.modbus.export.entry import ExportEntry, MapExport, extent
+from plcsim.modbus.map import MapRow
 from plcsim.modbus.map.csv_file import read_rows
 from plcsim.modbus.map.point import Area
 from plcsim.modbus.map.resolve import resolve
@@ -28,9 +28,9 @@ p.flag,hr,14,3,,,,,,,1,
 p.other,hr,15,,,,,,,,1,
 p.vast,hr,200,,,,,ro,,,,
 """
-ROWS: list[Row] = read_rows(TEXT, FILE)
+ROWS: list[MapRow] = read_rows(TEXT, FILE)
 POINTS = resolve(ROWS, PLC.tags.find, FILE, "ABCD")
-EXPORT = Export("cell", "127.0.0.1", 1502, list(map(ExportEntry, ROWS, POINTS)))
+EXPORT = MapExport("cell", "127.0.0.1", 1502, list(map(ExportEntry, ROWS, POINTS)))
 
 
 @pytest.mark.parametrize("name", FORMATS)
@@ -42,7 +42,7 @@ def test_every_format_names_every_tag_and_is_the_same_every_time(name: str) -> N
 
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_empty_map_is_exported(name: str) -> None:
-    assert isinstance(FORMATS[name](Export("cell", "::1", 502, [])), str)
+    assert isinstance(FORMATS[name](MapExport("cell", "::1", 502, [])), str)
 
 
 def test_all_ways_of_counting_an_address() -> None:

@@ -9,7 +9,7 @@ from plcsim.core.clock import VirtualClock
 from plcsim.network import VirtualNetwork
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
-from plcsim.shared_image import ImageReader, ImageWriter, Outcome, Store, Write
+from plcsim.shared_image import CommandOutcome, ImageReader, ImageWriter, StoreCommand, Write
 from plcsim.shared_image.layout import make_file
 from st_types import ARRAY, BOOL, REAL, STRING, UDINT, UINT, var
 
@@ -64,10 +64,10 @@ class World:
         self.controller.boot()
 
     def write(self, path: str, data: bytes) -> int:
-        return self.reader.send(Write((Store(self.address(path), data),)))
+        return self.reader.send(Write((StoreCommand(self.address(path), data),)))
 
     def is_applied(self, ticket: int) -> bool:
-        return self.reader.outcome(ticket) is Outcome.APPLIED
+        return self.reader.outcome(ticket) is CommandOutcome.APPLIED
 
     def address(self, path: str) -> int:
         return self.controller.tags.find(path).address

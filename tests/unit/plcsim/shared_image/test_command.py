@@ -10,15 +10,15 @@ from plcsim.shared_image.command import (
     Answer,
     Cancel,
     Command,
+    CommandOutcome,
     Control,
-    Force,
+    ForceCommand,
     Mask,
     Operation,
-    Outcome,
     Release,
-    Sample,
+    SampleCommand,
     Scatter,
-    Store,
+    StoreCommand,
     Write,
     answer_of,
     decode_command,
@@ -32,7 +32,7 @@ scattered = st.lists(st.tuples(addresses, st.integers(0, 255)), min_size=1, max_
     lambda bytes_: Scatter(tuple(a for a, _ in bytes_), bytes(b for _, b in bytes_))
 )
 operations = (
-    st.builds(Store, addresses, st.binary(max_size=40))
+    st.builds(StoreCommand, addresses, st.binary(max_size=40))
     | st.builds(Mask, addresses, words, words)
     | scattered
 )
@@ -42,11 +42,11 @@ texts = st.text(max_size=30)
 numbers = st.integers(0, 2**16 - 1)
 commands = st.one_of(
     st.lists(operations, max_size=20).map(lambda found: Write(tuple(found))),
-    st.builds(Force, texts, st.binary(max_size=40)),
+    st.builds(ForceCommand, texts, st.binary(max_size=40)),
     st.builds(Release, texts),
     st.builds(Control, st.sampled_from(Action), st.integers(-(2**63), 2**63 - 1)),
     st.builds(
-        Sample,
+        SampleCommand,
         st.integers(1, 2**32 - 1),
         st.integers(0, 8),
         st.integers(0, 2**63 - 1),
@@ -61,7 +61,7 @@ def test_a_command_survives_its_record(command: Command) -> None:
     record = encode_command(command)
     assert len(record) % 8 == 0
     assert decode_command(record) == command
-    assert answer_of(record) == Answer(Outcome.WAITING, 0, command)
+    assert answer_of(record) == Answer(CommandOutcome.WAITING, 0, command)
 
 
 @given(st.binary(min_size=16, max_size=200))
@@ -87,13 +87,13 @@ def test_any_body_of_any_kind_is_a_command_or_a_value_error(
 
 
 def test_an_outcome_says_whether_and_why_a_command_was_refused() -> None:
-    refused = [outcome for outcome in Outcome if outcome.is_refused]
-    assert len(refused) == len(Outcome) - 2
-    assert len({outcome.text for outcome in Outcome}) == len(Outcome)
+    refused = [outcome for outcome in CommandOutcome if outcome.is_refused]
+    assert len(refused) == len(CommandOutcome) - 2
+    assert len({outcome.text for outcome in CommandOutcome}) == len(CommandOutcome)
 
 
-@given(st.lists(st.builds(Store, st.integers(0, 64), st.binary(min_size=1, max_size=8))))
-def test_merging_does_not_change_what_is_stored(stores: list[Store]) -> None:
+@given(st.lists(st.builds(StoreCommand, st.integers(0, 64), st.binary(min_size=1, max_size=8))))
+def test_merging_does_not_change_what_is_stored(stores: list[StoreCommand]) -> None:
     def image(operations: Sequence[Operation]) -> bytearray:
         memory = bytearray(80)
         for operation in operations:
@@ -101,7 +101,7 @@ def test_merging_does_not_change_what_is_stored(stores: list[Store]) -> None:
                 for address, value in zip(operation.addresses, operation.data, strict=True):
                     memory[address] = value
                 continue
-            assert isinstance(operation, Store)
+            assert isinstance(operation, StoreCommand)
             memory[operation.address : operation.address + len(operation.data)] = operation.data
         return memory
 
@@ -109,24 +109,30 @@ def test_merging_does_not_change_what_is_stored(stores: list[Store]) -> None:
 
 
 def test_adjoining_stores_become_one() -> None:
-    assert merged([Store(8, b"ab"), Store(10, b"c"), Store(12, b"d")]) == (
-        Store(8, b"abc"),
-        Store(12, b"d"),
+    assert merged([StoreCommand(8, b"ab"), StoreCommand(10, b"c"), StoreCommand(12, b"d")]) == (
+        StoreCommand(8, b"abc"),
+        StoreCommand(12, b"d"),
     )
 
 
 def test_single_bytes_that_follow_each_other_become_one() -> None:
-    stores = [Store(4, b"aa"), Store(8, b"b"), Store(20, b"c"), Mask(2, 1, 2), Store(6, b"d")]
+    stores = [
+        StoreCommand(4, b"aa"),
+        StoreCommand(8, b"b"),
+        StoreCommand(20, b"c"),
+        Mask(2, 1, 2),
+        StoreCommand(6, b"d"),
+    ]
     assert merged(stores) == (
-        Store(4, b"aa"),
+        StoreCommand(4, b"aa"),
         Scatter((8, 20), b"bc"),
         Mask(2, 1, 2),
-        Store(6, b"d"),
+        StoreCommand(6, b"d"),
     )
 
 
 def test_a_mask_is_not_merged() -> None:
-    command = (Store(8, b"ab"), Mask(10, 1, 2))
+    command = (StoreCommand(8, b"ab"), Mask(10, 1, 2))
     assert merged(command) == command
 
 

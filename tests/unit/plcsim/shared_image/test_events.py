@@ -17,7 +17,7 @@ from plcsim.shared_image.events import (
     entry_of,
     violation_of,
 )
-from plcsim.shared_image.stream import Record
+from plcsim.shared_image.stream import StreamRecord
 
 from .conftest import MS, Make, World
 
@@ -27,7 +27,10 @@ texts = st.text(st.characters(exclude_categories=["Cs"]), max_size=40)
 
 @given(st.builds(Entry, times, st.sampled_from(Severity), texts, texts))
 def test_an_entry_survives_its_record(entry: Entry) -> None:
-    assert entry_of(Record(EventKind.ENTRY.value, 0, entry.time_ns, encode_entry(entry))) == entry
+    assert (
+        entry_of(StreamRecord(EventKind.ENTRY.value, 0, entry.time_ns, encode_entry(entry)))
+        == entry
+    )
 
 
 @given(
@@ -37,13 +40,13 @@ def test_an_entry_survives_its_record(entry: Entry) -> None:
     )
 )  # fmt: skip
 def test_a_violation_survives_its_record(violation: Violation) -> None:
-    record = Record(EventKind.VIOLATION.value, 0, 1, encode_violation(violation))
+    record = StreamRecord(EventKind.VIOLATION.value, 0, 1, encode_violation(violation))
     assert violation_of(record) == violation
 
 
 def test_text_that_is_none_does_not_stop_the_scan() -> None:
     data = encode_entry(Entry(0, Severity.ERROR, "p", "a \ud800 b"))
-    assert entry_of(Record(1, 0, 0, data)).text == "a ? b"
+    assert entry_of(StreamRecord(1, 0, 0, data)).text == "a ? b"
 
 
 class Late(Program):

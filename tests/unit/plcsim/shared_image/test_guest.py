@@ -7,7 +7,15 @@ import time
 
 import pytest
 
-from plcsim.shared_image import CommandRefused, ImageReader, Outcome, Sample, Store, Write, layout
+from plcsim.shared_image import (
+    CommandOutcome,
+    CommandRefused,
+    ImageReader,
+    SampleCommand,
+    StoreCommand,
+    Write,
+    layout,
+)
 from plcsim.shared_image.guest import guest, tidy
 
 from .conftest import World
@@ -19,9 +27,9 @@ def file_of(world: World) -> str:
 
 def test_a_guest_writes_beside_the_services(world: World) -> None:
     with guest(file_of(world)) as reader:
-        ticket = reader.send(Write((Store(world.address("fast.word"), b"\7\0"),)))
+        ticket = reader.send(Write((StoreCommand(world.address("fast.word"), b"\7\0"),)))
         world.controller.run(cycles=1)
-        assert reader.outcome(ticket) is Outcome.APPLIED
+        assert reader.outcome(ticket) is CommandOutcome.APPLIED
     assert world.read("fast.word") == 7
 
 
@@ -75,7 +83,7 @@ def test_the_samples_of_a_guest_that_was_killed_are_cancelled(world: World) -> N
 
 def test_a_new_guest_begins_without_the_samples_of_the_one_before(world: World) -> None:
     with guest(file_of(world)) as reader:
-        reader.send(Sample(1, 0, 0, [(world.address("fast.count"), 4)]))
+        reader.send(SampleCommand(1, 0, 0, [(world.address("fast.count"), 4)]))
         world.controller.run(cycles=1)
         assert reader.samples_of(1) == 1
         kept = reader
@@ -84,7 +92,7 @@ def test_a_new_guest_begins_without_the_samples_of_the_one_before(world: World) 
         world.controller.run(cycles=1)
         assert reader.samples_of(1) == 0
         samples = reader.samples()
-        reader.send(Sample(2, 0, 0, [(world.address("fast.count"), 4)]))
+        reader.send(SampleCommand(2, 0, 0, [(world.address("fast.count"), 4)]))
         world.controller.run(cycles=2)
         assert len(samples.read()) == 2
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.shared_image import layout
-from plcsim.shared_image.command import HEAD, Outcome, Store, Write, encode_command
+from plcsim.shared_image.command import HEAD, CommandOutcome, StoreCommand, Write, encode_command
 from plcsim.shared_image.errors import CommandRefused
 from plcsim.shared_image.ring import ANSWERS_KEPT, LARGEST_RECORD, Consumer, Producer, Taken
 
@@ -20,7 +20,7 @@ def both_ends() -> tuple[Producer, Consumer, memoryview]:
 
 
 def record_of(number: int, size: int = 1) -> bytes:
-    return encode_command(Write((Store(number, bytes(size)),)))
+    return encode_command(Write((StoreCommand(number, bytes(size)),)))
 
 
 def take(consumer: Consumer) -> bytes | None:
@@ -61,7 +61,7 @@ def test_whatever_the_order_of_answers_each_is_got_once(acts: list[tuple[str, in
     """(p)ut, (t)ake, (a)nswer by refusing, (A)pply, ask for the (o)utcome, ac(k)nowledge."""
     producer, consumer, _ = both_ends()
     tickets: list[int] = []
-    model: dict[int, Outcome] = {}
+    model: dict[int, CommandOutcome] = {}
     taken: list[tuple[int, Taken]] = []
     numbers = iter(range(1000))
     for act, number in acts:
@@ -71,15 +71,15 @@ def test_whatever_the_order_of_answers_each_is_got_once(acts: list[tuple[str, in
             except CommandRefused:
                 continue
             tickets.append(ticket)
-            model[ticket] = Outcome.WAITING
+            model[ticket] = CommandOutcome.WAITING
         elif act == "t":
             found = consumer.take()
             if found is not None:
                 taken.append((tickets[len(taken)], found))
         elif act in "aA" and taken:
             ticket, found = taken[number % len(taken)]
-            if model.get(ticket) is Outcome.WAITING:
-                outcome = Outcome.APPLIED if act == "A" else Outcome.TOO_MANY
+            if model.get(ticket) is CommandOutcome.WAITING:
+                outcome = CommandOutcome.APPLIED if act == "A" else CommandOutcome.TOO_MANY
                 found.answer(outcome)
                 model[ticket] = outcome
         elif act == "k":
@@ -88,7 +88,7 @@ def test_whatever_the_order_of_answers_each_is_got_once(acts: list[tuple[str, in
             ticket = list(model)[number % len(model)]
             assert producer.outcome(ticket) is model[ticket]
             answer = producer.take_answer(ticket)
-            if model[ticket] is Outcome.WAITING:
+            if model[ticket] is CommandOutcome.WAITING:
                 assert answer is None
             else:
                 assert answer is not None
@@ -117,8 +117,8 @@ def test_the_place_of_a_record_is_given_back_in_order() -> None:
     two.applied()
     assert not consumer.acknowledge()
     assert (producer.outcome(first), producer.outcome(second)) == (
-        Outcome.WAITING,
-        Outcome.APPLIED,
+        CommandOutcome.WAITING,
+        CommandOutcome.APPLIED,
     )
     assert cells[tail] == 0
     one.applied()
@@ -134,10 +134,10 @@ def test_an_answer_can_be_read_after_its_place_was_used_again() -> None:
     for _ in range(3):
         producer.put(record_of(8, 30_000))
         take(consumer)
-    assert producer.outcome(first) is Outcome.APPLIED
+    assert producer.outcome(first) is CommandOutcome.APPLIED
     answer = producer.take_answer(first)
     assert answer is not None
-    assert answer.before == Write((Store(7, bytes(30_000)),))
+    assert answer.before == Write((StoreCommand(7, bytes(30_000)),))
 
 
 def test_answers_that_nobody_asks_for_are_not_kept_for_ever() -> None:
@@ -160,9 +160,9 @@ def test_a_producer_that_begins_again_goes_on_in_the_same_ring() -> None:
     again = Producer(cells, consumer._ring, layout.ring_cells(0))
     ticket = again.put(record_of(2))
     assert take(consumer) == record_of(1)
-    assert again.outcome(ticket) is Outcome.WAITING
+    assert again.outcome(ticket) is CommandOutcome.WAITING
     take(consumer)
-    assert again.outcome(ticket) is Outcome.APPLIED
+    assert again.outcome(ticket) is CommandOutcome.APPLIED
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, TaskClassSetup
 from plcsim.shared_image import (
     Cancel,
+    CommandOutcome,
     ImageError,
     ImageReader,
-    Outcome,
-    Sample,
+    SampleCommand,
     samples,
 )
 from plcsim.shared_image.events import EventKind
@@ -26,9 +26,11 @@ def span(world: World, path: str) -> tuple[int, int]:
     return tag.address, tag.data_type.size
 
 
-def ask(world: World, number: int, *paths: str, task_class: int = 0, period_ns: int = 0) -> Outcome:
+def ask(
+    world: World, number: int, *paths: str, task_class: int = 0, period_ns: int = 0
+) -> CommandOutcome:
     spans = tuple(span(world, path) for path in paths)
-    ticket = world.reader.send(Sample(number, task_class, period_ns, spans))
+    ticket = world.reader.send(SampleCommand(number, task_class, period_ns, spans))
     world.controller.run(cycles=1)
     return world.reader.outcome(ticket)
 
@@ -47,7 +49,7 @@ def world(make: Make) -> World:
 def test_a_sample_is_taken_in_every_cycle_from_the_next_publish_on(world: World) -> None:
     reader = world.reader.samples()
     world.controller.run(cycles=2)
-    assert ask(world, 7, "fast.copy", "fast.count") is Outcome.APPLIED
+    assert ask(world, 7, "fast.copy", "fast.count") is CommandOutcome.APPLIED
     world.controller.run(cycles=3)
     found = taken(reader)
     assert [(s.number, s.task_class, s.cycle) for s in found] == [(7, 1, n) for n in (3, 4, 5, 6)]
@@ -114,21 +116,21 @@ def test_a_cancelled_request_is_over(world: World) -> None:
 def test_what_lies_nowhere_is_refused(world: World) -> None:
     address = world.address("fast.count")
     for bad in ((0, 4), (address, 0), (address, 1 << 30)):
-        ticket = world.reader.send(Sample(1, 0, 0, [bad]))
+        ticket = world.reader.send(SampleCommand(1, 0, 0, [bad]))
         world.controller.run(cycles=1)
-        assert world.reader.outcome(ticket) is Outcome.NO_SUCH_ADDRESS
+        assert world.reader.outcome(ticket) is CommandOutcome.NO_SUCH_ADDRESS
     assert world.reader.samples_of(0) == 0
 
 
 def test_too_many_requests_are_refused(world: World) -> None:
     outcomes = [ask(world, number, "fast.count") for number in range(1, samples.MOST + 2)]
-    assert outcomes == [*[Outcome.APPLIED] * samples.MOST, Outcome.TOO_MANY]
-    assert ask(world, 1, "fast.count") is Outcome.APPLIED  # replaces one
+    assert outcomes == [*[CommandOutcome.APPLIED] * samples.MOST, CommandOutcome.TOO_MANY]
+    assert ask(world, 1, "fast.count") is CommandOutcome.APPLIED  # replaces one
 
 
 def test_a_service_without_a_stream_gets_no_samples(make: Make) -> None:
     world = make()
-    assert ask(world, 1, "fast.count") is Outcome.NO_COMMAND
+    assert ask(world, 1, "fast.count") is CommandOutcome.NO_COMMAND
     with pytest.raises(ImageError, match="no stream"):
         world.reader.samples()
     with pytest.raises(ImageError, match="no stream"):
@@ -188,7 +190,7 @@ def test_a_first_sample_that_would_be_half_a_cycle_is_not_taken(make: Make) -> N
     def ask_when_preempted(_: object) -> None:
         if world.controller.image.held() and not asked:
             asked.append(True)
-            world.reader.send(Sample(1, 0, 0, [span(world, "half.value")]))
+            world.reader.send(SampleCommand(1, 0, 0, [span(world, "half.value")]))
 
     world.controller.image.inputs.insert(0, ask_when_preempted)
     world.controller.run_for(20 * MS)

@@ -12,7 +12,7 @@ from plcsim.shared_image.command import (
     Mask,
     Operation,
     Scatter,
-    Store,
+    StoreCommand,
     Write,
     decode_command,
     encode_command,
@@ -35,7 +35,9 @@ def record_of(*operations: Operation) -> memoryview:
 
 offsets = st.integers(0, SIZE - 8)
 operations = st.one_of(
-    st.builds(lambda at, data: Store(FIRST + at, data), offsets, st.binary(min_size=1, max_size=8)),
+    st.builds(
+        lambda at, data: StoreCommand(FIRST + at, data), offsets, st.binary(min_size=1, max_size=8)
+    ),
     st.builds(lambda at, a, o: Mask(FIRST + at, a, o), offsets, *[st.integers(0, 0xFFFF)] * 2),
     st.lists(st.tuples(offsets, st.integers(0, 255)), min_size=1, max_size=10).map(
         lambda pairs: Scatter(tuple(FIRST + at for at, _ in pairs), bytes(v for _, v in pairs))
@@ -45,7 +47,7 @@ operations = st.one_of(
 
 def apply_to_model(model: bytearray, operation: Operation) -> None:
     at = operation.address - FIRST if not isinstance(operation, Scatter) else 0
-    if isinstance(operation, Store):
+    if isinstance(operation, StoreCommand):
         model[at : at + len(operation.data)] = operation.data
     elif isinstance(operation, Mask):
         word = int.from_bytes(model[at : at + 2], "little")
@@ -63,9 +65,9 @@ def test_operations_are_done_in_order_and_told_what_was_there(found: list[Operat
     for operation in found:
         before = bytes(model)
         apply_to_model(model, operation)
-        if isinstance(operation, Store):
+        if isinstance(operation, StoreCommand):
             at = operation.address - FIRST
-            expected.append(Store(operation.address, before[at : at + len(operation.data)]))
+            expected.append(StoreCommand(operation.address, before[at : at + len(operation.data)]))
         elif isinstance(operation, Mask):
             at = operation.address - FIRST
             word = int.from_bytes(before[at : at + 2], "little")
@@ -84,11 +86,11 @@ def test_operations_are_done_in_order_and_told_what_was_there(found: list[Operat
 @pytest.mark.parametrize(
     "bad",
     [
-        Store(FIRST - 1, b"ab"),
-        Store(FIRST + SIZE - 1, b"ab"),
-        Store(FIRST, b""),
-        Store(0, b"a"),
-        Store(0xFFFF_FFFF, b"ab"),
+        StoreCommand(FIRST - 1, b"ab"),
+        StoreCommand(FIRST + SIZE - 1, b"ab"),
+        StoreCommand(FIRST, b""),
+        StoreCommand(0, b"a"),
+        StoreCommand(0xFFFF_FFFF, b"ab"),
         Mask(FIRST + SIZE - 1, 0, 0),
         Scatter((FIRST, FIRST + SIZE), b"ab"),
         Scatter((FIRST, 0), b"ab"),
@@ -97,7 +99,7 @@ def test_operations_are_done_in_order_and_told_what_was_there(found: list[Operat
 def test_what_lies_outside_the_variables_is_a_page_fault(bad: Operation) -> None:
     _, stores = made()
     with pytest.raises(PageFault):
-        stores.plan(record_of(Store(FIRST, b"good"), bad), 2)
+        stores.plan(record_of(StoreCommand(FIRST, b"good"), bad), 2)
 
 
 @given(st.binary(max_size=100), st.integers(0, 100))
@@ -114,6 +116,6 @@ def test_any_record_is_planned_or_refused(body: bytes, count: int) -> None:
 
 def test_the_work_of_a_plan_grows_with_its_bytes() -> None:
     _, stores = made()
-    one = stores.plan(record_of(Store(FIRST, bytes(40))), 1)
+    one = stores.plan(record_of(StoreCommand(FIRST, bytes(40))), 1)
     many = stores.plan(record_of(Scatter([FIRST] * 100, bytes(100))), 1)
     assert (one.work, many.work) == (1, 101)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.shared_image import layout
-from plcsim.shared_image.stream import Record, StreamReader, StreamWriter
+from plcsim.shared_image.stream import StreamReader, StreamRecord, StreamWriter
 
 AT = layout.EVENT_CELLS
 SIZE = 1024
@@ -33,8 +33,8 @@ def test_a_reader_gets_every_record_or_counts_it_as_lost(
     greedy = StreamReader(cells, ring, AT, from_oldest=True)
     slow = StreamReader(cells, ring, AT)
     written = 0
-    got: list[Record] = []
-    from_slow: list[Record] = []
+    got: list[StreamRecord] = []
+    from_slow: list[StreamRecord] = []
     for act, size in steps:
         if act == "write":
             writer.write(1 + written % 7, written * 10, bytes([written % 256]) * size)
@@ -58,7 +58,7 @@ def test_a_record_is_what_was_written() -> None:
     reader = StreamReader(cells, ring, AT)
     writer.write(3, 17, b"hello")
     writer.write(5, 18, b"")
-    assert reader.read() == [Record(3, 0, 17, b"hello"), Record(5, 1, 18, b"")]
+    assert reader.read() == [StreamRecord(3, 0, 17, b"hello"), StreamRecord(5, 1, 18, b"")]
     assert reader.read() == []
 
 

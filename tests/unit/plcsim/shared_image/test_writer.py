@@ -10,10 +10,10 @@ from plcsim.core.system import State
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.shared_image import (
+    CommandOutcome,
     CommandRefused,
     Mask,
-    Outcome,
-    Store,
+    StoreCommand,
     Write,
     layout,
 )
@@ -83,8 +83,10 @@ def test_a_latch_applies_as_many_commands_as_fit_its_cycle(
 def test_one_latch_applies_few_operations_but_a_command_whole(world: World) -> None:
     flags = world.address("fast.flags")
     many = STEPS_PER_COMMAND * world.writer.commands_per_latch
-    first = world.reader.send(Write(tuple(Store(flags + i % 8 * 2, b"\1") for i in range(many))))
-    second = world.reader.send(Write((Store(flags + 1, b"\1"),)))
+    first = world.reader.send(
+        Write(tuple(StoreCommand(flags + i % 8 * 2, b"\1") for i in range(many)))
+    )
+    second = world.reader.send(Write((StoreCommand(flags + 1, b"\1"),)))
     world.controller.run(cycles=1)
     assert world.is_applied(first)
     assert not world.is_applied(second)
@@ -96,29 +98,29 @@ def test_one_latch_applies_few_operations_but_a_command_whole(world: World) -> N
 def test_scattered_bytes_outside_the_memory_are_not_applied_at_all(world: World) -> None:
     flags = world.address("fast.flags")
     for bad in (0, 0xFFF, world.controller.memory.used, 0xFFFF_FFFF):
-        ticket = world.reader.send(Write((Store(flags, b"\1"), Store(bad, b"\1"))))
+        ticket = world.reader.send(Write((StoreCommand(flags, b"\1"), StoreCommand(bad, b"\1"))))
         world.controller.run(cycles=1)
-        assert world.reader.outcome(ticket) is Outcome.NO_SUCH_ADDRESS
+        assert world.reader.outcome(ticket) is CommandOutcome.NO_SUCH_ADDRESS
         assert world.read("fast.flags[0]") is False
 
 
 def test_a_command_with_one_bad_address_is_not_applied_at_all(world: World) -> None:
     good = world.address("fast.setpoint")
-    ticket = world.reader.send(Write((Store(good, b"\1\0"), Store(0x10, b"\1"))))
+    ticket = world.reader.send(Write((StoreCommand(good, b"\1\0"), StoreCommand(0x10, b"\1"))))
     world.controller.run(cycles=1)
-    assert world.reader.outcome(ticket) is Outcome.NO_SUCH_ADDRESS
+    assert world.reader.outcome(ticket) is CommandOutcome.NO_SUCH_ADDRESS
     assert world.read("fast.setpoint") == 0
 
 
 def test_garbage_in_the_ring_does_not_stop_the_scan(world: World) -> None:
     producer = world.reader._producer
     assert producer is not None
-    record = bytearray(encode_command(Write((Store(world.address("fast.word"), b"\1\0"),))))
+    record = bytearray(encode_command(Write((StoreCommand(world.address("fast.word"), b"\1\0"),))))
     record[16:24] = b"\xff" * 8
     bad = producer.put(bytes(record))
     world.write("fast.setpoint", b"\7\0")
     world.controller.run(cycles=2)
-    assert world.reader.outcome(bad) is Outcome.NO_COMMAND
+    assert world.reader.outcome(bad) is CommandOutcome.NO_COMMAND
     assert world.read("fast.setpoint") == 7
 
 
@@ -132,7 +134,7 @@ def test_whatever_a_record_says_the_scan_goes_on(body: bytes, kind: int, count: 
     good = world.write("fast.setpoint", b"\7\0")
     world.controller.requests.clear()
     world.controller.run(cycles=3)
-    assert world.reader.outcome(ticket) is not Outcome.WAITING
+    assert world.reader.outcome(ticket) is not CommandOutcome.WAITING
     assert world.is_applied(good)
     assert world.controller.state is State.RUN
 
@@ -232,9 +234,9 @@ def test_each_service_has_its_own_ring(make: Make) -> None:
 
     web = ImageReader(world.fd, "web")
     world.write("fast.word", b"\1\0")
-    ticket = web.send(Write((Store(world.address("fast.setpoint"), b"\2\0"),)))
+    ticket = web.send(Write((StoreCommand(world.address("fast.setpoint"), b"\2\0"),)))
     world.controller.run(cycles=1)
-    assert web.outcome(ticket) is Outcome.APPLIED
+    assert web.outcome(ticket) is CommandOutcome.APPLIED
     assert (world.read("fast.word"), world.read("fast.setpoint")) == (1, 2)
     assert len(world.writer.directory.streams) == 2 + layout.GUESTS
 
@@ -275,8 +277,8 @@ def test_a_command_for_a_class_in_mid_cycle_does_not_hold_up_those_for_others(ma
     both = world.reader.send(
         Write(
             (
-                Store(world.address("slow.wanted"), b"\3\0"),
-                Store(world.address("slower.wanted"), b"\3\0"),
+                StoreCommand(world.address("slow.wanted"), b"\3\0"),
+                StoreCommand(world.address("slower.wanted"), b"\3\0"),
             )
         )
     )
@@ -350,7 +352,7 @@ def test_whatever_is_held_writes_to_a_variable_are_applied_in_order_and_none_is_
         if order == "write":
             number += 1
             data = number.to_bytes(2, "little")
-            world.reader.send(Write(tuple(Store(addresses[w], data) for w in sorted(which))))
+            world.reader.send(Write(tuple(StoreCommand(addresses[w], data) for w in sorted(which))))
             for w in which:
                 written[w].append(number)
         elif order == "hold":

@@ -5,7 +5,7 @@ from st_types.syntax.diagnostics import (
     EXCERPT_WIDTH,
     MAX_DIAGNOSTICS,
     DiagnosticLog,
-    Severity,
+    DiagnosticSeverity,
     excerpt_of,
     render_all,
 )
@@ -30,7 +30,10 @@ def test_warnings_do_not_raise_and_errors_do() -> None:
     log.error(0, "wrong")
     with pytest.raises(SourceError, match=r"a\.typ:1:1: error: wrong") as caught:
         log.raise_errors()
-    assert [d.severity for d in caught.value.diagnostics] == [Severity.WARNING, Severity.ERROR]
+    assert [d.severity for d in caught.value.diagnostics] == [
+        DiagnosticSeverity.WARNING,
+        DiagnosticSeverity.ERROR,
+    ]
 
 
 def test_warnings_leave_room_for_errors_and_the_rest_is_counted() -> None:

@@ -14,7 +14,7 @@ from st_types.syntax.declarations import parse_text
 from st_types.types.derived import Section, StructType, resolve_alias
 from st_types.types.values import initial_image
 from st_types.types.views import type_of
-from st_types.writers.python_source import Module, python_source
+from st_types.writers.python_source import PythonModule, python_source
 
 from ..checked import checked
 
@@ -57,7 +57,7 @@ def table_of(text: str) -> Scope:
 
 def check(table: Scope) -> ModuleType:
     """Import the module and compare each class with the type it was made from."""
-    module = module_of(python_source(Module("test", table), "Test"))
+    module = module_of(python_source(PythonModule("test", table), "Test"))
     for declared in table.data_types():
         data_type = resolve_alias(declared)
         if isinstance(data_type, StructType):
@@ -114,7 +114,7 @@ def test_names_that_the_module_needs_itself(name: str) -> None:
         "VAR CONSTANT K : INT := 1; END_VAR FUNCTION_BLOCK F VAR_INPUT i : INT; END_VAR "
         f"VAR r : REFERENCE TO INT; s : {name}; END_VAR END_FUNCTION_BLOCK"
     )
-    module = module_of(python_source(Module("test", table), "Test"))
+    module = module_of(python_source(PythonModule("test", table), "Test"))
     assert getattr(module, f"{name}_")().x == module.F().s.x == 7
 
 
@@ -135,14 +135,14 @@ def test_a_var_in_out_is_an_address() -> None:
 
 
 def test_the_docstring_is_one_line() -> None:
-    text = python_source(Module("test", table_of("")), 'Types of "a"\n\\b.')
+    text = python_source(PythonModule("test", table_of("")), 'Types of "a"\n\\b.')
     assert text == '"""Types of \'a\' \\\\b."""\n\nfrom __future__ import annotations\n'
     assert module_of(text).__doc__ == "Types of 'a' \\b."
 
 
 def test_mypy_knows_the_members(tmp_path: Path) -> None:
     (tmp_path / "cell_types.py").write_text(
-        python_source(Module("test", table_of(DECLARATIONS)), "Test")
+        python_source(PythonModule("test", table_of(DECLARATIONS)), "Test")
     )
     (tmp_path / "use.py").write_text(
         "from cell_types import Cell, Mode, Variables\n"
@@ -175,7 +175,7 @@ def test_mypy_knows_the_members(tmp_path: Path) -> None:
 def test_constants_of_every_kind() -> None:
     module = module_of(
         python_source(
-            Module(
+            PythonModule(
                 "test",
                 table_of(
                     "VAR CONSTANT a : INT; p : Point := (x := 2); l : ARRAY[0..2] OF Point; "
@@ -195,13 +195,15 @@ def test_what_other_modules_declare_is_imported() -> None:
     inner = checked(
         [parse_text("TYPE S : BOOL; END_TYPE VAR m : Mode; s : S; END_VAR")], [outer], strict=True
     )
-    project = Module("project", outer)
+    project = PythonModule("project", outer)
     python_source(project, "Project")
-    text = python_source(Module("program", inner, [project]), "Program")
+    text = python_source(PythonModule("program", inner, [project]), "Program")
     assert "\nfrom .project import Mode_TYPE\n" in text
     assert "    m = var(Mode_TYPE)\n    s = var(S)\n" in text
     second = checked([parse_text("TYPE T : INT; END_TYPE VAR T : T; s : U; END_VAR")])
-    assert 'T = AliasType("T", INT)'.replace('"', "'") in python_source(Module("x", second), "X")
+    assert 'T = AliasType("T", INT)'.replace('"', "'") in python_source(
+        PythonModule("x", second), "X"
+    )
 
 
 def test_a_block_that_is_executed_is_imported_and_others_say_that_they_are_not() -> None:
@@ -211,7 +213,7 @@ def test_a_block_that_is_executed_is_imported_and_others_say_that_they_are_not()
     )
     block = scope.find_type("A")
     assert block is not None
-    text = python_source(Module("test", scope, (), {block: ("some.library", "A")}), "Test")
+    text = python_source(PythonModule("test", scope, (), {block: ("some.library", "A")}), "Test")
     assert "\nfrom some.library import A as A\n" in text
     assert "Data block of B; nothing executes it here: it cannot be called." in text
     assert "    a = var(A)\n" in text

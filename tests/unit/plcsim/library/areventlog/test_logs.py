@@ -1,10 +1,10 @@
 """Records make room for one another; events are numbers."""
 
-from plcsim.library.areventlog.logs import RECORD_SIZE, EventLog, Record, event_id, severity_of
+from plcsim.library.areventlog.logs import RECORD_SIZE, EventLog, EventRecord, event_id, severity_of
 
 
 def record(data=b""):
-    return Record(0, 0, "", 0, data, 0)
+    return EventRecord(0, 0, "", 0, data, 0)
 
 
 def test_the_oldest_records_make_room():

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.core.tag import Tag
-from plcsim.modbus.map import Area, Row, TagMapError
+from plcsim.modbus.map import Area, MapRow, TagMapError
 from plcsim.modbus.map.automatic import (
     LOCK_FILE,
     all_tags,
@@ -28,7 +28,7 @@ def tags(names: dict[str, str]) -> list[Tag]:
 
 @given(st.lists(variables, min_size=1, max_size=6))
 def test_an_address_never_moves_and_never_has_two_tags(builds: list[dict[str, str]]) -> None:
-    locked: list[Row] = []
+    locked: list[MapRow] = []
     ever: dict[tuple[str, str, int], tuple[Area, int]] = {}
     for build in builds:
         rows, locked = give_addresses(tags(build), (), locked)
@@ -39,11 +39,11 @@ def test_an_address_never_moves_and_never_has_two_tags(builds: list[dict[str, st
     resolve_all(locked)
 
 
-def resolve_all(rows: list[Row]) -> None:
+def resolve_all(rows: list[MapRow]) -> None:
     """Raise where two rows overlap."""
     kinds = {"bool": BOOL, "int16": INT, "int32": DINT, "float64": LREAL, "string": STRING(7)}
     by_place = {f"{row.tag}{i}": kinds[row.type] for i, row in enumerate(rows)}
-    named = [Row(f"{r.tag}{i}", r.area, r.offset, type=r.type) for i, r in enumerate(rows)]
+    named = [MapRow(f"{r.tag}{i}", r.area, r.offset, type=r.type) for i, r in enumerate(rows)]
     resolve(named, lambda path: Tag(path, by_place[path], 4096), Path("f"), "ABCD")
 
 
@@ -62,7 +62,7 @@ def test_every_variable_of_the_programs_is_given_an_address() -> None:
 
 
 def test_what_tags_csv_names_gets_no_second_address() -> None:
-    row = Row("P.A", Area.HOLDING_REGISTERS, 10, type="int32")
+    row = MapRow("P.A", Area.HOLDING_REGISTERS, 10, type="int32")
     fixed = resolve([row], lambda path: Tag(path, INT, 4096), Path("f"), "ABCD")
     rows, _ = give_addresses(tags({"a": "INT", "b": "INT", "c": "BOOL"}), fixed, ())
     assert [(row.tag, row.area.value, row.offset) for row in rows] == [
@@ -72,7 +72,7 @@ def test_what_tags_csv_names_gets_no_second_address() -> None:
 
 
 def test_a_full_area_is_an_error() -> None:
-    locked = [Row("p.z", Area.HOLDING_REGISTERS, 65534, type="int16")]
+    locked = [MapRow("p.z", Area.HOLDING_REGISTERS, 65534, type="int16")]
     give_addresses(tags({"a": "INT"}), (), locked)
     with pytest.raises(TagMapError, match=r"p\.b: area hr has no address left"):
         give_addresses(tags({"a": "INT", "b": "INT"}), (), locked)

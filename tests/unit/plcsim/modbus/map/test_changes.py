@@ -4,9 +4,9 @@ import struct
 
 import pytest
 
-from plcsim.modbus.map.changes import Change, changes
+from plcsim.modbus.map.changes import TagChange, changes
 from plcsim.modbus.map.writing import MapWrite, Writes
-from plcsim.shared_image.command import Mask, Operation, Scatter, Store
+from plcsim.shared_image.command import Mask, Operation, Scatter, StoreCommand
 
 from ..plants import controller, points
 
@@ -27,7 +27,7 @@ def before_of(write: MapWrite, memory: dict[str, bytes]) -> list[Operation]:
         found[at : at + len(data)] = data
     result: list[Operation] = []
     for operation in write.operations:
-        if isinstance(operation, Store):
+        if isinstance(operation, StoreCommand):
             at = operation.address - base
             result.append(operation._replace(data=bytes(found[at : at + len(operation.data)])))
         elif isinstance(operation, Scatter):
@@ -40,7 +40,7 @@ def before_of(write: MapWrite, memory: dict[str, bytes]) -> list[Operation]:
     return result
 
 
-def told(write: MapWrite, memory: dict[str, bytes]) -> list[Change]:
+def told(write: MapWrite, memory: dict[str, bytes]) -> list[TagChange]:
     return changes(write.points, write.operations, before_of(write, memory))
 
 
@@ -53,9 +53,9 @@ def test_registers_of_several_tags() -> None:
         "p.text": b"hello\0\0\0\0\0",
     }
     assert told(write, memory) == [
-        Change("p.number", -2, 7),
-        Change("p.real", 1.5, -2.0),
-        Change("p.text", "hi", "hello"),
+        TagChange("p.number", -2, 7),
+        TagChange("p.real", 1.5, -2.0),
+        TagChange("p.text", "hi", "hello"),
     ]
 
 
@@ -63,22 +63,22 @@ def test_coils_scattered_and_side_by_side() -> None:
     writes = writes_of("p.flag,co,0", "p.bits[3],co,1", "p.bits[4],co,2")
     write = writes.coils(0, [True, False, True])
     assert told(write, {"p.bits[4]": b"\1"}) == [
-        Change("p.flag", True, False),
-        Change("p.bits[3]", False, False),
-        Change("p.bits[4]", True, True),
+        TagChange("p.flag", True, False),
+        TagChange("p.bits[3]", False, False),
+        TagChange("p.bits[4]", True, True),
     ]
 
 
 def test_a_mask_shows_the_word_before_and_after() -> None:
     write = writes_of("p.word,hr,0").mask(0, 0x00F2, 0x0025)
-    assert told(write, {"p.word": b"\x12\0"}) == [Change("p.word", 0x17, 0x12)]
+    assert told(write, {"p.word": b"\x12\0"}) == [TagChange("p.word", 0x17, 0x12)]
 
 
 def test_bits_of_a_register() -> None:
     write = writes_of("p.flag,hr,0,15", "p.other,hr,0,0").registers(0, b"\x80\x00")
     assert told(write, {"p.other": b"\1"}) == [
-        Change("p.flag", True, False),
-        Change("p.other", False, True),
+        TagChange("p.flag", True, False),
+        TagChange("p.other", False, True),
     ]
 
 
@@ -91,13 +91,13 @@ def test_a_scaled_tag_shows_the_value_of_the_variable() -> None:
     text = "tag,area,offset,type,scale\np.real,hr,0,int16,0.1\n"
     scaled = resolve(read_rows(text, FILE), PLC.tags.find, FILE, "ABCD")
     (change,) = told(Writes(scaled).registers(0, b"\0\x0f"), {})
-    assert change == Change("p.real", pytest.approx(1.5), 0.0)
+    assert change == TagChange("p.real", pytest.approx(1.5), 0.0)
 
 
 def test_a_tag_at_two_addresses_is_told_once() -> None:
     writes = writes_of("p.number,hr,0", "p.number,hr,1,,,,,,1")
     write = writes.registers(0, bytes.fromhex("0005 0006"))
-    assert told(write, {"p.number": b"\1\0"}) == [Change("p.number", 6, 1)]
+    assert told(write, {"p.number": b"\1\0"}) == [TagChange("p.number", 6, 1)]
 
 
 def test_of_a_tag_that_was_written_in_part_the_bytes_are_told() -> None:
@@ -110,4 +110,4 @@ def test_of_a_tag_that_was_written_in_part_the_bytes_are_told() -> None:
     partial = resolve(read_rows(text, FILE), PLC.tags.find, FILE, "ABCD")
     write = Writes(partial).registers(1, b"\x12\x34")
     memory = {"p.long": struct.pack("<i", 0x0A0B0C0D)}
-    assert told(write, memory) == [Change("p.long", "16#3412", "16#0D0C")]
+    assert told(write, memory) == [TagChange("p.long", "16#3412", "16#0D0C")]

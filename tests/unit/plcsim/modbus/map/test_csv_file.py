@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.modbus.map import Area, Row, TagMapError
+from plcsim.modbus.map import Area, MapRow, TagMapError
 from plcsim.modbus.map.csv_file import COLUMNS, read_file, read_rows, write_rows
 from plcsim.modbus.map.point import ACCESSES, KINDS, ORDERS
 
@@ -17,7 +17,7 @@ texts = st.text(st.characters(codec="utf-8", exclude_characters="\r\n\0"), max_s
     str.strip
 )
 rows = st.builds(
-    Row,
+    MapRow,
     tag=texts.filter(lambda t: t and not t.startswith("#")),
     area=st.sampled_from(Area),
     offset=st.integers(0, 65535),
@@ -39,10 +39,10 @@ rows = st.builds(
 
 
 @given(st.lists(rows, max_size=8))
-def test_rows_survive_being_written(given_rows: list[Row]) -> None:
+def test_rows_survive_being_written(given_rows: list[MapRow]) -> None:
     read = read_rows(write_rows(given_rows), FILE)
     assert [row.line for row in read] == list(range(2, len(read) + 2))
-    unnumbered = [Row(**{**vars(row), "line": 0}) for row in read]
+    unnumbered = [MapRow(**{**vars(row), "line": 0}) for row in read]
     assert unnumbered == given_rows
 
 
@@ -72,7 +72,7 @@ def test_any_fields_below_a_header_are_rows_or_an_error_with_the_line(
 
 def test_defaults_comments_and_a_byte_order_mark() -> None:
     text = "\ufeff# map\n\ntag,area,offset,scale,max\np.a, HR ,7,0.1,\n,,,,\n"
-    assert read_rows(text, FILE) == [Row("p.a", Area.HOLDING_REGISTERS, 7, scale=0.1, line=4)]
+    assert read_rows(text, FILE) == [MapRow("p.a", Area.HOLDING_REGISTERS, 7, scale=0.1, line=4)]
 
 
 @pytest.mark.parametrize(
@@ -118,9 +118,9 @@ p.a;hr;7;0,1;1,5e3;"Temperatur; in °C, 1,5 genau"
 p.b;hr;8;-2,25;;
 """
 EXCEL_ROWS = [
-    Row("p.a", Area.HOLDING_REGISTERS, 7, scale=0.1, maximum=1500.0,
+    MapRow("p.a", Area.HOLDING_REGISTERS, 7, scale=0.1, maximum=1500.0,
         description="Temperatur; in °C, 1,5 genau", line=3),
-    Row("p.b", Area.HOLDING_REGISTERS, 8, scale=-2.25, line=5),
+    MapRow("p.b", Area.HOLDING_REGISTERS, 8, scale=-2.25, line=5),
 ]  # fmt: skip
 
 
@@ -135,7 +135,7 @@ def test_what_a_german_spreadsheet_saves_is_read(
 
 
 def test_tabs_and_the_mark_of_excel_are_understood() -> None:
-    expected = [Row("p.a", Area.COILS, 1, line=3)]
+    expected = [MapRow("p.a", Area.COILS, 1, line=3)]
     for delimiter in ",;\t":
         text = f"sep={delimiter}\ntag,area,offset\np.a,co,1\n".replace(",", delimiter)
         assert read_rows(text, FILE) == expected

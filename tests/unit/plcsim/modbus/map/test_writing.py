@@ -10,7 +10,7 @@ from plcsim.modbus.map.conversion import to_registers
 from plcsim.modbus.map.reading import Reads
 from plcsim.modbus.map.status_block import ControllerStatus
 from plcsim.modbus.map.writing import Writes
-from plcsim.shared_image import Mask, Scatter, Store
+from plcsim.shared_image import Mask, Scatter, StoreCommand
 
 from ..plants import controller, points
 
@@ -30,9 +30,9 @@ def test_registers_become_stores_of_whole_variables() -> None:
     writes = writes_of("p.number,hr,0", "p.big,hr,1,,,,CDAB", "p.text,hr,3,,,2")
     data = bytes.fromhex("fb2e cdef89ab 68690000")
     assert writes.registers(0, data).operations == (
-        Store(address("p.number"), struct.pack("<h", -1234)),
-        Store(address("p.big"), struct.pack("<I", 0x89ABCDEF)),
-        Store(address("p.text"), b"hi".ljust(10, b"\0")),
+        StoreCommand(address("p.number"), struct.pack("<h", -1234)),
+        StoreCommand(address("p.big"), struct.pack("<I", 0x89ABCDEF)),
+        StoreCommand(address("p.text"), b"hi".ljust(10, b"\0")),
     )
 
 
@@ -41,7 +41,7 @@ def test_an_array_is_one_store() -> None:
     assert len(writes.registers(1, bytes(246)).operations) == 1
     coils = writes_of(*(f"p.bits[{i}],co,{i}" for i in range(32)))
     assert coils.coils(0, [True, False] * 16).operations == (
-        Store(address("p.bits"), b"\1\0" * 16),
+        StoreCommand(address("p.bits"), b"\1\0" * 16),
     )
 
 
@@ -84,7 +84,7 @@ def test_a_partial_tag_takes_a_register_in_every_order(order: str, register: int
             for place, value in zip(operation.addresses, operation.data, strict=True):
                 PLC.memory.write(place, bytes([value]))
         else:
-            assert isinstance(operation, Store)
+            assert isinstance(operation, StoreCommand)
             PLC.memory.write(*operation)
     reads = Reads(points(PLC, row, order=order), lambda a, _: a)
 
@@ -124,7 +124,7 @@ def test_no_sequence_of_parts_makes_a_real_other_than_finite(
             if isinstance(operation, Scatter):
                 for place, value in zip(operation.addresses, operation.data, strict=True):
                     PLC.memory.write(place, bytes([value]))
-            elif isinstance(operation, Store):
+            elif isinstance(operation, StoreCommand):
                 PLC.memory.write(*operation)
         value = struct.unpack("<" + code, PLC.memory.read(address(tag), size))[0]
         assert math.isfinite(value)
@@ -139,7 +139,7 @@ def test_bits_of_a_register_are_stored_one_by_one() -> None:
 
 def test_coils_refuse_holes_and_what_is_read_only() -> None:
     writes = writes_of("p.flag,co,0", "p.other,co,1,,,,,ro", "p.bits[0],di,4")
-    assert writes.coils(0, [False]).operations == (Store(address("p.flag"), b"\0"),)
+    assert writes.coils(0, [False]).operations == (StoreCommand(address("p.flag"), b"\0"),)
     for first, bits in ((0, [True, True]), (2, [True]), (4, [True])):
         with pytest.raises(IllegalAddress):
             writes.coils(first, bits)
@@ -158,8 +158,8 @@ def test_a_mask_follows_the_specification(word: int, and_mask: int, or_mask: int
 
 def test_a_mask_on_bits_touches_only_the_bits_it_names() -> None:
     writes = writes_of("p.flag,hr,0,0", "p.other,hr,0,1")
-    assert writes.mask(0, 0xFFFE, 0x0001).operations == (Store(address("p.flag"), b"\1"),)
-    assert writes.mask(0, 0xFFFD, 0x0000).operations == (Store(address("p.other"), b"\0"),)
+    assert writes.mask(0, 0xFFFE, 0x0001).operations == (StoreCommand(address("p.flag"), b"\1"),)
+    assert writes.mask(0, 0xFFFD, 0x0000).operations == (StoreCommand(address("p.other"), b"\0"),)
     assert writes.mask(0, 0xFFFF, 0xFFFF).operations == ()
 
 
@@ -178,13 +178,13 @@ def test_two_tags_at_one_address_are_both_written() -> None:
     write = writes.registers(0, b"\0\1")
     assert [point.tag for point in write.points] == ["p.number", "p.count"]
     assert address("p.count") == address("p.number") + 2  # so both are one store
-    assert write.operations == (Store(address("p.number"), b"\1\0\1\0"),)
+    assert write.operations == (StoreCommand(address("p.number"), b"\1\0\1\0"),)
 
 
 def test_an_enumeration_in_one_register_is_written_whole() -> None:
     writes = writes_of("p.mode,hr,0,,uint16")
     assert writes.registers(0, b"\0\5").operations == (
-        Store(address("p.mode"), struct.pack("<i", 5)),
+        StoreCommand(address("p.mode"), struct.pack("<i", 5)),
     )
     with pytest.raises(IllegalAddress):
         writes.mask(0, 0, 1)
@@ -195,7 +195,7 @@ def test_a_value_that_is_none_of_an_enumerations_is_refused(columns: str) -> Non
     writes = writes_of(f"p.mode,hr,0,,{columns}")
     code = {"uint16": ">H", "": ">i", "int32": ">i", "float32": ">f"}[columns]
     (store,) = writes.registers(0, struct.pack(code, 5)).operations
-    assert store == Store(address("p.mode"), struct.pack("<i", 5))
+    assert store == StoreCommand(address("p.mode"), struct.pack("<i", 5))
     for value in (9, 1, 2):
         with pytest.raises(IllegalValue, match=r"p\.mode: .* is none of its values"):
             writes.registers(0, struct.pack(code, value))

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from plcsim.modbus.map.changes import Change
+from plcsim.modbus.map.changes import TagChange
 from plcsim.modbus.service import audit
 from plcsim.modbus.service.audit import BURST, FILES, FILES_OF_REFUSED, HOSTS, AuditLog
 from plcsim.modbus.service.device import Origin
 
 ORIGIN = Origin("10.0.0.7:4711", "operator", 1, 6)
-CHANGE = Change("control.setpoint", 5.5, 5.0)
+CHANGE = TagChange("control.setpoint", 5.5, 5.0)
 
 
 def lines_of(file: Path) -> list[dict[str, Any]]:
@@ -23,7 +23,7 @@ def lines_of(file: Path) -> list[dict[str, Any]]:
 def test_a_write_is_a_line_with_each_tag_its_value_and_the_one_before(tmp_path: Path) -> None:
     file = tmp_path / "deep" / "audit.jsonl"
     with AuditLog(str(file)) as log:
-        log.applied(ORIGIN, [CHANGE, Change("control.on", False, True)])
+        log.applied(ORIGIN, [CHANGE, TagChange("control.on", False, True)])
     (line,) = lines_of(file)
     assert line.pop("time").endswith("+00:00")
     assert line == {
@@ -41,8 +41,8 @@ def test_a_write_is_a_line_with_each_tag_its_value_and_the_one_before(tmp_path: 
 def test_tags_that_had_the_value_already_are_counted(tmp_path: Path) -> None:
     file = tmp_path / "audit.jsonl"
     with AuditLog(str(file)) as log:
-        log.applied(ORIGIN, [CHANGE, *(Change(f"p.{n}", 1, 1) for n in range(7))])
-        log.applied(ORIGIN, [Change("p.a", 1, 1)])
+        log.applied(ORIGIN, [CHANGE, *(TagChange(f"p.{n}", 1, 1) for n in range(7))])
+        log.applied(ORIGIN, [TagChange("p.a", 1, 1)])
     one, two = lines_of(file)
     assert (len(one["tags"]), one["unchanged"]) == (1, 7)
     assert (two["tags"], two["unchanged"]) == ([], 1)
@@ -51,7 +51,7 @@ def test_tags_that_had_the_value_already_are_counted(tmp_path: Path) -> None:
 def test_what_json_does_not_know_is_text(tmp_path: Path) -> None:
     file = tmp_path / "audit.jsonl"
     with AuditLog(str(file)) as log:
-        log.applied(ORIGIN, [Change("p.real", 0.5, float("nan"))])
+        log.applied(ORIGIN, [TagChange("p.real", 0.5, float("nan"))])
     assert lines_of(file)[0]["tags"][0]["before"] == "nan"
 
 
@@ -59,7 +59,7 @@ def test_a_full_file_is_kept_and_so_are_older_ones(tmp_path: Path) -> None:
     file = tmp_path / "audit.jsonl"
     with AuditLog(str(file), largest=1000) as log:
         for number in range(200):
-            log.applied(ORIGIN, [Change("p.a", number + 1, number)])
+            log.applied(ORIGIN, [TagChange("p.a", number + 1, number)])
     files = [file, *(tmp_path / f"audit.jsonl.{n}" for n in range(1, FILES))]
     assert set(tmp_path.iterdir()) == set(files)
     assert all(each.stat().st_size <= 1000 for each in files)

@@ -3,18 +3,18 @@ from collections.abc import Sequence
 import pytest
 
 from plcsim.modbus.map import Area, IllegalAddress, IllegalValue, Point
-from plcsim.modbus.map.changes import Change
+from plcsim.modbus.map.changes import TagChange
 from plcsim.modbus.map.status_block import FIRST, ControllerStatus
 from plcsim.modbus.service.device import Device, Identity, Origin, no_status
 from plcsim.modbus.service.errors import ExceptionCode, ModbusException
 from plcsim.shared_image import (
     Answer,
+    CommandOutcome,
     CommandRefused,
     Directory,
     ImageError,
     ImageNotReady,
-    Outcome,
-    Store,
+    StoreCommand,
     Write,
 )
 from plcsim.shared_image.command import Command
@@ -65,9 +65,9 @@ class Log:
     """An audit log that remembers."""
 
     def __init__(self) -> None:
-        self.lines: list[tuple[Origin, list[Change]]] = []
+        self.lines: list[tuple[Origin, list[TagChange]]] = []
 
-    def applied(self, origin: Origin, changed: Sequence[Change]) -> None:
+    def applied(self, origin: Origin, changed: Sequence[TagChange]) -> None:
         self.lines.append((origin, list(changed)))
 
     def refused(self, origin: Origin, pdu: bytes, exception: int) -> None:
@@ -79,21 +79,23 @@ def test_a_write_is_logged_when_the_scan_has_applied_it() -> None:
     device = Device(image, [POINT], audit=log)
     write = device.write(lambda writes: writes.registers(0, b"\0\1"), ORIGIN)
     device.collect()
-    assert (write.outcome, log.lines) == (Outcome.WAITING, [])
-    image.answers[7] = Answer(Outcome.APPLIED, 5, Write((Store(POINT.address, b"\x09\0"),)))
+    assert (write.outcome, log.lines) == (CommandOutcome.WAITING, [])
+    image.answers[7] = Answer(
+        CommandOutcome.APPLIED, 5, Write((StoreCommand(POINT.address, b"\x09\0"),))
+    )
     device.collect()
     device.collect()
-    assert write.outcome is Outcome.APPLIED
-    assert log.lines == [(ORIGIN, [Change("p.a", 1, 9)])]
+    assert write.outcome is CommandOutcome.APPLIED
+    assert log.lines == [(ORIGIN, [TagChange("p.a", 1, 9)])]
 
 
 def test_a_write_that_the_scan_refused_is_not_logged_as_applied() -> None:
     image, log = Image(), Log()
     device = Device(image, [POINT], audit=log)
     write = device.write(lambda writes: writes.registers(0, b"\0\1"), ORIGIN)
-    image.answers[7] = Answer(Outcome.NO_SUCH_ADDRESS, 0, Write(()))
+    image.answers[7] = Answer(CommandOutcome.NO_SUCH_ADDRESS, 0, Write(()))
     device.collect()
-    assert (write.outcome, log.lines) == (Outcome.NO_SUCH_ADDRESS, [])
+    assert (write.outcome, log.lines) == (CommandOutcome.NO_SUCH_ADDRESS, [])
 
 
 def test_a_register_is_read() -> None:

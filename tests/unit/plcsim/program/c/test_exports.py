@@ -3,7 +3,7 @@
 import pytest
 
 from plcsim.library.installed import installed
-from plcsim.program.c.exports import Export
+from plcsim.program.c.exports import ExportedBody
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
@@ -26,7 +26,7 @@ def context():
 @pytest.mark.parametrize("library", LIBRARIES, ids=str)
 def test_exports_are_there(library, context):
     bodies = installed_catalogue().bodies(library)
-    found = {name: body for name, body in bodies.items() if isinstance(body, Export)}
+    found = {name: body for name, body in bodies.items() if isinstance(body, ExportedBody)}
     assert set(found) == {function.name for function in library.scope.functions}
     for body in found.values():
         assert callable(body.bind(context))

@@ -8,7 +8,7 @@ from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.lower.memory import Spot
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
@@ -34,7 +34,7 @@ def standard(dialect):
 
 
 def checked(
-    text, declarations="", dialect=dialects.AUTOMATION_STUDIO, hidden=(Code.UNUSED_VARIABLE,)
+    text, declarations="", dialect=dialects.AUTOMATION_STUDIO, hidden=(FindingCode.UNUSED_VARIABLE,)
 ):
     """Return the checked program, its scope, and the findings as ``line:column CODE message``."""
     file = parse_structured_text(Source("a.st", text))

@@ -1,5 +1,5 @@
 from plcsim.project.automation_studio.configuration import Configurations
-from plcsim.project.automation_studio.names import Names
+from plcsim.project.automation_studio.names import FileNames
 
 HARDWARE = (
     '<Hardware><Module Name="C" Type="{}"><Parameter ID="ConfigurationID" Value="x"/></Module>'
@@ -30,7 +30,7 @@ FILES = {
 
 
 def configurations(folder):
-    return Configurations(Names(folder))
+    return Configurations(FileNames(folder))
 
 
 def test_the_files_of_a_configuration(write):

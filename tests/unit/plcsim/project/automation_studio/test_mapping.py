@@ -3,8 +3,8 @@ import pytest
 from plcsim.project.automation_studio import mapping
 from plcsim.project.automation_studio.mapping import (
     Channel,
-    Copy,
     Pv,
+    PvMapLine,
     read_channels,
     read_copies,
     read_permanent,
@@ -46,8 +46,8 @@ def test_copies_and_permanent_variables(write):
     copies, findings = read_copies(folder / "PvMap.vvm")
     assert findings == []
     assert copies == [
-        Copy(Pv("A", "x.y"), Pv("", "gZ"), 2),
-        Copy(Pv("B", "a", 1), Pv("C", "b", 1), 3),
+        PvMapLine(Pv("A", "x.y"), Pv("", "gZ"), 2),
+        PvMapLine(Pv("B", "a", 1), Pv("C", "b", 1), 3),
     ]
     assert read_permanent(folder / "Cpu.per") == ([Pv("", "gCount")], [])
 

@@ -1,9 +1,9 @@
-from plcsim.project.automation_studio.names import Names, names_in
+from plcsim.project.automation_studio.names import FileNames, names_in
 
 
 def test_names_are_found_in_any_case_with_either_separator(write):
     folder = write({"Logical/Line/Main.st": ""})
-    names = Names(folder)
+    names = FileNames(folder)
     file = folder / "Logical" / "Line" / "Main.st"
     for name in ("logical\\LINE\\main.ST", "\\Logical\\\\Line\\Main.st", "Logical/./line/main.st"):
         assert names.below(folder, name) == file
@@ -13,7 +13,7 @@ def test_names_are_found_in_any_case_with_either_separator(write):
 
 def test_a_reference_counts_from_the_project_then_from_its_list(write):
     folder = write({"Logical/a.h": "", "Logical/Line/b.h": ""})
-    names = Names(folder)
+    names = FileNames(folder)
     line = folder / "Logical" / "Line"
     assert names.referenced(line, "\\Logical\\A.H") == folder / "Logical" / "a.h"
     assert names.referenced(line, "b.h") == line / "b.h"

@@ -4,13 +4,13 @@ import pytest
 
 from plcsim.core.control import Ending, Step
 from plcsim.recorder.journal.feed import Diverged, EndOfRecord, Feed
-from plcsim.recorder.journal.record import CYCLE, Entry, Record
+from plcsim.recorder.journal.record import CYCLE, JournalRecord, JournalStore
 
 
-def record(step: int = CYCLE, clock: tuple[int, ...] = (), network: bytes = b"") -> Record:
-    writes = Entry(0, 100, b"a").to_bytes() + Entry(1, 200, b"b").to_bytes()
+def record(step: int = CYCLE, clock: tuple[int, ...] = (), network: bytes = b"") -> JournalRecord:
+    writes = JournalStore(0, 100, b"a").to_bytes() + JournalStore(1, 200, b"b").to_bytes()
     numbers = struct.pack(f"<{len(clock)}q", *clock)
-    return Record(step, 1, 1, 1, numbers, network, writes, b"", b"")
+    return JournalRecord(step, 1, 1, 1, numbers, network, writes, b"", b"")
 
 
 def test_answers_come_in_their_order() -> None:
@@ -53,8 +53,8 @@ def test_what_is_left_of_a_cycle_is_told() -> None:
 def test_writes_come_in_their_latch() -> None:
     feed = Feed([record()])
 
-    assert feed.written(0) == [Entry(0, 100, b"a")]
-    assert feed.latch() == [Entry(1, 200, b"b")]
+    assert feed.written(0) == [JournalStore(0, 100, b"a")]
+    assert feed.latch() == [JournalStore(1, 200, b"b")]
     assert feed.latch() == []
 
 
@@ -64,8 +64,8 @@ def test_programs_cannot_catch_a_difference() -> None:
 
 
 def test_a_run_is_asked_to_end_after_as_many_answers_as_then() -> None:
-    writes = Entry(2, Ending.PAUSE.value, b"").to_bytes()
-    feed = Feed([Record(CYCLE, 1, 1, 1, struct.pack("<3q", 7, 8, 9), b"", writes, b"", b"")])
+    writes = JournalStore(2, Ending.PAUSE.value, b"").to_bytes()
+    feed = Feed([JournalRecord(CYCLE, 1, 1, 1, struct.pack("<3q", 7, 8, 9), b"", writes, b"", b"")])
     asked: list[tuple[Ending, int]] = []
     answers: list[int] = []
     feed.end_run = lambda ending: asked.append((ending, len(answers)))

@@ -2,7 +2,7 @@ import json
 
 from plcsim.core.traffic import Topic
 from plcsim.recorder.journal.journal import TOPIC_EVERY, Journal
-from plcsim.recorder.journal.record import Entry, entries, numbers_of, packets, record_of
+from plcsim.recorder.journal.record import JournalStore, entries, numbers_of, packets, record_of
 
 TOPIC = Topic("/chatter", "std_msgs/String", "0" * 32, "string data", "/plc", True, False)
 
@@ -20,7 +20,7 @@ def test_a_record_has_what_came_since_the_last_one() -> None:
 
     assert (numbers_of(record.clock), record.network) == ((5, 6), b"net")
     assert record.variables == b"all"
-    assert list(entries(record.writes)) == [Entry(0, 100, b"x"), Entry(1, 200, b"y")]
+    assert list(entries(record.writes)) == [JournalStore(0, 100, b"x"), JournalStore(1, 200, b"y")]
     assert (again.clock, again.network, again.writes, again.messages) == (b"", b"", b"", b"")
 
 

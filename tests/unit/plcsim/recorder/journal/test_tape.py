@@ -3,7 +3,7 @@ from plcsim.core.control import Step
 from plcsim.network import VirtualNetwork
 from plcsim.program.setup import make_controller
 from plcsim.recorder.journal.journal import Journal
-from plcsim.recorder.journal.record import LIMITS, Record, record_of
+from plcsim.recorder.journal.record import LIMITS, JournalRecord, record_of
 from plcsim.recorder.journal.tape import Tape
 
 from ..conftest import Fast, Slow, application_of
@@ -13,7 +13,7 @@ def test_every_cycle_and_every_step_is_a_record() -> None:
     clock = VirtualClock()
     net = VirtualNetwork(clock.now_ns).host("192.168.0.10")
     controller = make_controller(application_of(Fast, Slow).setup, network=net, clock=clock)
-    records: list[Record] = []
+    records: list[JournalRecord] = []
     Tape(controller, Journal(), lambda _time_ns, data: records.append(record_of(data)))
 
     controller.boot()

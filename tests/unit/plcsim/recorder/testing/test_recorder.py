@@ -6,7 +6,7 @@ import pytest
 
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
-from plcsim.recorder.testing import Recorder
+from plcsim.recorder.testing import RecorderFixture
 from plcsim.testing.errors import ExpectationFailed, PlcTestError
 from plcsim.testing.target import open_plc
 
@@ -15,7 +15,7 @@ from plcsim.testing.target import open_plc
 def golden(project: Path) -> Path:
     """A run in which the operator starts the cell after 100 ms."""
     with open_plc(project=project) as plc:
-        recorder = Recorder(plc, project, update=True)
+        recorder = RecorderFixture(plc, project, update=True)
         plc.cycles(10)
         plc["cell.start"] = True
         plc.cycles(10)
@@ -25,7 +25,7 @@ def golden(project: Path) -> Path:
 
 def test_the_same_run_is_the_golden_one(project: Path, golden: Path) -> None:
     with open_plc(project=project) as plc:
-        recorder = Recorder(plc, project)
+        recorder = RecorderFixture(plc, project)
         plc.cycles(4)
         plc.cycles(6)
         plc["cell.start"] = True
@@ -36,7 +36,7 @@ def test_the_same_run_is_the_golden_one(project: Path, golden: Path) -> None:
 
 def test_another_input_is_named_with_its_cycle(project: Path, golden: Path) -> None:
     with open_plc(project=project) as plc:
-        recorder = Recorder(plc, project)
+        recorder = RecorderFixture(plc, project)
         plc.cycles(12)
         plc["cell.start"] = True
         plc.cycles(8)
@@ -49,7 +49,7 @@ def test_another_input_is_named_with_its_cycle(project: Path, golden: Path) -> N
 
 def test_a_golden_bag_that_is_not_there_is_told(project: Path) -> None:
     with open_plc(project=project) as plc, pytest.raises(PlcTestError, match="--update-golden"):
-        Recorder(plc, project).assert_same_as("golden.bag")
+        RecorderFixture(plc, project).assert_same_as("golden.bag")
 
 
 def test_a_recorded_run_is_repeated(project: Path) -> None:
@@ -58,7 +58,7 @@ def test_a_recorded_run_is_repeated(project: Path) -> None:
         run.wait()
 
     with open_plc(project=project) as plc:
-        Recorder(plc, project).assert_repeats("run.bag")
+        RecorderFixture(plc, project).assert_repeats("run.bag")
 
 
 def test_a_program_that_has_changed_does_not_repeat_it(project: Path) -> None:
@@ -69,4 +69,4 @@ def test_a_program_that_has_changed_does_not_repeat_it(project: Path) -> None:
     main.write_text(main.read_text().replace("self.count += 1", "self.count += 2"))
 
     with open_plc(project=project) as plc, pytest.raises(ExpectationFailed, match="cycle"):
-        Recorder(plc, project).assert_repeats("run.bag")
+        RecorderFixture(plc, project).assert_repeats("run.bag")

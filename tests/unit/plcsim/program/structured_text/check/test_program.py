@@ -1,7 +1,7 @@
 import pytest
 
 from plcsim.program.structured_text.check.program import check_program
-from plcsim.program.structured_text.codes import Code
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
@@ -19,7 +19,7 @@ def test_findings(text: str, expected: str) -> None:
 def test_warnings_can_be_hidden() -> None:
     text = "PROGRAM _CYCLIC VAR i : INT; d : DINT; END_VAR i := d; i; END_PROGRAM"
     assert len(checked(text)[2]) == 2
-    assert len(checked(text, hidden=[Code.NARROWED])[2]) == 1
+    assert len(checked(text, hidden=[FindingCode.NARROWED])[2]) == 1
 
 
 def test_variables_that_nothing_uses_are_told_on_demand() -> None:

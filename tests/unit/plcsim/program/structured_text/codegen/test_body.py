@@ -3,7 +3,12 @@ import pytest
 from plcsim.machine.opcodes import BLOCK, BR, F64, I32, LOOP
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.accesses import Effects
-from plcsim.program.structured_text.codegen.body import HOLE, Body, Label, ModuleContext
+from plcsim.program.structured_text.codegen.body import (
+    HOLE,
+    FunctionWriter,
+    GenerationContext,
+    Label,
+)
 from plcsim.program.structured_text.codegen.options import CodegenOptions
 from plcsim.program.structured_text.codegen.statements import statements
 
@@ -16,8 +21,8 @@ OTHER = ir.Segment("other")
 def body_of():
     def make(kind="function", **options):
         made = function("F", ("i32", "f64"), None, kind=kind, locals_=("i64",))
-        context = ModuleContext({}, {id(PROGRAM): 0, id(OTHER): 1}, Effects(module(made)))
-        return Body(made, context, CodegenOptions(**options), statements)
+        context = GenerationContext({}, {id(PROGRAM): 0, id(OTHER): 1}, Effects(module(made)))
+        return FunctionWriter(made, context, CodegenOptions(**options), statements)
 
     return make
 

@@ -2,11 +2,11 @@ import pytest
 
 from plcsim.program.structured_text.codegen import copies as copies_module
 from plcsim.program.structured_text.codegen.copies import MOST_COPIES, Copies, join
-from plcsim.program.structured_text.codegen.places import THIS, Key
+from plcsim.program.structured_text.codegen.places import THIS, ScalarPlace
 
 
 def key(number, root=None, width="w32", base=1):
-    return Key(number + 1 if root is None else root, base, number * 4, width)
+    return ScalarPlace(number + 1 if root is None else root, base, number * 4, width)
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_what_a_loop_holds_stays_and_takes_no_room(copies):
 
 
 def test_a_store_forgets_what_it_meets(copies):
-    whole, part, beside = key(0, 9, "w64"), Key(9, 1, 4, "u8"), key(3, 9)
+    whole, part, beside = key(0, 9, "w64"), ScalarPlace(9, 1, 4, "u8"), key(3, 9)
     for one in (whole, part, beside):
         copies.note(one)
     copies.forget_met(part)
@@ -60,7 +60,7 @@ def test_variables_of_other_roots_are_not_forgotten(copies):
 
 def test_a_block_s_data_may_be_reached_by_an_address():
     copies = Copies(lambda _width: 0, this=True)
-    member, global_ = Key(4, THIS, 0, "w32"), Key(0, 77, 0, "w32")
+    member, global_ = ScalarPlace(4, THIS, 0, "w32"), ScalarPlace(0, 77, 0, "w32")
     for one in (member, global_):
         copies.note(one)
     copies.forget_met(global_)

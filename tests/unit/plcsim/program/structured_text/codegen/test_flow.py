@@ -2,7 +2,7 @@ import pytest
 
 from plcsim.machine import opcodes as op
 from plcsim.program.structured_text.codegen.accesses import Effects
-from plcsim.program.structured_text.codegen.body import Body, ModuleContext
+from plcsim.program.structured_text.codegen.body import FunctionWriter, GenerationContext
 from plcsim.program.structured_text.codegen.decode import instructions
 from plcsim.program.structured_text.codegen.flow import Flow
 from plcsim.program.structured_text.codegen.options import CodegenOptions
@@ -25,8 +25,8 @@ def flow_of():
 
     def flow_of(*parts):
         made = function("F", (), None)
-        context = ModuleContext({}, {}, Effects(module(made)))
-        body = Body(made, context, CodegenOptions(), statements)
+        context = GenerationContext({}, {}, Effects(module(made)))
+        body = FunctionWriter(made, context, CodegenOptions(), statements)
         for line, code in parts:
             body.mark(line)
             body.code += code

@@ -3,7 +3,7 @@ from hypothesis import strategies as st
 
 from plcsim.machine import frames_of
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.lines import FunctionLines, LineTable, pack
+from plcsim.program.structured_text.codegen.lines import FunctionLines, ModuleLines, pack
 
 from .build import call, evaluate, function, if_, load, module, number, store, unit
 
@@ -26,7 +26,7 @@ def test_an_instruction_belongs_to_the_last_change_before_it(changes, offset):
 
 
 def test_each_function_has_its_part():
-    table = LineTable(
+    table = ModuleLines(
         [
             FunctionLines("A", "action", "A.st", 3, 10, 20, pack([(0, 3), (4, 5)], 3)),
             FunctionLines("B", "unit", "B.st", 9, 25, 30, pack([(0, 9)], 9)),
@@ -36,7 +36,7 @@ def test_each_function_has_its_part():
     assert table.find(15) == ("A", "action", "A.st", 5, "")
     assert table.find(26) == ("B", "unit", "B.st", 9, "index")
     assert [table.find(offset) for offset in (9, 20, 24, 30, 1000)] == [None] * 5
-    assert LineTable([], {}).find(0) is None
+    assert ModuleLines([], {}).find(0) is None
 
 
 def test_the_call_chain_of_a_fault_has_the_lines_of_the_calls(compiled):

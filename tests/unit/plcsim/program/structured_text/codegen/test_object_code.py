@@ -4,7 +4,7 @@ import pytest
 from plcsim.machine.encoder import sleb, uleb
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.body import HOLE
-from plcsim.program.structured_text.codegen.lines import LineTable
+from plcsim.program.structured_text.codegen.lines import ModuleLines
 from plcsim.program.structured_text.codegen.object_code import ObjectCode
 
 
@@ -12,7 +12,7 @@ def filled(address, offset=0):
     """What is put into a hole."""
     holes = np.array([[1, 0, offset]], np.int64)
     code = ObjectCode(
-        "test", b"\x41" + HOLE + b"\x0b", [ir.Segment("program")], holes, LineTable([], {})
+        "test", b"\x41" + HOLE + b"\x0b", [ir.Segment("program")], holes, ModuleLines([], {})
     )
     placed = code.place({"program": address})
     assert placed[0] == 0x41
@@ -47,7 +47,7 @@ def test_what_is_filled_in_is_what_the_encoder_writes_but_longer():
 def test_every_hole_takes_the_address_of_its_segment():
     holes = np.array([[0, 1, 4], [5, 0, 0], [10, 1, 0]], np.int64)
     code = ObjectCode(
-        "test", HOLE * 3, [ir.Segment("program"), ir.Segment("global")], holes, LineTable([], {})
+        "test", HOLE * 3, [ir.Segment("program"), ir.Segment("global")], holes, ModuleLines([], {})
     )
     placed = code.place({"global": 0x20_0000, "program": 0x30_0000, "more": 1})
     parts = [value_of(placed[n : n + 5], signed=False) for n in (0, 5, 10)]
@@ -58,5 +58,5 @@ def test_every_hole_takes_the_address_of_its_segment():
 
 
 def test_code_without_addresses():
-    code = ObjectCode("test", b"abc", [], np.empty((0, 3), np.int64), LineTable([], {}))
+    code = ObjectCode("test", b"abc", [], np.empty((0, 3), np.int64), ModuleLines([], {}))
     assert code.place({}) == b"abc"

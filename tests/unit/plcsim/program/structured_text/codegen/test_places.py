@@ -1,7 +1,7 @@
 import pytest
 
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.places import NEAR, THIS, Key, indexed, key_of
+from plcsim.program.structured_text.codegen.places import NEAR, THIS, ScalarPlace, indexed, key_of
 
 from .build import PROGRAM, address, load, number, op, place
 
@@ -9,7 +9,7 @@ OTHER = ir.Segment("other")
 
 
 def key(offset, width="w32", root=1, base=5):
-    return Key(root, base, offset, width)
+    return ScalarPlace(root, base, offset, width)
 
 
 @pytest.mark.parametrize(
@@ -47,9 +47,9 @@ def test_in_a_block_what_an_address_reaches_may_be_its_data(root, changed, this,
 
 
 def test_only_fixed_places_have_keys():
-    assert key_of(place(8, 3), "u8", this=False) == Key(3, id(PROGRAM), 8, "u8")
+    assert key_of(place(8, 3), "u8", this=False) == ScalarPlace(3, id(PROGRAM), 8, "u8")
     member = ir.Place(ir.Local("i32", 0), 4, 2)
-    assert key_of(member, "w32", this=True) == Key(2, THIS, 4, "w32")
+    assert key_of(member, "w32", this=True) == ScalarPlace(2, THIS, 4, "w32")
     assert key_of(member, "w32", this=False) is None
     assert key_of(ir.Place(ir.Local("i32", 1), 4, 2), "w32", this=True) is None
     assert key_of(ir.Place(load(0), 4, 2), "w32", this=True) is None
