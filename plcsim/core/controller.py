@@ -13,7 +13,7 @@ from plcsim.core.forces import Forces
 from plcsim.core.image import ProcessImage
 from plcsim.core.logbook import Logbook, Severity
 from plcsim.core.owners import Owners
-from plcsim.core.scan import Scan
+from plcsim.core.scan import Scan, ScanHeartbeat
 from plcsim.core.system import Event, State, next_state
 from plcsim.core.tag import TagTable
 from plcsim.core.task import Cause, Policy, Task, TaskClass, Unit, Violation
@@ -31,14 +31,8 @@ VIOLATIONS_KEPT = 100
 """Records of violations kept; all are counted."""
 
 
-class Heartbeat(Protocol):
-    """Who watches the scan from outside is told here."""
-
-    def started(self, task: Task) -> None:
-        """Note that ``task`` is about to run a unit."""
-
-    def finished(self, task_class: TaskClass) -> None:
-        """Note that a cycle of ``task_class`` has ended."""
+class Heartbeat(ScanHeartbeat, Protocol):
+    """Who watches the controller from outside is told here."""
 
     def changed(self, state: State) -> None:
         """Note a new system state."""
@@ -109,7 +103,8 @@ class Controller:
         self.owners = Owners(classes)
         self.forces = Forces(self.memory, self.owners)
         self.image = ProcessImage(self.forces)
-        self.scan = Scan(classes, self.clock, context, self.image, self, idle)
+        self._heartbeat = heartbeat or _Nobody()
+        self.scan = Scan(classes, self.clock, context, self.image, self, self._heartbeat, idle)
         self.image.attach(self.scan)
         self.classes = self.scan.classes
         self._exception_task = exception_task
@@ -120,7 +115,6 @@ class Controller:
             task.index = index
         self.areas = (*shared, *(area for task in self.tasks for area in task.areas))
         self.tags = TagTable(self.memory, self.areas)
-        self._heartbeat = heartbeat or _Nobody()
         self.origin_ns = self.clock.now_ns()
         context.release_ns = self.origin_ns
         context.date_ns = first_date_ns(self.clock) if start_date_ns is None else start_date_ns
@@ -293,14 +287,6 @@ class Controller:
         self.logbook.write(self.clock.stamp_ns() - self.origin_ns, severity, source, text)
 
     # what the scan tells (plcsim.core.scan.ScanListener)
-
-    def started(self, task: Task) -> None:
-        """Pass the heartbeat on."""
-        self._heartbeat.started(task)
-
-    def finished(self, task_class: TaskClass) -> None:
-        """Pass the end of a cycle on."""
-        self._heartbeat.finished(task_class)
 
     def failed(self, task: Task, error: BaseException) -> None:
         """Log what a program raised and go to SERVICE."""

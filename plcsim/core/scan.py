@@ -36,6 +36,9 @@ class Phase(Enum):
     PUBLISH = "PUBLISH"
 
 
+_LATCH, _RUN, _PUBLISH = Phase.LATCH, Phase.RUN, Phase.PUBLISH  # an Enum is slow to ask
+
+
 class ScanImage(Protocol):
     """What moves values in and out around a cycle (`plcsim.core.image`)."""
 
@@ -46,14 +49,18 @@ class ScanImage(Protocol):
         """Give outputs out; called in PUBLISH."""
 
 
-class ScanListener(Protocol):
-    """Who is told what runs, and decides what a fault leads to."""
+class ScanHeartbeat(Protocol):
+    """Who watches the scan is told here, in every cycle."""
 
     def started(self, task: Task) -> None:
-        """Note that ``task`` is about to run (the heartbeat of the watchdog)."""
+        """Note that ``task`` is about to run a unit."""
 
     def finished(self, task_class: TaskClass) -> None:
-        """Note that a cycle has ended and its figures are up to date."""
+        """Note that a cycle of ``task_class`` has ended and its figures are up to date."""
+
+
+class ScanListener(Protocol):
+    """Who decides what a fault leads to."""
 
     def failed(self, task: Task, error: BaseException) -> None:
         """Handle what a program raised."""
@@ -70,7 +77,8 @@ class Scan:
         clock: virtual or real.
         context: its ``release_ns`` is set before programs run.
         image: called in LATCH and PUBLISH.
-        supervisor: told of everything that goes on.
+        supervisor: told of everything that goes wrong.
+        heartbeat: told of every program that starts and every cycle that ends.
         idle: called in SLEEP with the nanoseconds until the next release, for what must not cost a
             cycle its time.
 
@@ -90,6 +98,7 @@ class Scan:
         context: Context,
         image: ScanImage,
         supervisor: ScanListener,
+        heartbeat: ScanHeartbeat,
         idle: Callable[[int], None],
     ) -> None:
         numbers = sorted(c.number for c in classes)
@@ -108,6 +117,7 @@ class Scan:
         self._cells = context.memory.system.cells  # what `Context.release_ns` reads and sets
         self._image = image
         self._supervisor = supervisor
+        self._heartbeat = heartbeat
         self._idle = idle
         self._own_ns = 0
         self._elsewhere_ns = 0
@@ -165,64 +175,51 @@ class Scan:
         self._end_ns = _NEVER if until_ns is None else until_ns
         self._last_cycle = _NEVER if cycles is None else self.classes[0].cycles + cycles
         while self._goes_on():
-            due = self._due(self.classes)
-            if due is not None:
-                self._run_class(due)
-                continue
+            now_ns = self._clock.now_ns()
             wake_ns = self._end_ns
             for task_class in self.classes:
-                if task_class.release_ns < wake_ns:  # noqa: PLR1730  # as in `Histogram.record`
+                if task_class.release_ns < wake_ns:
                     wake_ns = task_class.release_ns
-            if wake_ns == self._end_ns and self._clock.now_ns() >= wake_ns:
-                return
-            self._sleep(wake_ns)
+                    if wake_ns <= now_ns:
+                        self._run_class(task_class)
+                        break
+            else:
+                if wake_ns == self._end_ns and now_ns >= wake_ns:
+                    return
+                self._idle(wake_ns - now_ns)
+                self._clock.sleep_until_ns(wake_ns)
 
     def _goes_on(self) -> bool:
         """Return whether another cycle may start."""
         return self.running and not self.paused and self.classes[0].cycles < self._last_cycle
 
-    def _due(self, classes: Sequence[TaskClass]) -> TaskClass | None:
-        """Return the first released class among some in order."""
-        now_ns = self._clock.now_ns()
-        for task_class in classes:
-            if task_class.release_ns <= now_ns and task_class.release_ns < self._end_ns:
-                return task_class
-        return None
-
-    def _sleep(self, until_ns: int) -> None:
-        self._idle(until_ns - self._clock.now_ns())
-        self._clock.sleep_until_ns(until_ns)
-
     def _run_class(self, task_class: TaskClass) -> None:
         """Run one cycle of a class; what it interrupts goes on as it was."""
-        cells = self._cells
+        cells, clock, image = self._cells, self._clock, self._image
         outer = self.phase, cells[RELEASE], self._own_ns, self._aborted
         elsewhere_ns = self._elsewhere_ns
         cells[RELEASE] = task_class.release_ns
         self._own_ns = self._elsewhere_ns = 0
         self._aborted = None
-        start_ns = self._clock.now_ns()
+        start_ns = clock.now_ns()
         task_class.lateness.record(start_ns - task_class.release_ns)
         task_class.cycles += 1
         self.in_cycle.append(task_class)
-        cpu_ns = self._clock.cpu_ns()
+        cpu_ns = clock.cpu_ns()
         try:
-            self._run_phases(task_class)
-            used_ns = self._clock.cpu_ns() - cpu_ns
+            self.phase = _LATCH
+            image.latch(task_class)
+            self.phase = _RUN
+            self._run_tasks(task_class)
+            self.phase = _PUBLISH
+            image.publish(task_class)
+            used_ns = clock.cpu_ns() - cpu_ns
             self._account(task_class, start_ns, used_ns - self._elsewhere_ns)
             elsewhere_ns += used_ns
         finally:
             self.in_cycle.pop()
             self.phase, cells[RELEASE], self._own_ns, self._aborted = outer
             self._elsewhere_ns = elsewhere_ns
-
-    def _run_phases(self, task_class: TaskClass) -> None:
-        self.phase = Phase.LATCH
-        self._image.latch(task_class)
-        self.phase = Phase.RUN
-        self._run_tasks(task_class)
-        self.phase = Phase.PUBLISH
-        self._image.publish(task_class)
 
     def _run_tasks(self, task_class: TaskClass) -> None:
         order = self.classes.index(task_class)
@@ -238,10 +235,18 @@ class Scan:
     def _run_higher(self, below: int) -> None:
         """Run the first ``below`` classes in order that have been released meanwhile."""
         while self._goes_on():
-            due = self._due(self.classes[:below])
+            due = self._due(below)
             if due is None:
                 return
             self._run_class(due)
+
+    def _due(self, below: int) -> TaskClass | None:
+        """Return the first released class among the first ``below``."""
+        now_ns = self._clock.now_ns()
+        for task_class in self.classes[:below]:
+            if task_class.release_ns <= now_ns and task_class.release_ns < self._end_ns:
+                return task_class
+        return None
 
     def run_exception_program(self, task: Task) -> None:
         """Run a program of no task class, for a violation; it is measured, but has no limit."""
@@ -256,7 +261,7 @@ class Scan:
         """Run CYCLIC of a program; return the error by which the watchdog ended it."""
         clock = self._clock
         ended: CycleTimeViolation | None = None
-        self._supervisor.started(task)
+        self._heartbeat.started(task)
         start_ns, cpu_ns, waits = clock.now_ns(), clock.cpu_ns(), clock.waits()
         try:
             self.active = task
@@ -276,8 +281,9 @@ class Scan:
             used_ns = max(used_ns, end_ns - start_ns)
         task.execution.record(used_ns)
         self._own_ns += used_ns
-        for task_class in self.classes:
-            task_class.note_use(task, start_ns, end_ns, used_ns)
+        if end_ns > start_ns:  # on the virtual clock it seldom is
+            for task_class in self.classes:
+                task_class.note_use(task, start_ns, end_ns, used_ns)
         return ended
 
     def _account(self, task_class: TaskClass, start_ns: int, controller_ns: int) -> None:
@@ -305,7 +311,7 @@ class Scan:
         task_class.advance(end_ns)
         if violation is not None:
             self._supervisor.violated(violation, task_class.policy_for(violation.cause))
-        self._supervisor.finished(task_class)
+        self._heartbeat.finished(task_class)
 
     def _judge(self, task_class: TaskClass, response_ns: int) -> Violation:
         """Return the violation with its cause: who used more than the limit allows."""

@@ -13,11 +13,12 @@ from __future__ import annotations
 import ctypes
 import platform
 import sys
-from ctypes import c_bool, c_char_p, c_int8, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+from ctypes import byref, c_bool, c_char_p, c_int8, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from plcsim.machine.errors import MachineError
 
@@ -229,6 +230,18 @@ def _file() -> Path:
     if not file.is_file():
         raise MachineError(f"the installed package wasmtime has no library for {folder.name}")
     return file
+
+
+def passed(number: int) -> Any:
+    """Return what ctypes passes on as this number, an address or a size, with the least work."""
+    return byref(ctypes.c_char.from_address(number))  # never looked at: only the address is taken
+
+
+def quick(name: str) -> Any:
+    """Return a function of the library for arguments that are ctypes objects already."""
+    function = ctypes.PYFUNCTYPE(c_void_p)((name, library()))
+    function.argtypes = None  # type: ignore[assignment]  # no conversion: that is most of the cost
+    return function
 
 
 @cache

@@ -19,6 +19,7 @@ from plcsim.machine.api import (
     ByteVec,
     FunctionHandle,
     library,
+    passed,
 )
 
 if TYPE_CHECKING:
@@ -56,10 +57,10 @@ def prepare(
     """
     slots = (ctypes.c_char * (SLOT * max(len(params), len(results), 1)))()
     trap = store.trap
-    context = _argument(store.context)
+    context = passed(store.context)
     target = byref(function)
     values = byref(slots)
-    count = _argument(max(len(params), len(results)))
+    count = passed(max(len(params), len(results)))
     out = byref(trap)
     enter, raise_fault, interrupted = store.enter, store.raise_fault, store.interrupted
 
@@ -77,11 +78,6 @@ def prepare(
     holders = [CTYPES[code].from_buffer(slots, SLOT * i) for i, code in enumerate(params)]
     result = CTYPES[results].from_buffer(slots) if results else None
     return _with_values(run, holders, result)
-
-
-def _argument(number: int) -> Any:
-    """Return what ctypes passes on as this number, an address or a size, with the least work."""
-    return byref(ctypes.c_char.from_address(number))  # never looked at: only the address is taken
 
 
 def _with_values(run: Callable[[], None], holders: list[Any], result: Any) -> Callable[..., Any]:

@@ -35,10 +35,13 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 FUEL = 1 << 62
-"""Instructions that are left outside of units, where they are counted."""
+"""Instructions of a machine that has run no unit yet, where they are counted."""
 
 UNIT_FUEL = 5_000_000_000
 """Instructions that a unit of a program may take, some seconds' worth; more is an endless loop."""
+
+ENOUGH_FUEL = UNIT_FUEL // 2
+"""Instructions that may be left over for what calls compiled code outside of units."""
 
 MEMORY_NAME = ("env", "memory")
 TABLE_NAME = ("env", "__indirect_function_table")
@@ -270,17 +273,20 @@ class Machine:
         """
         if not self._engine.fuel:
             return function
-        store, fuel, set_fuel = self._store, self._store.fuel, self._store.set_fuel
+        store = self._store
+        allow, left = store.ration(UNIT_FUEL)
 
         def run(*arguments: Any) -> T:
             if store.depth:
                 return function(*arguments)
-            set_fuel(UNIT_FUEL)
+            allow()
             try:
                 return function(*arguments)
             finally:
-                self._spent += UNIT_FUEL - fuel()
-                set_fuel(FUEL)
+                rest = left()
+                self._spent += UNIT_FUEL - rest
+                if rest < ENOUGH_FUEL:
+                    store.set_fuel(FUEL)
 
         return run
 

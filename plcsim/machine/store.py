@@ -6,6 +6,7 @@ import ctypes
 import re
 import sys
 from ctypes import byref, c_uint8, c_uint64, c_void_p
+from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plcsim.core.errors import CycleTimeViolation
@@ -15,12 +16,15 @@ from plcsim.machine.api import (
     ValueStructure,
     items_of,
     library,
+    passed,
+    quick,
     take_message,
     text_of,
 )
 from plcsim.machine.errors import FaultKind, Frame, MachineError, MachineFault, note_frames
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import TracebackType
 
     from plcsim.core.system_area import SystemArea
@@ -67,7 +71,7 @@ class Store:
         self.engine = engine.handle
         self.handle: int | None = api.wasmtime_store_new(engine.handle, None, None)
         self.context: int = api.wasmtime_store_context(self.handle)
-        self.enter = _entry()
+        self.enter = quick("wasmtime_func_call_unchecked")
         self.trap: Any = c_void_p()  # the stubs do not know that it is false where it is nil
         self.depth = 0
         self.kept: list[Any] = []
@@ -159,6 +163,22 @@ class Store:
         library().wasmtime_context_get_fuel(self.context, byref(left))
         return left.value
 
+    def ration(self, instructions: int) -> tuple[Callable[[], Any], Callable[[], int]]:
+        """Return what allows so many instructions, and what tells how many are left of them.
+
+        That is done in every cycle; both have nothing left to prepare.
+        """
+        left = c_uint64()
+        arguments = passed(self.context), byref(left)
+        allow = partial(quick("wasmtime_context_set_fuel"), arguments[0], c_uint64(instructions))
+        look = partial(quick("wasmtime_context_get_fuel"), *arguments)
+
+        def tell() -> int:
+            look()
+            return left.value
+
+        return allow, tell
+
 
 def trace_inside(error: BaseException) -> TracebackType | None:
     """Return the part of a traceback that was inside of compiled code: functions it has called."""
@@ -166,13 +186,6 @@ def trace_inside(error: BaseException) -> TracebackType | None:
     while trace is not None and trace.tb_frame.f_code is not Store.raise_fault.__code__:
         trace = trace.tb_next
     return None if trace is None else trace.tb_next
-
-
-def _entry() -> Any:
-    """Return wasmtime_func_call_unchecked for arguments that are ctypes objects already."""
-    entry = ctypes.PYFUNCTYPE(c_void_p)(("wasmtime_func_call_unchecked", library()))
-    entry.argtypes = None  # type: ignore[assignment]  # no conversion: that is most of the cost
-    return entry
 
 
 def _fault(trap: int) -> MachineFault:

@@ -33,6 +33,20 @@ def test_a_percentile_is_exact_to_one_bucket(durations_ns, percent):
     assert true_ns <= found_ns <= true_ns + true_ns // (1 << SUB_BITS)
 
 
+@given(st.lists(st.sampled_from([-3, 0, 7, 5000, LARGEST_NS + 1]), min_size=1, max_size=50))
+def test_one_duration_again_and_again_counts_each_time(durations_ns):
+    found = histogram_of(durations_ns)
+    apart = [histogram_of([one]) for one in durations_ns]
+    assert found.counts == [sum(counts) for counts in zip(*(h.counts for h in apart), strict=True)]
+    assert found.total_ns == sum(h.total_ns for h in apart)
+    assert found.last_ns == apart[-1].last_ns
+    assert found.maximum_ns == max(h.maximum_ns for h in apart)
+    assert found.minimum_ns == min(h.minimum_ns for h in apart)
+    found.reset()
+    found.record(0)
+    assert found.count == 1
+
+
 @given(st.lists(durations, max_size=50))
 def test_the_summary_is_exact_but_for_the_percentiles(durations_ns):
     summary = histogram_of(durations_ns).summary()

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from plcsim.core.errors import CycleTimeViolation
 from plcsim.core.memory import FIRST, PAGE, SYSTEM_AREA, Memory
 from plcsim.core.system_area import RELEASE
 from plcsim.machine import CodeCache, Machine, MachineError, MachineFault
@@ -259,6 +260,31 @@ def test_instructions_are_counted_alike_however_addresses_are_checked():
         rig.load(COUNT).function("count")(FIRST)
         fuels.append(before - rig.machine.fuel)
     assert fuels[0] == fuels[1] > 0
+
+
+def test_units_are_metered_and_what_runs_outside_of_them_is_not(monkeypatch):
+    monkeypatch.setattr("plcsim.machine.machine.UNIT_FUEL", 1000)
+    rig = Rig(fuel=True)
+    run = rig.load(LOOP).function("run")
+    unit = rig.machine.unit(run)
+    unit(3)
+    run(10_000)
+    unit(2)
+    assert rig.machine.meter() == 16 + 11
+
+
+def test_a_unit_that_does_not_end_leaves_instructions_for_others(monkeypatch):
+    monkeypatch.setattr("plcsim.machine.machine.UNIT_FUEL", 1000)
+    monkeypatch.setattr("plcsim.machine.machine.ENOUGH_FUEL", 500)
+    rig = Rig(fuel=True)
+    run = rig.load(LOOP).function("run")
+    unit = rig.machine.unit(run)
+    for _ in range(2):
+        with pytest.raises(CycleTimeViolation, match="within its instructions"):
+            unit(0)
+        assert rig.machine.meter() >= 990
+        run(100)
+    unit(5)
 
 
 def test_a_machine_without_fuel_says_so(rig):
