@@ -1,0 +1,1 @@
+"""The OPC UA service process; all that knows the library asyncua."""
