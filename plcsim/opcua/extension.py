@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.access import Users
+from plcsim.access.users import users_file
 from plcsim.core.errors import ConfigurationError
 from plcsim.opcua.model import ModelMaker
 from plcsim.opcua.notes import notes_of
@@ -49,9 +51,11 @@ class OpcuaExtension(Extension):
         """Check that what is named is there, and that this host can serve it."""
         branches_of(settings, controller.areas)
         missing = [name for name in NEEDED if find_spec(name) is None]
-        if not missing:
-            return []
-        return [f"opcua: needs {', '.join(missing)}; python3 -m pip install 'plcsim[opcua]'"]
+        if missing:
+            return [f"opcua: needs {', '.join(missing)}; python3 -m pip install 'plcsim[opcua]'"]
+        if not settings.settings.is_loopback and not Users(users_file(settings.folder)):
+            return ["opcua.host: nobody is let in before there are users; plcsim users add NAME"]
+        return []
 
 
 def branches_of(project: OpcuaProject, areas: Sequence[Any]) -> list[Branch]:

@@ -6,7 +6,7 @@ import asyncio
 import errno
 import logging
 import os
-import socket
+import platform
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -111,7 +111,7 @@ async def _server(project: OpcuaProject, name: str) -> Server:
     server.iserver.max_connections = settings.connections
     server.iserver.match_discovery_source_ip = False
     await server.init()
-    await server.set_application_uri(f"urn:{socket.gethostname()}:plcsim:{name}")
+    await server.set_application_uri(f"urn:{platform.node()}:plcsim:{name}")
     await set_certificate(server, project.folder / FOLDER)
     server.set_security_policy(policies(settings.security))
     if settings.trusted:

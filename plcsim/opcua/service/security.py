@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import socket
+import platform
 from typing import TYPE_CHECKING, Final
 
 from asyncua import ua
@@ -53,7 +53,7 @@ async def set_certificate(server: Server, folder: Path) -> None:
         key,
         certificate,
         server.get_application_uri(),
-        socket.gethostname(),
+        platform.node(),
         [ExtendedKeyUsageOID.SERVER_AUTH, ExtendedKeyUsageOID.CLIENT_AUTH],
         {"commonName": server.name[:64], "organizationName": "plcsim"},
     )
