@@ -8,7 +8,7 @@ from asyncua import ua
 from asyncua.common.structures104 import new_enum
 
 from plcsim.opcua.model import Branch
-from plcsim.opcua.service.values import Codec
+from plcsim.opcua.service.values import VariableCodec
 from st_types.types.derived import EnumerationType
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Nodes:
         self._server = server
         self._project = project
         self.index = 0
-        self.codecs: dict[ua.NodeId, Codec] = {}
+        self.codecs: dict[ua.NodeId, VariableCodec] = {}
         self._enumerations: dict[str, ua.NodeId] = {}
 
     async def make(self, branches: Iterable[Branch]) -> None:
@@ -69,7 +69,7 @@ class Nodes:
                 await self._variable(item.RequestedNewNodeId, child)
 
     async def _variable(self, parent: ua.NodeId, leaf: Leaf) -> None:
-        codec = Codec(leaf)
+        codec = VariableCodec(leaf)
         note = leaf.note
         item = self._item(parent, leaf.tag.path, leaf.name)
         item.NodeClass = ua.NodeClass.Variable
@@ -131,7 +131,7 @@ class Nodes:
         item.NodeAttributes = attributes
         await self._add(item)
 
-    async def _data_type(self, codec: Codec) -> ua.NodeId:
+    async def _data_type(self, codec: VariableCodec) -> ua.NodeId:
         element = codec.leaf.element
         if not isinstance(element, EnumerationType):
             return codec.builtin.data_type

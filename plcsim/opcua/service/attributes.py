@@ -10,8 +10,7 @@ from asyncua.crypto.permission_rules import User, UserRole
 from asyncua.server.address_space import AttributeService
 
 from plcsim.opcua.service.values import MismatchError
-from plcsim.shared_image import CommandRefused, ImageError, Outcome, Write
-from plcsim.shared_image.command import Store
+from plcsim.shared_image import CommandOutcome, CommandRefused, ImageError, StoreCommand, Write
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,16 +18,16 @@ if TYPE_CHECKING:
     from asyncua.server.address_space import AddressSpace
 
     from plcsim.opcua.service.readings import Readings
-    from plcsim.opcua.service.values import Codec
+    from plcsim.opcua.service.values import VariableCodec
     from plcsim.shared_image import Answer, ImageReader
 
 _CODES: Final = ua.StatusCodes
 _VALUE: Final = ua.AttributeIds.Value
 
 _REFUSALS: Final = {
-    Outcome.CONSTANT: _CODES.BadNotWritable,
-    Outcome.OVERLAPS: _CODES.BadNotWritable,
-    Outcome.NO_SUCH_ADDRESS: _CODES.BadNodeIdInvalid,
+    CommandOutcome.CONSTANT: _CODES.BadNotWritable,
+    CommandOutcome.OVERLAPS: _CODES.BadNotWritable,
+    CommandOutcome.NO_SUCH_ADDRESS: _CODES.BadNodeIdInvalid,
 }
 
 
@@ -52,7 +51,7 @@ class Attributes(AttributeService):
         readings: Readings,
         image: ImageReader,
         timeout_s: float,
-        applied: Callable[[User, Codec, bytes, bytes], None],
+        applied: Callable[[User, VariableCodec, bytes, bytes], None],
         refused: Callable[[User, str, str], None],
     ) -> None:
         super().__init__(space)
@@ -114,9 +113,9 @@ class Attributes(AttributeService):
             return err.code
         return await self._send(codec, data, user)
 
-    async def _send(self, codec: Codec, data: bytes, user: User) -> int:
+    async def _send(self, codec: VariableCodec, data: bytes, user: User) -> int:
         try:
-            ticket = self._image.send(Write([Store(codec.leaf.tag.address, data)]))
+            ticket = self._image.send(Write([StoreCommand(codec.leaf.tag.address, data)]))
         except CommandRefused:
             return _CODES.BadTooManyOperations
         except ImageError:
@@ -130,14 +129,14 @@ class Attributes(AttributeService):
             return _CODES.BadTimeout
         return self._note(codec, data, user, answer)
 
-    def _note(self, codec: Codec, data: bytes, user: User, answer: Answer) -> int:
+    def _note(self, codec: VariableCodec, data: bytes, user: User, answer: Answer) -> int:
         """Tell what has become of a write; return the status code."""
-        if answer.outcome is not Outcome.APPLIED:
+        if answer.outcome is not CommandOutcome.APPLIED:
             return _REFUSALS.get(answer.outcome, _CODES.BadInternalError)
         before = answer.before
         assert isinstance(before, Write)
         (store,) = before.operations
-        assert isinstance(store, Store)
+        assert isinstance(store, StoreCommand)
         self._applied(user, codec, data, store.data)
         return _CODES.Good
 

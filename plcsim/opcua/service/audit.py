@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from asyncua.crypto.permission_rules import User
 
-    from plcsim.opcua.service.values import Codec
+    from plcsim.opcua.service.values import VariableCodec
 
 FILE: Final = ".plcsim/opcua-audit.jsonl"
 REFUSED: Final = ".plcsim/opcua-audit-refused.jsonl"
@@ -33,7 +33,7 @@ class WriteLog:
         self._refused = LineFile(folder / REFUSED, LARGEST, 2, "opcua")
         self._applied.open()
 
-    def applied(self, user: User, codec: Codec, data: bytes, before: bytes) -> None:
+    def applied(self, user: User, codec: VariableCodec, data: bytes, before: bytes) -> None:
         """Note a write: UTC time, user, tag, value and the value before."""
         tag = codec.leaf.tag
         line = {"tag": tag.path, "value": _shown(tag, data), "before": _shown(tag, before)}

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from asyncua.server.address_space import AddressSpace
 
-    from plcsim.opcua.service.values import Codec
+    from plcsim.opcua.service.values import VariableCodec
     from plcsim.shared_image import ImageReader
 
 _CODES: Final = ua.StatusCodes
@@ -35,7 +35,10 @@ class Readings:
     """
 
     def __init__(
-        self, image: ImageReader, state: Callable[[], int], codecs: Mapping[ua.NodeId, Codec]
+        self,
+        image: ImageReader,
+        state: Callable[[], int],
+        codecs: Mapping[ua.NodeId, VariableCodec],
     ) -> None:
         self._image = image
         self._state = state

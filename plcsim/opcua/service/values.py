@@ -72,7 +72,7 @@ class MismatchError(Exception):
         self.code = code
 
 
-class Builtin(NamedTuple):
+class BuiltinType(NamedTuple):
     """How OPC UA has an elementary type.
 
     Attributes:
@@ -84,7 +84,7 @@ class Builtin(NamedTuple):
     data_type: ua.NodeId
 
 
-def builtin_of(data_type: DataType[Any]) -> Builtin:
+def builtin_of(data_type: DataType[Any]) -> BuiltinType:
     """Return how OPC UA has a type that is no ARRAY and no STRUCT."""
     match data_type:
         case SubrangeType(base=base):
@@ -96,15 +96,15 @@ def builtin_of(data_type: DataType[Any]) -> Builtin:
         case StringType() | WStringType():
             variant = _VARIANT.String
         case ElementaryType(name="TIME"):
-            return Builtin(_VARIANT.Double, ua.NodeId(ua.ObjectIds.Duration))
+            return BuiltinType(_VARIANT.Double, ua.NodeId(ua.ObjectIds.Duration))
         case ElementaryType(name=name):
             variant = _ELEMENTARY[name]
         case _:
             raise TypeError(f"{data_type} is no value")
-    return Builtin(variant, ua.NodeId(variant.value))
+    return BuiltinType(variant, ua.NodeId(variant.value))
 
 
-class Codec:
+class VariableCodec:
     """Converts the values of one variable.
 
     Args:

@@ -10,7 +10,7 @@ from asyncua import ua
 
 from plcsim.core.tag import Tag
 from plcsim.opcua.model import Leaf, Note
-from plcsim.opcua.service.values import Codec, MismatchError
+from plcsim.opcua.service.values import MismatchError, VariableCodec
 from st_types.types.derived import (
     ArrayType,
     EnumerationType,
@@ -27,7 +27,7 @@ CODES = ua.StatusCodes
 
 
 def codec(data_type, note=None):
-    return Codec(Leaf("x", Tag("p.x", data_type, 0), is_writable=True, note=note or Note()))
+    return VariableCodec(Leaf("x", Tag("p.x", data_type, 0), is_writable=True, note=note or Note()))
 
 
 EXAMPLES = [
