@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections import Counter
     from collections.abc import Callable
 
-    from crosnode.testing import Door
+    from crosnode.testing import AttackedPort
 
 MOST_OPEN = 200
 FLOOD_EVERY_S = 4.0
@@ -200,7 +200,7 @@ def run(system: System, seconds: float, seed: int) -> Figures:
     return Figures(attacker.counts, memory, passed, reports, faults)
 
 
-def unanswered(doors: list[Door]) -> list[str]:
+def unanswered(doors: list[AttackedPort]) -> list[str]:
     """Return the ports that do not answer any more."""
     end = time.monotonic() + RECOVERY_S
     left = doors

@@ -17,7 +17,7 @@ from typing import Any
 from _modbus_site import child_with
 
 from crosnode.tcpros.header import encode_header
-from crosnode.testing import Door, Speaks
+from crosnode.testing import AttackedPort, Speaks
 from plcsim.core.errors import PlcError
 from plcsim.network import Address
 from plcsim.process.run_file import find_run
@@ -82,10 +82,10 @@ class Process:
             return 0
         return int(text.partition(f"{field}:")[2].split()[0]) if field in text else 0
 
-    def doors(self) -> list[Door]:
+    def doors(self) -> list[AttackedPort]:
         """Return the ports that it listens at, with what they speak."""
         return [
-            Door(Address(HOST, port), Speaks.XMLRPC if answers(port) else Speaks.TCPROS)
+            AttackedPort(Address(HOST, port), Speaks.XMLRPC if answers(port) else Speaks.TCPROS)
             for port in listening_ports(self.pid)
         ]
 
@@ -220,7 +220,7 @@ def refuses(port: int) -> bool:
         return False
 
 
-def still_answers(door: Door) -> bool:
+def still_answers(door: AttackedPort) -> bool:
     """Return whether a port still does what it is there for."""
     ask = answers if door.speaks is Speaks.XMLRPC else refuses
     return ask(door.address.port)

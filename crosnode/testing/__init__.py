@@ -9,17 +9,25 @@ from typing import TYPE_CHECKING
 from plcsim.core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from crosnode.testing.attacker import Attacker, Door
+    from crosnode.testing.attacker import AttackedPort, Attacker
     from crosnode.testing.hostile import HostilePeer, HostilePeers, Speaks
     from crosnode.testing.ros import Ros, SystemState
 
-__all__ = ["Attacker", "Door", "HostilePeer", "HostilePeers", "Ros", "Speaks", "SystemState"]
+__all__ = [
+    "AttackedPort",
+    "Attacker",
+    "HostilePeer",
+    "HostilePeers",
+    "Ros",
+    "Speaks",
+    "SystemState",
+]
 
 __getattr__ = lazy_names(
     __name__,
     {
         "Attacker": "crosnode.testing.attacker",
-        "Door": "crosnode.testing.attacker",
+        "AttackedPort": "crosnode.testing.attacker",
         "HostilePeer": "crosnode.testing.hostile",
         "HostilePeers": "crosnode.testing.hostile",
         "Ros": "crosnode.testing.ros",

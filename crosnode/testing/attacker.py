@@ -26,7 +26,7 @@ _GONE: Final = frozenset({Outcome.CLOSED, Outcome.RESET, Outcome.TIMED_OUT})
 _FLOOD: Final = HostilePeer("many at once, silent", b"", leaves=0.0005)
 
 
-class Door(NamedTuple):
+class AttackedPort(NamedTuple):
     """A port to attack."""
 
     address: Address
@@ -47,7 +47,11 @@ class Attacker:
     """
 
     def __init__(
-        self, network: Network, doors: Sequence[Door], peers: HostilePeers, most_open: int = 60
+        self,
+        network: Network,
+        doors: Sequence[AttackedPort],
+        peers: HostilePeers,
+        most_open: int = 60,
     ) -> None:
         self.counts: Counter[str] = Counter()
         self._network = network
@@ -80,7 +84,7 @@ class Attacker:
             visit.leave()
         self._visits.clear()
 
-    def _enter(self, door: Door, peer: HostilePeer) -> None:
+    def _enter(self, door: AttackedPort, peer: HostilePeer) -> None:
         socket = self._network.open("", 0).socket
         if socket is None:
             return

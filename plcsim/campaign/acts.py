@@ -15,7 +15,7 @@ from plcsim.campaign.order import order_of
 from plcsim.campaign.picture import PICTURE_FILE, draw
 from plcsim.campaign.progress import ProgressBar
 from plcsim.campaign.result import RunOutcome
-from plcsim.campaign.session import Session, results_folder
+from plcsim.campaign.session import CampaignSession, results_folder
 from plcsim.campaign.show import (
     causes_of,
     print_causes,
@@ -45,7 +45,7 @@ MOST_EXAMPLES: Final = 3
 
 def run(options: argparse.Namespace) -> int:
     """Do the runs that are not done yet, and show what came of all."""
-    session = Session(options.file)
+    session = CampaignSession(options.file)
     store = ResultStore(_folder(options), session.about(), fresh=options.fresh)
     console = CommandConsole()
     if store.done:
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
 
 def show(options: argparse.Namespace) -> int:
     """Show what came of a campaign so far."""
-    session = Session(options.file)
+    session = CampaignSession(options.file)
     shown = _Shown(options, session, CommandConsole())
     if not shown.lacks_examples or options.no_shrink:
         return shown.show(None)
@@ -90,7 +90,9 @@ def _folder(options: argparse.Namespace) -> Path:
 
 
 @contextmanager
-def _cluster(session: Session, scheduler: str = "", processors: int = 0) -> Iterator[Cluster]:
+def _cluster(
+    session: CampaignSession, scheduler: str = "", processors: int = 0
+) -> Iterator[Cluster]:
     limit_s = session.campaign.time_limit_ns / 1e9
     cluster = Cluster(session.content, limit_s, scheduler, processors)
     try:
@@ -103,7 +105,7 @@ class _Shown:
     """The results of a campaign, as they are shown."""
 
     def __init__(
-        self, options: argparse.Namespace, session: Session, console: CommandConsole
+        self, options: argparse.Namespace, session: CampaignSession, console: CommandConsole
     ) -> None:
         self._file, self._folder = options.file, _folder(options)
         self._session, self._console = session, console

@@ -29,7 +29,7 @@ FLUSH_PERIOD_S: Final = 2.0
 """Between two parts of the results on disk."""
 
 
-class Session:
+class CampaignSession:
     """A campaign, loaded and checked, with what its workers need.
 
     Args:

@@ -57,7 +57,9 @@ _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
 class OsSocket:
     """A socket of the host. Made by ``OsNetwork.open`` and ``accept`` only."""
 
-    def __init__(self, os_socket: socket.socket, watch: Watch, peer: Address | None = None) -> None:
+    def __init__(
+        self, os_socket: socket.socket, watch: SocketWatch, peer: Address | None = None
+    ) -> None:
         os_socket.settimeout(0)
         self._socket = os_socket
         self._watch = watch
@@ -230,7 +232,7 @@ class OsSocket:
         return int(seconds) if on else None
 
 
-class Watch:
+class SocketWatch:
     """Which sockets of a network have news; epoll(7), once somebody looks."""
 
     def __init__(self) -> None:
@@ -262,7 +264,7 @@ class OsNetwork:
 
     def __init__(self) -> None:
         descriptors.make_room()
-        self._watch = Watch()
+        self._watch = SocketWatch()
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See ``Network.open``."""

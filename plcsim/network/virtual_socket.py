@@ -39,7 +39,7 @@ class SocketState(Enum):
     CLOSED = auto()
 
 
-class Act(Enum):
+class SocketAct(Enum):
     """What moves a socket from state to state."""
 
     LISTEN = auto()
@@ -49,20 +49,23 @@ class Act(Enum):
     CLOSE = auto()
 
 
-TRANSITIONS: Final[dict[SocketState, dict[Act, SocketState]]] = {
+TRANSITIONS: Final[dict[SocketState, dict[SocketAct, SocketState]]] = {
     SocketState.OPENED: {
-        Act.LISTEN: SocketState.LISTENING,
-        Act.CONNECT: SocketState.CONNECTING,
-        Act.ESTABLISH: SocketState.CONNECTED,
-        Act.CLOSE: SocketState.CLOSED,
+        SocketAct.LISTEN: SocketState.LISTENING,
+        SocketAct.CONNECT: SocketState.CONNECTING,
+        SocketAct.ESTABLISH: SocketState.CONNECTED,
+        SocketAct.CLOSE: SocketState.CLOSED,
     },
-    SocketState.LISTENING: {Act.LISTEN: SocketState.LISTENING, Act.CLOSE: SocketState.CLOSED},
+    SocketState.LISTENING: {
+        SocketAct.LISTEN: SocketState.LISTENING,
+        SocketAct.CLOSE: SocketState.CLOSED,
+    },
     SocketState.CONNECTING: {
-        Act.ESTABLISH: SocketState.CONNECTED,
-        Act.FAIL: SocketState.OPENED,
-        Act.CLOSE: SocketState.CLOSED,
+        SocketAct.ESTABLISH: SocketState.CONNECTED,
+        SocketAct.FAIL: SocketState.OPENED,
+        SocketAct.CLOSE: SocketState.CLOSED,
     },
-    SocketState.CONNECTED: {Act.CLOSE: SocketState.CLOSED},
+    SocketState.CONNECTED: {SocketAct.CLOSE: SocketState.CLOSED},
     SocketState.CLOSED: {},
 }
 """Every transition of a socket; one that a listening socket takes is established at once."""
@@ -111,11 +114,11 @@ class VirtualSocket:
     def listen(self, backlog: int) -> Outcome:
         """See ``Socket.listen``."""
         self._net.settle()
-        if Act.LISTEN not in TRANSITIONS[self.state]:
+        if SocketAct.LISTEN not in TRANSITIONS[self.state]:
             return Outcome.INVALID
         if self.host.listener(self.bound) not in (None, self):
             return Outcome.IN_USE
-        self._step(Act.LISTEN)
+        self._step(SocketAct.LISTEN)
         self._backlog = min(backlog, MAX_BACKLOG)
         return Outcome.OK
 
@@ -188,7 +191,7 @@ class VirtualSocket:
         if self.state is SocketState.CLOSED:
             return
         connection = self._connected() or self._cancel_handshake()
-        self._step(Act.CLOSE)
+        self._step(SocketAct.CLOSE)
         for queued in self._queue:
             queued.abort()
         self._queue.clear()
@@ -243,13 +246,13 @@ class VirtualSocket:
         self.host.add(server)
         self._queue.append(server)
         server._options.inherit(self._options)
-        server._step(Act.ESTABLISH)
+        server._step(SocketAct.ESTABLISH)
         server._connection = server._make_connection(local, peer)
         return server._connection
 
     def abort(self) -> None:
         """Close a connection that nobody accepted."""
-        self._step(Act.CLOSE)
+        self._step(SocketAct.CLOSE)
         if self._connection is not None:
             self._connection.abort()
 
@@ -263,7 +266,7 @@ class VirtualSocket:
             connection.lose(Outcome.RESET)
             connection.other.lose(Outcome.RESET)
 
-    def _step(self, act: Act) -> None:
+    def _step(self, act: SocketAct) -> None:
         self.state = TRANSITIONS[self.state][act]
 
     def _connected(self) -> Connection | None:
@@ -277,7 +280,7 @@ class VirtualSocket:
         self.host.remove(self, fading=fading)
 
     def _start_to_connect(self, peer: Address) -> None:
-        self._step(Act.CONNECT)
+        self._step(SocketAct.CONNECT)
         to_self = is_loopback(peer.ip)
         own_ip = peer.ip if to_self else self.host.ip
         local = Address(own_ip if self.bound.ip == ANY_IP else self.bound.ip, self.bound.port)
@@ -291,7 +294,7 @@ class VirtualSocket:
             answer = self._connection.lost or Outcome.OK
         if answer is not Outcome.WOULD_BLOCK:
             self._handshake = None
-            self._step(Act.ESTABLISH if answer is Outcome.OK else Act.FAIL)
+            self._step(SocketAct.ESTABLISH if answer is Outcome.OK else SocketAct.FAIL)
         return answer
 
     def _cancel_handshake(self) -> Connection | None:

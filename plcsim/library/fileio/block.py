@@ -9,7 +9,7 @@ from plcsim.library.fileio.interface import (
     fiERR_EXIST,
     fiERR_FILE_NOT_FOUND,
 )
-from plcsim.library.fileio.volumes import RefusedError, Volumes
+from plcsim.library.fileio.volumes import FileRefusedError, Volumes
 from plcsim.library.runtime import ERR_OK
 
 
@@ -31,7 +31,7 @@ class FileIoBlock(AsynchronousBlock):
         volumes = self.context.library(Volumes)
         try:
             self.act(volumes)
-        except RefusedError as refused:
+        except FileRefusedError as refused:
             return refused.status
         except OSError as error:
             return volumes.status_of(error, self._missing, self._existing)

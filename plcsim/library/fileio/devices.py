@@ -20,7 +20,7 @@ from plcsim.library.fileio.interface import (
     fiERR_SYSTEM,
 )
 from plcsim.library.fileio.transfer import LAST_BYTE
-from plcsim.library.fileio.volumes import LinkedDevice, RefusedError, Volumes
+from plcsim.library.fileio.volumes import FileRefusedError, LinkedDevice, Volumes
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -42,16 +42,16 @@ class DevLink(interface.DevLink, FileIoBlock):
         name = volumes.text(self.pDevice, fiERR_FILE_DEVICE)
         parameter = volumes.text(self.pParam, fiERR_PARAMETER)
         if not name or not parameter.startswith(b"/"):
-            raise RefusedError(fiERR_PARAMETER)
+            raise FileRefusedError(fiERR_PARAMETER)
         if volumes.folder(name) is not None:
-            raise RefusedError(fiERR_DEVICE_ALREADY_EXIST)
+            raise FileRefusedError(fiERR_DEVICE_ALREADY_EXIST)
         if not parameter.upper().startswith(_FOLDER):
-            raise RefusedError(fiERR_NOT_SUPPORTED)
+            raise FileRefusedError(fiERR_NOT_SUPPORTED)
         folder = volumes.linked_folder(parameter[len(_FOLDER) :].strip())
         if folder is None or not folder.is_dir():
-            raise RefusedError(fiERR_SYSTEM)
+            raise FileRefusedError(fiERR_SYSTEM)
         if volumes.links.full:
-            raise RefusedError(fiERR_NO_MORE_ENTRIES)
+            raise FileRefusedError(fiERR_NO_MORE_ENTRIES)
         self.handle = volumes.links.add(LinkedDevice(name, folder))
 
 
@@ -61,7 +61,7 @@ class DevUnlink(interface.DevUnlink, FileIoBlock):
     def act(self, volumes: Volumes) -> None:
         """Take it away."""
         if volumes.links.remove(self.handle) is None:
-            raise RefusedError(fiERR_DEVICE_INVALID_HANDLE)
+            raise FileRefusedError(fiERR_DEVICE_INVALID_HANDLE)
 
 
 class DevMemInfo(interface.DevMemInfo, FileIoBlock):
@@ -85,9 +85,9 @@ class GetVolumeLabel(interface.GetVolumeLabel, FileIoBlock):
         volumes.path(self.pDevice, 0, is_optional=True)
         label = volumes.text(self.pDevice, fiERR_FILE_DEVICE)
         if not self.pLabel:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         if self.labelMax <= len(label):
-            raise RefusedError(fiERR_DATA_SIZE)
+            raise FileRefusedError(fiERR_DATA_SIZE)
         self.context.memory.write(self.pLabel, label + b"\0")
         self.labelLen = len(label)
 

@@ -25,7 +25,7 @@ from plcsim.library.fileio.interface import (
     fiOVERWRITE,
 )
 from plcsim.library.fileio.transfer import LAST_BYTE
-from plcsim.library.fileio.volumes import DirectoryEntry, OpenDirectory, RefusedError, is_there
+from plcsim.library.fileio.volumes import DirectoryEntry, FileRefusedError, OpenDirectory, is_there
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -79,7 +79,7 @@ class DirOpen(interface.DirOpen, DirectoryBlock):
         """Read its entries."""
         self.ident = 0
         if volumes.directories.full:
-            raise RefusedError(fiERR_DIR_INVALID_HANDLE)
+            raise FileRefusedError(fiERR_DIR_INVALID_HANDLE)
         path = volumes.path(self.pDevice, self.pName, is_optional=True)
         self.ident = volumes.directories.add(OpenDirectory(entries_of(path)))
 
@@ -90,7 +90,7 @@ class DirClose(interface.DirClose, DirectoryBlock):
     def act(self, volumes: Volumes) -> None:
         """Forget it."""
         if volumes.directories.remove(self.ident) is None:
-            raise RefusedError(fiERR_DIR_INVALID_HANDLE)
+            raise FileRefusedError(fiERR_DIR_INVALID_HANDLE)
 
 
 class DirReadEx(interface.DirReadEx, DirectoryBlock):
@@ -104,13 +104,13 @@ class DirReadEx(interface.DirReadEx, DirectoryBlock):
         """Store it."""
         directory = volumes.directories.find(self.ident)
         if directory is None:
-            raise RefusedError(fiERR_DIR_INVALID_HANDLE)
+            raise FileRefusedError(fiERR_DIR_INVALID_HANDLE)
         if not self.pData:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         if self.data_len < _EX_DATA.size:
-            raise RefusedError(fiERR_DATA_SIZE)
+            raise FileRefusedError(fiERR_DATA_SIZE)
         if directory.position >= len(directory.entries):
-            raise RefusedError(fiERR_NO_MORE_ENTRIES)
+            raise FileRefusedError(fiERR_NO_MORE_ENTRIES)
         entry = directory.entries[directory.position]
         kind = fiDIRECTORY if entry.is_directory else fiFILE
         data = _EX_DATA.pack(entry.name, entry.date, entry.size, kind)
@@ -128,16 +128,16 @@ class DirRead(interface.DirRead, DirectoryBlock):
     def act(self, volumes: Volumes) -> None:
         """Store it."""
         if not self.pData:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         if self.data_len < _DATA.size:
-            raise RefusedError(fiERR_DATA_SIZE)
+            raise FileRefusedError(fiERR_DATA_SIZE)
         if self.option not in (fiFILE, fiDIRECTORY, fiBOTH):
-            raise RefusedError(fiERR_INVALID_TYP)
+            raise FileRefusedError(fiERR_INVALID_TYP)
         entries = entries_of(volumes.path(self.pDevice, self.pPath, is_optional=True))
         if self.option != fiBOTH:
             entries = [e for e in entries if e.is_directory == (self.option == fiDIRECTORY)]
         if self.entry >= len(entries):
-            raise RefusedError(fiERR_NO_MORE_ENTRIES)
+            raise FileRefusedError(fiERR_NO_MORE_ENTRIES)
         entry = entries[self.entry]
         self.context.memory.write(self.pData, _DATA.pack(entry.name, entry.date, entry.size))
 
@@ -162,10 +162,10 @@ def _directory(volumes: Volumes, p_device: int, p_path: int) -> Path:
     """
     path = volumes.path(p_device, p_path)
     if path == volumes.path(p_device, 0, is_optional=True).resolve():
-        raise RefusedError(fiERR_ACCESS)
+        raise FileRefusedError(fiERR_ACCESS)
     if not path.is_dir():
         path.stat()
-        raise RefusedError(fiERR_INVALID_DIRECTORY)
+        raise FileRefusedError(fiERR_INVALID_DIRECTORY)
     return path
 
 
@@ -177,7 +177,7 @@ class DirRename(interface.DirRename, DirectoryBlock):
         path = _directory(volumes, self.pDevice, self.pName)
         target = volumes.path(self.pDevice, self.pNewName)
         if target != path and is_there(target):
-            raise RefusedError(fiERR_DIR_ALREADY_EXIST)
+            raise FileRefusedError(fiERR_DIR_ALREADY_EXIST)
         path.rename(target)
 
 
@@ -192,14 +192,14 @@ class DirCopy(interface.DirCopy, DirectoryBlock):
         path = volumes.path(self.pSrcDev, self.pSrcDir, is_optional=True)
         target = volumes.path(self.pDestDev, self.pDestDir, is_optional=True)
         if target.is_relative_to(path):
-            raise RefusedError(fiERR_INVALID_DIRECTORY)
+            raise FileRefusedError(fiERR_INVALID_DIRECTORY)
         if is_there(target) and not self.option & fiOVERWRITE:
-            raise RefusedError(fiERR_DIR_ALREADY_EXIST)
+            raise FileRefusedError(fiERR_DIR_ALREADY_EXIST)
         path.stat()
         try:
             shutil.copytree(path, target, symlinks=True, dirs_exist_ok=True)
         except shutil.Error as error:
-            raise RefusedError(fiERR_ACCESS) from error
+            raise FileRefusedError(fiERR_ACCESS) from error
 
 
 class DirDelete(interface.DirDelete, DirectoryBlock):

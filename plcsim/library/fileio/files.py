@@ -19,7 +19,7 @@ from plcsim.library.fileio.interface import (
     fiOVERWRITE,
 )
 from plcsim.library.fileio.transfer import LAST_BYTE
-from plcsim.library.fileio.volumes import RefusedError, is_there
+from plcsim.library.fileio.volumes import FileRefusedError, is_there
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -41,7 +41,7 @@ def _check_is_file(path: Path) -> os.stat_result:
     """
     info = path.stat()
     if not stat.S_ISREG(info.st_mode):
-        raise RefusedError(fiERR_ACCESS)
+        raise FileRefusedError(fiERR_ACCESS)
     return info
 
 
@@ -54,7 +54,7 @@ class FileRename(interface.FileRename, FileIoBlock):
         target = volumes.path(self.pDevice, self.pNewName)
         _check_is_file(path)
         if target != path and is_there(target):
-            raise RefusedError(fiERR_EXIST)
+            raise FileRefusedError(fiERR_EXIST)
         path.rename(target)
 
 
@@ -71,7 +71,7 @@ class FileCopy(interface.FileCopy, FileIoBlock):
         _check_is_file(path)
         if is_there(target):
             if not self.option & fiOVERWRITE:
-                raise RefusedError(fiERR_EXIST)
+                raise FileRefusedError(fiERR_EXIST)
             _check_is_file(target)
             if path.samefile(target):
                 return
@@ -87,7 +87,7 @@ class FileDelete(interface.FileDelete, FileIoBlock):
         path = volumes.path(self.pDevice, self.pName)
         info = _check_is_file(path)
         if not info.st_mode & stat.S_IWUSR:
-            raise RefusedError(fiERR_ACCESS)
+            raise FileRefusedError(fiERR_ACCESS)
         path.unlink()
 
 
@@ -98,7 +98,7 @@ class FileInfo(interface.FileInfo, FileIoBlock):
         """Store them."""
         info = volumes.path(self.pDevice, self.pName).stat()
         if not self.pInfo:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         dates = (info.st_atime, info.st_mtime, info.st_mtime)
         seconds = [min(max(0, int(date)), LAST_BYTE) for date in dates]
         size = min(info.st_size, LAST_BYTE)
@@ -112,7 +112,7 @@ class FileTruncate(interface.FileTruncate, FileIoBlock):
         """Cut it."""
         path = volumes.path(self.pDevice, self.pName)
         if self.newLength > _check_is_file(path).st_size:
-            raise RefusedError(interface.fiERR_SEEK)
+            raise FileRefusedError(interface.fiERR_SEEK)
         os.truncate(path, self.newLength)
         volumes.date(path)
 

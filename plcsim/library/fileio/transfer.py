@@ -21,7 +21,7 @@ from plcsim.library.fileio.interface import (
     fiTruncate,
     fiWRITE_ONLY,
 )
-from plcsim.library.fileio.volumes import OpenFile, RefusedError
+from plcsim.library.fileio.volumes import FileRefusedError, OpenFile
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,12 +39,12 @@ LAST_BYTE: Final = 0xFFFF_FFFF
 def _opened(volumes: Volumes, path: Path, mode: int, flags: int = 0) -> tuple[int, int]:
     """Open a file; return its ident and its bytes."""
     if volumes.files.full:
-        raise RefusedError(fiERR_NO_MORE_ENTRIES)
+        raise FileRefusedError(fiERR_NO_MORE_ENTRIES)
     fd = os.open(path, _FLAGS[mode] | flags | _SAFE, 0o666)
     info = os.fstat(fd)
     if not stat.S_ISREG(info.st_mode):
         os.close(fd)
-        raise RefusedError(fiERR_ACCESS)
+        raise FileRefusedError(fiERR_ACCESS)
     file = OpenFile(fd, reads=mode != fiWRITE_ONLY, writes=mode != fiREAD_ONLY)
     return volumes.files.add(file), min(info.st_size, LAST_BYTE)
 
@@ -73,7 +73,7 @@ class FileOpen(interface.FileOpen, FileIoBlock):
         """Open it."""
         self.ident = self.filelen = 0
         if self.mode not in _FLAGS:
-            raise RefusedError(fiERR_MODE)
+            raise FileRefusedError(fiERR_MODE)
         path = volumes.path(self.pDevice, self.pFile)
         self.ident, self.filelen = _opened(volumes, path, self.mode)
 
@@ -85,7 +85,7 @@ class FileClose(interface.FileClose, FileIoBlock):
         """Close it."""
         file = volumes.files.remove(self.ident)
         if file is None:
-            raise RefusedError(fiERR_FILE_NOT_OPENED)
+            raise FileRefusedError(fiERR_FILE_NOT_OPENED)
         os.close(file.fd)
 
 
@@ -101,14 +101,14 @@ class _Transfer(FileIoBlock):
         """Read at most ``size`` bytes; return how many were there."""
         file = volumes.files.find(self.ident)
         if file is None:
-            raise RefusedError(fiERR_FILE_NOT_OPENED)
+            raise FileRefusedError(fiERR_FILE_NOT_OPENED)
         if not address:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         if not file.reads:
-            raise RefusedError(fiERR_ACCESS)
+            raise FileRefusedError(fiERR_ACCESS)
         self.context.memory.check(address, size)
         if self.offset > os.fstat(file.fd).st_size:
-            raise RefusedError(fiERR_SEEK)
+            raise FileRefusedError(fiERR_SEEK)
         with self.context.memory.view(address, size) as target:
             return os.preadv(file.fd, [target], self.offset)
 
@@ -116,18 +116,18 @@ class _Transfer(FileIoBlock):
         """Write bytes; where ``ends`` is set, the file ends behind them."""
         file = volumes.files.find(self.ident)
         if file is None:
-            raise RefusedError(fiERR_FILE_NOT_OPENED)
+            raise FileRefusedError(fiERR_FILE_NOT_OPENED)
         if not address:
-            raise RefusedError(fiERR_DATA)
+            raise FileRefusedError(fiERR_DATA)
         if not file.writes:
-            raise RefusedError(fiERR_ACCESS)
+            raise FileRefusedError(fiERR_ACCESS)
         end = self.offset + size
         if end > LAST_BYTE:
-            raise RefusedError(fiERR_SEEK)
+            raise FileRefusedError(fiERR_SEEK)
         self.context.memory.check(address, size)
         with self.context.memory.view(address, size) as source:
             if os.pwrite(file.fd, source, self.offset) < size:
-                raise RefusedError(fiERR_SPACE)
+                raise FileRefusedError(fiERR_SPACE)
         if ends:
             os.ftruncate(file.fd, end)
         volumes.date(file.fd)

@@ -47,7 +47,7 @@ _STATUSES: Final = {
 }
 
 
-class RefusedError(Exception):
+class FileRefusedError(Exception):
     """A block cannot do what it is asked for.
 
     Attributes:
@@ -130,7 +130,7 @@ class Volumes:
         """
         text = self.context.memory.string(address, LONGEST_PATH + 1) if address else b""
         if not address or len(text) > LONGEST_PATH:
-            raise RefusedError(status)
+            raise FileRefusedError(status)
         return text
 
     def folder(self, device: bytes) -> Path | None:
@@ -161,7 +161,7 @@ class Volumes:
         """
         folder = self.folder(self.text(p_device, fiERR_FILE_DEVICE))
         if folder is None:
-            raise RefusedError(fiERR_FILE_DEVICE)
+            raise FileRefusedError(fiERR_FILE_DEVICE)
         if is_optional and not p_path:
             return folder
         return inside(folder, self.text(p_path, fiERR_INVALID_PATH))
@@ -193,7 +193,7 @@ def inside(folder: Path, path: bytes) -> Path:
     for part in os.fsdecode(path).replace("\\", "/").split("/"):
         if part == "..":
             if not parts:
-                raise RefusedError(fiERR_INVALID_PATH)
+                raise FileRefusedError(fiERR_INVALID_PATH)
             parts.pop()
         elif part not in ("", "."):
             parts.append(part)
@@ -203,9 +203,9 @@ def inside(folder: Path, path: bytes) -> Path:
     try:
         real = found.resolve()
     except RuntimeError:  # links that lead to one another
-        raise RefusedError(fiERR_INVALID_PATH) from None
+        raise FileRefusedError(fiERR_INVALID_PATH) from None
     if not real.is_relative_to(root):
-        raise RefusedError(fiERR_INVALID_PATH)
+        raise FileRefusedError(fiERR_INVALID_PATH)
     return real
 
 

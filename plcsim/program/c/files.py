@@ -8,7 +8,7 @@ import stat
 from typing import TYPE_CHECKING, Final
 
 from plcsim.library.fileio.settings import FileIoSettings
-from plcsim.library.fileio.volumes import MOST_OPEN, RefusedError, Volumes, inside
+from plcsim.library.fileio.volumes import MOST_OPEN, FileRefusedError, Volumes, inside
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -106,7 +106,7 @@ class DeviceFiles:
             raise OSError(errno.ENODEV, "device")
         try:
             return inside(folder, inner)
-        except RefusedError:
+        except FileRefusedError:
             raise OSError(errno.EACCES, "out of the device") from None
 
     def _folder(self, name: bytes) -> Path | None:

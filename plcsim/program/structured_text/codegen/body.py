@@ -129,8 +129,8 @@ class FunctionWriter:
         self.leaves: set[int] = set()
         self.accesses: dict[int, Accesses] = {}
         self.depth = 0
-        self.breaks: dict[int, Label] = {}
-        self.continues: dict[int, Label] = {}
+        self.breaks: dict[int, BranchLabel] = {}
+        self.continues: dict[int, BranchLabel] = {}
         self.this = function.kind in _OF_BLOCKS and bool(function.parameters)
         self.copies = Copies(self._local_for_copy, this=self.this)
         self.line = function.line
@@ -225,7 +225,7 @@ def _finals(function: ir.Function) -> frozenset[int]:
     return frozenset(found)
 
 
-class Label:
+class BranchLabel:
     """Where branches meet.
 
     Attributes:

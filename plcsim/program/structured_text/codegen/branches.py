@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.machine.opcodes import BLOCK, BR, BR_IF, ELSE, I32_EQZ, IF, RETURN
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.codegen.body import Label
+from plcsim.program.structured_text.codegen.body import BranchLabel
 from plcsim.program.structured_text.codegen.copies import join
 from plcsim.program.structured_text.codegen.expressions import emit
 
@@ -28,7 +28,7 @@ def branch(body: FunctionWriter, node: ir.Break | ir.Continue, opcode: bytes = B
 
 def block(body: FunctionWriter, node: ir.Block) -> None:
     """Append a block that Break can leave."""
-    label = body.breaks[node.label] = Label(body.open(BLOCK))
+    label = body.breaks[node.label] = BranchLabel(body.open(BLOCK))
     body.statements(body, node.body)
     label.arrive(body.copies.known)
     body.close()
@@ -69,7 +69,7 @@ def _two_ways(body: FunctionWriter, arm: ir.Arm, node: ir.If) -> None:
 
 def _chain(body: FunctionWriter, node: ir.If) -> None:
     """Append IF ... ELSIF ...: a block for each arm, which a false condition leaves."""
-    end = Label(body.open(BLOCK))
+    end = BranchLabel(body.open(BLOCK))
     for arm in node.arms:
         body.mark(arm.line)
         depth = body.open(BLOCK)
@@ -88,7 +88,7 @@ def _chain(body: FunctionWriter, node: ir.If) -> None:
     body.copies.known = end.known
 
 
-def leave(body: FunctionWriter, end: Label, node: ir.If | ir.Switch) -> None:
+def leave(body: FunctionWriter, end: BranchLabel, node: ir.If | ir.Switch) -> None:
     """Append a branch behind a statement, if some path leads here.
 
     Behind the last one of a function that is a return: a jump less, and in large state machines

@@ -25,7 +25,7 @@ from plcsim.machine.opcodes import (
 )
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.accesses import PARTS, loop_accesses
-from plcsim.program.structured_text.codegen.body import NO_OFFSET, Label
+from plcsim.program.structured_text.codegen.body import NO_OFFSET, BranchLabel
 from plcsim.program.structured_text.codegen.expressions import access, address, emit
 from plcsim.program.structured_text.codegen.operators import LOAD
 
@@ -70,7 +70,7 @@ def loop(body: FunctionWriter, node: ir.Loop) -> None:
     if body.options.copies and id(node) not in body.accesses:
         body.accesses = loop_accesses(node, body.effects, this=body.this)
     held = body.copies.hold(_preload(body, node))
-    exit_ = body.breaks[node.label] = Label(body.open(BLOCK))
+    exit_ = body.breaks[node.label] = BranchLabel(body.open(BLOCK))
     test = _exit_test(node)
     if test is None:
         _plain(body, node)
@@ -180,25 +180,25 @@ def _leave_if(body: FunctionWriter, node: ir.Loop, test: ir.Arm) -> None:
 
 def _pass(body: FunctionWriter, node: ir.Loop) -> None:
     """Append what follows the test; Continue leads behind it."""
-    bottom = body.continues[node.label] = Label(body.open(BLOCK))
+    bottom = body.continues[node.label] = BranchLabel(body.open(BLOCK))
     body.statements(body, node.body[1:])
     bottom.arrive(body.copies.known)
     body.close()
     body.copies.known = bottom.known
 
 
-def _open_head(body: FunctionWriter, node: ir.Loop) -> Label:
+def _open_head(body: FunctionWriter, node: ir.Loop) -> BranchLabel:
     """Begin the part that is repeated, where only what the whole loop keeps is known."""
     known = body.copies.known
     if known is not None:
         body.copies.known = {key: known[key] for key in known if body.copies.is_held(key)}
     body.mark(node.line)
-    head = Label(body.open(LOOP))
+    head = BranchLabel(body.open(LOOP))
     poll(body)
     return head
 
 
-def _repeat_unless(body: FunctionWriter, node: ir.Loop, test: ir.Arm, head: Label) -> None:
+def _repeat_unless(body: FunctionWriter, node: ir.Loop, test: ir.Arm, head: BranchLabel) -> None:
     """Append a test that leaves the loop at its end; it falls through to what follows."""
     if body.copies.known is None:
         return

@@ -20,7 +20,7 @@ from plcsim.machine.opcodes import (
     LOCAL_GET,
     LOCAL_SET,
 )
-from plcsim.program.structured_text.codegen.body import Label
+from plcsim.program.structured_text.codegen.body import BranchLabel
 from plcsim.program.structured_text.codegen.branches import leave
 from plcsim.program.structured_text.codegen.expressions import emit, i32_const
 
@@ -45,7 +45,7 @@ Range = tuple[int, int, int]
 
 def switch(body: FunctionWriter, node: ir.Switch) -> None:
     """Append a Switch: blocks for all cases, one inside the other, and a branch to one of them."""
-    end = Label(body.open(BLOCK))
+    end = BranchLabel(body.open(BLOCK))
     other = body.open(BLOCK)
     depths = [body.open(BLOCK) for _ in node.cases]
     ranges = sorted(

@@ -7,7 +7,7 @@ same to real processes.
 import pytest
 
 from crosnode.graph.uri import parse_uri
-from crosnode.testing import Attacker, Door, HostilePeers, Speaks
+from crosnode.testing import AttackedPort, Attacker, HostilePeers, Speaks
 from plcsim.network import Address, Outcome
 
 from .world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, words
@@ -26,11 +26,13 @@ def attack(seconds: int, seed: int) -> Attacker:
     subscriber = listener.register_subscriber("/x", STRING, queue_size=1000)
     caller = listener.register_service_caller("/set", SET_BOOL, persistent=True)
     world.until(lambda: publisher.subscribers and talker.is_registered)
-    doors = [Door(Address(MASTER_IP, 11311), Speaks.XMLRPC)]
+    doors = [AttackedPort(Address(MASTER_IP, 11311), Speaks.XMLRPC)]
     for node in (talker, listener):
         numbers = (node.topic_listener.port, node._service_listener.port)
-        doors += [Door(Address(node.host, port), Speaks.TCPROS) for port in numbers]
-        doors.append(Door(Address(node.host, parse_uri(node.uri, "http").port), Speaks.XMLRPC))
+        doors += [AttackedPort(Address(node.host, port), Speaks.TCPROS) for port in numbers]
+        doors.append(
+            AttackedPort(Address(node.host, parse_uri(node.uri, "http").port), Speaks.XMLRPC)
+        )
     attacker = Attacker(world.peer(), doors, HostilePeers(seed, "/x", "/set"))
     heard: list[str] = []
     answered = 0

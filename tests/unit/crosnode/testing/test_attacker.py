@@ -2,7 +2,7 @@
 
 import pytest
 
-from crosnode.testing import Attacker, Door, HostilePeers, Speaks
+from crosnode.testing import AttackedPort, Attacker, HostilePeers, Speaks
 from plcsim.network import Address, Outcome, Socket, VirtualNetwork
 
 MS = 1_000_000
@@ -23,7 +23,7 @@ class Port:
         self.data = b""
 
     def attacker(self, most_open: int, seed: int = 1) -> Attacker:
-        door = Door(Address(SERVER, 7), Speaks.TCPROS)
+        door = AttackedPort(Address(SERVER, 7), Speaks.TCPROS)
         return Attacker(self.net.host("192.168.0.99"), [door], HostilePeers(seed), most_open)
 
     def run(self, attacker: Attacker, ms: int) -> int:

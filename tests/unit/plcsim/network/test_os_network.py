@@ -14,7 +14,7 @@ import pytest
 
 from plcsim.host.descriptors import ROOM
 from plcsim.network import Address, OsNetwork, Outcome
-from plcsim.network.os_network import OsSocket
+from plcsim.network.os_network import OsSocket, SocketWatch
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,6 +31,9 @@ class Failing:
     def settimeout(self, _: float) -> None:
         pass
 
+    def fileno(self) -> int:
+        return -1
+
     def fail(self, *_: object) -> None:
         raise OSError(self.number, os.strerror(self.number))
 
@@ -38,7 +41,7 @@ class Failing:
 
 
 def failing(number: int, *, connected: bool = True) -> OsSocket:
-    return OsSocket(Failing(number), Address("127.0.0.1", 1) if connected else None)
+    return OsSocket(Failing(number), SocketWatch(), Address("127.0.0.1", 1) if connected else None)
 
 
 @pytest.fixture

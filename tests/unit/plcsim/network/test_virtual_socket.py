@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from plcsim.network import Address, Link, Option, Outcome, WireLimits
-from plcsim.network.virtual_socket import TRANSITIONS, Act, SocketState
+from plcsim.network.virtual_socket import TRANSITIONS, SocketAct, SocketState
 
 from .world import SERVER, World
 
@@ -12,7 +12,7 @@ from .world import SERVER, World
 def test_every_state_has_its_row_and_ends_closed() -> None:
     assert set(TRANSITIONS) == set(SocketState)
     for state, row in TRANSITIONS.items():
-        assert (row.get(Act.CLOSE) is SocketState.CLOSED) is (state is not SocketState.CLOSED)
+        assert (row.get(SocketAct.CLOSE) is SocketState.CLOSED) is (state is not SocketState.CLOSED)
 
 
 def test_the_backlog_grows_by_a_second_listen() -> None:

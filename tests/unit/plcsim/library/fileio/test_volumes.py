@@ -12,7 +12,7 @@ from plcsim.library.fileio import (
 )
 from plcsim.library.fileio.files import FileDelete
 from plcsim.library.fileio.transfer import FileOpen
-from plcsim.library.fileio.volumes import RefusedError, Volumes, inside
+from plcsim.library.fileio.volumes import FileRefusedError, Volumes, inside
 from plcsim.library.runtime import ERR_OK
 
 
@@ -93,7 +93,7 @@ def test_the_folder_itself_may_be_a_link(tmp_path, user):
 
 
 def test_a_refusal_has_a_status(user):
-    with pytest.raises(RefusedError) as raised:
+    with pytest.raises(FileRefusedError) as raised:
         inside(user, b"..")
     assert raised.value.status == fiERR_INVALID_PATH
     assert fiERR_DEVICE_DRIVER == 20797

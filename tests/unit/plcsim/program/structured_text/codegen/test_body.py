@@ -5,9 +5,9 @@ from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.accesses import Effects
 from plcsim.program.structured_text.codegen.body import (
     HOLE,
+    BranchLabel,
     FunctionWriter,
     GenerationContext,
-    Label,
 )
 from plcsim.program.structured_text.codegen.options import CodegenOptions
 from plcsim.program.structured_text.codegen.statements import statements
@@ -80,7 +80,7 @@ def test_copies_are_kept_of_fixed_places_if_at_all(body_of):
 
 
 def test_paths_meet_at_a_label():
-    label = Label(3)
+    label = BranchLabel(3)
     assert label.known is None
     label.arrive({1: 10, 2: 20})
     label.arrive(None)
