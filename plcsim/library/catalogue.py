@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.installed import Scopes
+from plcsim.library.motion.body import motion_body
 from plcsim.library.simulated import Rules, built_in_rules, table_body
 from plcsim.library.stub import Stub
 from plcsim.settings import is_settings
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
     from plcsim.library.executable import BodyLanguage, Executable
     from plcsim.library.library import Library
+    from plcsim.library.motion.body import MotionBody
+    from plcsim.library.simulated import TableBody
     from plcsim.settings import Table
     from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.index import NameSpace
@@ -102,9 +105,20 @@ class Catalogue:
         data_type = library.scope.find_type(name)
         body = None
         if isinstance(data_type, DataBlockType):
-            body = table_body(data_type, self._rules.of(name))
+            body = self._simulated(library, data_type)
         self.stubbed.setdefault(library.name, {})[name] = "" if body is None else body.text
         return body or Stub(_zero(library.scope.find_function(name)))
+
+    def _simulated(
+        self, library: Library, data_type: DataBlockType[Any]
+    ) -> MotionBody | TableBody | None:
+        """Return what stands for the body of a block; rules of a project count first."""
+        name = data_type.name
+        if name not in self._rules.own:
+            body = motion_body(data_type, library.scope.find_type)
+            if body is not None:
+                return body
+        return table_body(data_type, self._rules.of(name))
 
     def find_block(self, name: str) -> tuple[Library, Executable | None] | None:
         """Return the library that declares a FUNCTION_BLOCK, and its body; None for no such block.

@@ -34,10 +34,12 @@ class Rules:
     Attributes:
         any: of every block that has both members.
         blocks: of single blocks, by name.
+        own: names of blocks that a project has rules for.
     """
 
     any: Mapping[str, Value] = field(default_factory=dict)
     blocks: Mapping[str, Mapping[str, Value]] = field(default_factory=dict)
+    own: frozenset[str] = frozenset()
 
     def of(self, name: str) -> dict[str, Value]:
         """Return the rules for a block."""
@@ -46,7 +48,7 @@ class Rules:
     def extended(self, blocks: Mapping[str, Mapping[str, Value]]) -> Rules:
         """Return the rules with those of a project added."""
         merged = {name: {**self.blocks.get(name, {}), **rules} for name, rules in blocks.items()}
-        return Rules(self.any, {**self.blocks, **merged})
+        return Rules(self.any, {**self.blocks, **merged}, self.own | blocks.keys())
 
 
 @cache

@@ -9,6 +9,7 @@ from plcsim.library.astcp.settings import AsTcpSettings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import Library
+from plcsim.library.simulated import built_in_rules
 from plcsim.settings import Table
 
 
@@ -101,6 +102,20 @@ def test_what_has_no_body_is_idle_in_a_library_of_stubs(library):
     assert (stub.language, stub.bind(None)(4)) == ("stub", 0)
     assert {name: [*names] for name, names in found.stubbed.items()} == {"ramps": ["twice"]}
     assert Catalogue([library], []).find_function("twice")[1] is None
+
+
+def test_a_block_of_motion_moves_an_axis_unless_the_project_has_rules_for_it(tmp_path):
+    (tmp_path / "McAxis.fun").write_text(
+        "FUNCTION_BLOCK MC_Power\nVAR_INPUT\nAxis : UDINT;\nEnable : BOOL;\nEND_VAR\n"
+        "VAR_OUTPUT\nStatus : BOOL;\nEND_VAR\nEND_FUNCTION_BLOCK\n"
+    )
+    library = Library(tmp_path, "motion")
+    found = Catalogue([library], [], ["mcaxis"])
+    assert found.find_block("MC_Power")[1].language == "model"
+    assert found.stubbed == {"McAxis": {"MC_Power": "an axis with trapezoidal profile"}}
+    rules = built_in_rules().extended({"MC_Power": {"Status": "Enable"}})
+    assert Catalogue([library], [], ["mcaxis"], rules).find_block("MC_Power")[1].language == "table"
+    assert Catalogue([library], []).find_block("MC_Power")[1] is None
 
 
 def test_bodies_that_are_wrong_are_loaded_once_and_told_each_time(library):

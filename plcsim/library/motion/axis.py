@@ -1,0 +1,284 @@
+"""An axis: the state machine of PLCopen motion control, and where the axis is.
+
+Movements may interrupt one another; none is buffered, jerk is not limited.
+"""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Final
+
+from plcsim.library.motion.profile import Limits, Profile, to_position, to_velocity
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.core.context import Context
+    from plcsim.library.motion.profile import Segment
+
+MOST_AXES: Final = 1024
+"""Axes of one controller; what is beyond is no axis."""
+
+FARTHEST: Final = 1e12
+"""Positions and velocities that commands may ask for."""
+
+NO_AXIS: Final = 1
+NOT_ALLOWED: Final = 2
+NO_NUMBER: Final = 3
+"""Values of ErrorID, which are not the vendor's: there is no axis, the state of the axis does not
+allow the command, a parameter is no number or too large."""
+
+
+class AxisState(Enum):
+    """States of PLCopen motion control, part 1."""
+
+    DISABLED = auto()
+    STANDSTILL = auto()
+    HOMING = auto()
+    STOPPING = auto()
+    DISCRETE_MOTION = auto()
+    CONTINUOUS_MOTION = auto()
+    SYNCHRONIZED_MOTION = auto()
+    ERRORSTOP = auto()
+
+
+MOVABLE: Final = frozenset(
+    [
+        AxisState.STANDSTILL,
+        AxisState.HOMING,
+        AxisState.DISCRETE_MOTION,
+        AxisState.CONTINUOUS_MOTION,
+        AxisState.SYNCHRONIZED_MOTION,
+    ]
+)
+"""States in which an axis takes a movement."""
+
+
+class Status(Enum):
+    """What became of a command."""
+
+    BUSY = auto()
+    REACHED = auto()
+    DONE = auto()
+    ABORTED = auto()
+    REFUSED = auto()
+
+
+class Command:
+    """A command to an axis.
+
+    Attributes:
+        status: of it; REACHED where it has what it was for, and goes on.
+        error_id: why it was refused, 0 where it was not.
+    """
+
+    def __init__(self) -> None:
+        self.status = Status.BUSY
+        self.error_id = 0
+
+    @property
+    def is_in_control(self) -> bool:
+        """Whether it still moves the axis."""
+        return self.status in (Status.BUSY, Status.REACHED)
+
+    def finish(self) -> None:
+        """Let it be done."""
+        self.status = Status.DONE
+
+    def refuse(self, error_id: int) -> None:
+        """End it with an error."""
+        self.status, self.error_id = Status.REFUSED, error_id
+
+
+class Axis:
+    """An axis at rest at position 0, without power.
+
+    Attributes:
+        state: of PLCopen.
+        position: in units of the axis.
+        velocity: in units/s.
+        is_powered: whether its controller is on.
+        is_homed: whether its position was set once.
+    """
+
+    def __init__(self) -> None:
+        self.state = AxisState.DISABLED
+        self.position = 0.0
+        self.velocity = 0.0
+        self.is_powered = False
+        self.is_homed = False
+        self._now_ns = 0
+        self._profile = Profile(0, 0.0, 0.0)
+        self._command = Command()
+        self._command.finish()
+        self._master: Axis | None = None
+        self._is_held = False
+        self._ratio = 1.0
+        self._master_position = 0.0
+
+    def update(self, now_ns: int) -> None:
+        """Move on to a time; one that is past changes nothing."""
+        if now_ns < self._now_ns:
+            return
+        self._now_ns = now_ns
+        if self._master is not None:
+            self._follow(self._master, now_ns)
+            return
+        self.position, self.velocity = self._profile.at(now_ns)
+        if now_ns >= self._profile.end_ns and self._command.status is Status.BUSY:
+            self._arrive()
+
+    def _follow(self, master: Axis, now_ns: int) -> None:
+        master.update(now_ns)
+        self.position += self._ratio * (master.position - self._master_position)
+        self.velocity = self._ratio * master.velocity
+        self._master_position = master.position
+        self._command.status = Status.REACHED
+
+    def _arrive(self) -> None:
+        if self.state is AxisState.CONTINUOUS_MOTION:
+            self._command.status = Status.REACHED
+            return
+        self._command.finish()
+        if not (self.state is AxisState.STOPPING and self._is_held):
+            self.state = AxisState.STANDSTILL
+
+    # Commands
+
+    def power(self, *, on: bool) -> None:
+        """Turn the controller on or off; without power the axis stands."""
+        self.is_powered = on
+        if self.state is AxisState.ERRORSTOP:
+            return
+        if not on:
+            self._rest(AxisState.DISABLED)
+        elif self.state is AxisState.DISABLED:
+            self.state = AxisState.STANDSTILL
+
+    def fail(self) -> None:
+        """Go to ERRORSTOP, as for a fault of the drive; the axis stands."""
+        self._rest(AxisState.ERRORSTOP)
+
+    def reset(self) -> None:
+        """Leave ERRORSTOP."""
+        if self.state is AxisState.ERRORSTOP:
+            self.state = AxisState.STANDSTILL if self.is_powered else AxisState.DISABLED
+
+    def home(self, command: Command, position: float) -> None:
+        """Set the position where the axis stands."""
+        if self._takes(command, [position], frozenset([AxisState.STANDSTILL])):
+            self.position, self.is_homed = position, True
+            self._begin(command, AxisState.HOMING, ())
+
+    def move_to(self, command: Command, position: float, limits: Limits) -> None:
+        """Go to a position, and stay there."""
+        if self._takes(command, [position], MOVABLE):
+            segments = to_position(position - self.position, self.velocity, limits)
+            self._begin(command, AxisState.DISCRETE_MOTION, segments, position)
+
+    def move_by(self, command: Command, distance: float, limits: Limits) -> None:
+        """Go on over a distance: from the target of the movement that is under way."""
+        start = self._profile.target if self.state is AxisState.DISCRETE_MOTION else None
+        self.move_to(command, (self.position if start is None else start) + distance, limits)
+
+    def move_at(self, command: Command, velocity: float, limits: Limits) -> None:
+        """Take a velocity, and keep it."""
+        if self._takes(command, [velocity], MOVABLE):
+            segments = to_velocity(self.velocity, velocity, limits)
+            self._begin(command, AxisState.CONTINUOUS_MOTION, segments)
+
+    def halt(self, command: Command, limits: Limits) -> None:
+        """Come to rest; another movement may interrupt that."""
+        if self._takes(command, (), MOVABLE):
+            segments = to_velocity(self.velocity, 0.0, limits)
+            self._begin(command, AxisState.DISCRETE_MOTION, segments)
+
+    def stop(self, command: Command, limits: Limits) -> None:
+        """Come to rest; no movement is taken before `end_stop`."""
+        if self._takes(command, (), MOVABLE | {AxisState.STOPPING}):
+            segments = to_velocity(self.velocity, 0.0, limits)
+            self._begin(command, AxisState.STOPPING, segments)
+            self._is_held = True
+
+    def end_stop(self) -> None:
+        """Take movements again, as soon as the axis is at rest."""
+        self._is_held = False
+        if self.state is AxisState.STOPPING and not self._command.is_in_control:
+            self.state = AxisState.STANDSTILL
+
+    def couple(self, command: Command, master: Axis, ratio: float) -> None:
+        """Follow another axis from here on, with its velocity times ``ratio``."""
+        if not self._takes(command, [ratio], MOVABLE):
+            return
+        if master is self or self in master.masters():
+            command.refuse(NOT_ALLOWED)
+            return
+        master.update(self._now_ns)
+        self._begin(command, AxisState.SYNCHRONIZED_MOTION, ())
+        self._master, self._ratio, self._master_position = master, ratio, master.position
+
+    def uncouple(self, command: Command) -> None:
+        """Go on with the velocity that the coupled axis has."""
+        if self._master is None:
+            command.refuse(NOT_ALLOWED)
+            return
+        self._begin(Command(), AxisState.CONTINUOUS_MOTION, ())
+        command.finish()
+
+    def masters(self) -> Sequence[Axis]:
+        """Return the axes that this one follows, and those that they follow."""
+        found = []
+        axis = self._master
+        while axis is not None:
+            found.append(axis)
+            axis = axis._master
+        return found
+
+    def _takes(
+        self, command: Command, numbers: Sequence[float], states: frozenset[AxisState]
+    ) -> bool:
+        if self.state not in states:
+            command.refuse(NOT_ALLOWED)
+        elif not all(abs(number) <= FARTHEST for number in numbers):
+            command.refuse(NO_NUMBER)
+        return command.status is Status.BUSY
+
+    def _begin(
+        self,
+        command: Command,
+        state: AxisState,
+        segments: Sequence[Segment],
+        target: float | None = None,
+    ) -> None:
+        if self._command.is_in_control and self._command is not command:
+            self._command.status = Status.ABORTED
+        self._command, self._master, self.state = command, None, state
+        self._profile = Profile(self._now_ns, self.position, self.velocity, segments, target)
+
+    def _rest(self, state: AxisState) -> None:
+        self.velocity = 0.0
+        self._begin(Command(), state, ())
+        self._command.finish()
+
+
+class Axes:
+    """The axes of a controller, by the addresses that programs name them with.
+
+    Args:
+        _context: of the controller.
+    """
+
+    def __init__(self, _context: Context) -> None:
+        self._axes: dict[int, Axis] = {}
+
+    def at(self, address: int) -> Axis | None:
+        """Return the axis that an address stands for, None for address 0."""
+        axis = self._axes.get(address)
+        if axis is None and address and len(self._axes) < MOST_AXES:
+            axis = self._axes[address] = Axis()
+        return axis
+
+
+def axes_of(context: Context) -> Axes:
+    """Return the axes of a controller."""
+    return context.library(Axes)

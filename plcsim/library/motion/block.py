@@ -1,0 +1,179 @@
+"""What the blocks share: they find their axis, and report as PLCopen has it.
+
+A block with Execute takes its command at the rising edge, is Busy (and Active) until that is done,
+aborted or refused, and shows the end as long as Execute is TRUE, for one call at least.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+from plcsim.library.motion.axis import NO_AXIS, Command, Status, axes_of
+from plcsim.library.motion.members import Members, Variables
+from plcsim.library.motion.profile import Limits
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.core.context import Context
+    from plcsim.library.motion.axis import Axes, Axis
+    from st_types.types.derived import StructType
+    from st_types.types.elementary import DataType
+
+    FindType = Callable[[str], DataType[Any] | None]
+
+DEFAULT: Final = Limits(1_000.0, 5_000.0, 5_000.0)
+"""Limits of an axis, for parameters that are 0."""
+
+
+class MotionBlock:
+    """Runs the blocks of one type on one controller.
+
+    Args:
+        data_type: their data block.
+        context: of the controller.
+        _find_type: finds the types of the library.
+
+    Attributes:
+        data_type: as above.
+        context: as above.
+    """
+
+    axis_names: ClassVar[tuple[str, ...]] = ("Axis",)
+
+    def __init__(self, data_type: StructType[Any], context: Context, _find_type: FindType) -> None:
+        self.data_type = data_type
+        self.context = context
+        self._members = Members(data_type)
+
+    def run(self, address: int) -> None:
+        """Run the block whose data block lies at an address."""
+        variables = Variables(self.context.memory, self._members, address)
+        axis = self.axes.at(variables.address(*self.axis_names))
+        if axis is not None:
+            axis.update(self.context.release_ns)
+        self.call(address, variables, axis)
+
+    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+        """Run one call; the axis is as it is now, None where the block names none."""
+        raise NotImplementedError(type(self).__name__)
+
+    @property
+    def axes(self) -> Axes:
+        """The axes of the controller."""
+        return axes_of(self.context)
+
+
+class _Calls:
+    """Commands and last inputs of blocks, by their addresses; a restart forgets them."""
+
+    def __init__(self, _context: Context) -> None:
+        self.commands: dict[int, Command] = {}
+        self.inputs: dict[tuple[int, str], int] = {}
+
+
+def changes(context: Context, address: int, name: str, value: int) -> bool:
+    """Whether an input of a block has another value than in the call before; 0 before the first."""
+    inputs = context.library(_Calls).inputs
+    before = inputs.get((address, name), 0)
+    inputs[address, name] = value
+    return before != value
+
+
+def rises(context: Context, address: int, variables: Variables, name: str) -> bool:
+    """Whether an input of a block is TRUE and was not in the call before."""
+    value = variables.is_true(name)
+    return changes(context, address, name, value) and value
+
+
+def command_of(context: Context, address: int) -> Command | None:
+    """Return the last command of a block, None before the first and after its end was shown."""
+    return context.library(_Calls).commands.get(address)
+
+
+def give_command(context: Context, address: int) -> Command:
+    """Return a new command of a block."""
+    made = context.library(_Calls).commands[address] = Command()
+    return made
+
+
+def forget_command(context: Context, address: int) -> None:
+    """Let a block have no command."""
+    context.library(_Calls).commands.pop(address, None)
+
+
+class ExecuteBlock(MotionBlock):
+    """A block with Execute.
+
+    Attributes:
+        reached: the output for REACHED, or DONE.
+    """
+
+    reached: ClassVar[str] = "Done"
+
+    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+        """Take a command, or tell of the last."""
+        execute, context = variables.is_true("Execute"), self.context
+        is_edge = changes(context, address, "Execute", execute)
+        if is_edge and execute:
+            command = give_command(context, address)
+            if axis is None:
+                command.refuse(NO_AXIS)
+            else:
+                self.begin(variables, axis, command)
+            self._show(variables, command if command.status is Status.REFUSED else Command())
+            return
+        if is_edge and axis is not None:
+            self.end(axis)
+        self._show(variables, command_of(context, address))
+        found = command_of(context, address)
+        if found is not None and not execute and not found.is_in_control:
+            forget_command(context, address)
+
+    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+        """Give the command to the axis."""
+        raise NotImplementedError(type(self).__name__)
+
+    def end(self, axis: Axis) -> None:
+        """Do what the end of Execute means; for most, nothing."""
+
+    def _show(self, variables: Variables, command: Command | None) -> None:
+        status = None if command is None else command.status
+        is_busy = command is not None and command.is_in_control
+        variables.set(**{self.reached: status in (Status.REACHED, Status.DONE)})
+        variables.set(Busy=is_busy, Active=is_busy, CommandAborted=status is Status.ABORTED)
+        error_id = 0 if command is None else command.error_id
+        variables.set(Error=error_id != 0, ErrorID=error_id)
+
+
+class EnableBlock(MotionBlock):
+    """A block with Enable that reads or switches as long as that is TRUE."""
+
+    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+        """Read, or show nothing."""
+        enable = variables.is_true("Enable")
+        is_wrong = enable and axis is None
+        variables.set(Error=is_wrong, ErrorID=NO_AXIS if is_wrong else 0)
+        is_valid = enable and axis is not None
+        variables.set(Valid=is_valid, Busy=is_valid, Enabled=is_valid)
+        if axis is not None:
+            self.read(address, variables, axis, enable=enable)
+
+    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+        """Show what the axis has."""
+        raise NotImplementedError(type(self).__name__)
+
+
+def limits_of(variables: Variables, prefix: str = "") -> Limits:
+    """Return the limits in a block's inputs, or in a part of its parameters."""
+    given = (variables.number(f"{prefix}{name}") for name in ("Velocity", *_RATES))
+    return Limits(*(_positive(*each) for each in zip(given, DEFAULT, strict=True)))
+
+
+_RATES: Final = ("Acceleration", "Deceleration")
+
+
+def _positive(value: float, default: float) -> float:
+    usable = math.isfinite(value) and value != 0
+    return min(max(abs(value), 1e-6), 1e9) if usable else default
