@@ -1,4 +1,4 @@
-"""Data blocks as ACP10_MC, McAxis and MpAxis declare them, and a controller's context to run them."""
+"""Data blocks as ACP10_MC, McAxis and MpAxis declare them, and a context to run them."""
 
 import pytest
 

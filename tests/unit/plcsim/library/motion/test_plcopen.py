@@ -1,4 +1,4 @@
-"""The PLCopen blocks, by the states and outputs that part 1 of PLCopen motion control gives them."""
+"""The PLCopen blocks, by the states and outputs of part 1 of PLCopen motion control."""
 
 import pytest
 
