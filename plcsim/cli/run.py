@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 HINT = "Ctrl-C stops it; values in another terminal: plcsim watch {}"
 
 
+KEEP_GOING = "\nplcsim run --keep-going leaves out the programs that cannot run, and runs the rest"
+
+
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command."""
     parser = subparsers.add_parser(
@@ -145,7 +148,8 @@ def run(options: argparse.Namespace) -> int:
         with _table_on(terminal, _table(project, supervisor, options)):
             result = supervisor.wait(partial(_look, logbook))
         shown = frozenset() if logbook is None else logbook.shown
-        code = _finish(result, options, shown)  # a late Ctrl-C shall not cost the report
+        hint = KEEP_GOING if len(project.programs) > 1 and not options.keep_going else ""
+        code = _finish(result, options, shown, hint)  # a late Ctrl-C shall not cost the report
         code = code or _judge_services(supervisor.services.never_served)
         if options.stay and code == ExitCode.SERVICE:
             _stay(supervisor, options)
@@ -238,11 +242,18 @@ def _stay(supervisor: Supervisor, options: argparse.Namespace) -> None:
 
 
 def _finish(
-    result: dict[str, Any], options: argparse.Namespace, shown: Collection[tuple[int, str, str]]
+    result: dict[str, Any],
+    options: argparse.Namespace,
+    shown: Collection[tuple[int, str, str]],
+    hint: str,
 ) -> int:
-    """Write the report, print the summary, and return the exit code."""
+    """Write the report, print the summary, and return the exit code.
+
+    Raises:
+        ConfigurationError: the project is wrong; it is told what is, and the hint.
+    """
     if "error" in result:
-        raise ConfigurationError(result["error"])
+        raise ConfigurationError(result["error"] + hint)
     in_service = result["state"] == "SERVICE"
     unwritten = _write_report(result, options.report)
     if not options.quiet or in_service:

@@ -23,7 +23,7 @@ from plcsim.project.automation_studio.logical_view import project_file as automa
 from plcsim.project.automation_studio.reader import read_automation_studio
 from plcsim.project.automation_studio.task_classes import task_classes, tasks_to_run, tick_ns
 from plcsim.project.extension import extensions
-from plcsim.project.project_file import AUTOMATION_STUDIO, find_project
+from plcsim.project.project_file import FILE_NAME, find_project
 from plcsim.project.tables import (
     AutomationStudioTable,
     CTable,
@@ -133,7 +133,7 @@ def read_project(path: Path, given: Mapping[str, Mapping[str, Any]] = _NOTHING) 
         ConfigurationError: something is missing or wrong; all of it is told, with file and field.
     """
     file = find_project(path)
-    values = {} if file.suffix.lower() == AUTOMATION_STUDIO else _toml(file)
+    values = _toml(file) if file.name == FILE_NAME else {}
     for name, keys in given.items():
         values[name] = {**values.get(name, {}), **keys}
     top = Table(file, "", values)

@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.project.automation_studio.logical_view import logical_folder
 from plcsim.project.automation_studio.logical_view import project_file as automation_studio_file
 
 if TYPE_CHECKING:
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
 FILE_NAME: Final = "plc.toml"
 
 AUTOMATION_STUDIO: Final = ".apj"
+
+DEEPEST: Final = 3
+"""Folders one in another that are looked through for an Automation Studio project."""
 
 MOST_HINTS: Final = 5
 """Projects that are named where one was not found."""
@@ -33,12 +37,30 @@ def project_file(folder: Path) -> Path | None:
 def find_project(path: Path) -> Path:
     """Return the file of a project that a person named by its folder or by that file.
 
+    A checkout or an unpacked archive may hold the project's folder in another one, or two: where
+    there is one Automation Studio project below the folder, it is that one.
+
     Raises:
-        ConfigurationError: there is none; projects nearby are named.
+        ConfigurationError: there is none, or there are several; projects nearby are named.
     """
     if path.name == FILE_NAME or path.suffix.lower() == AUTOMATION_STUDIO:
         return _readable(path, path)
-    return _readable(project_file(path) or path / FILE_NAME, path)
+    found = project_file(path)
+    if found is None:
+        below = _below(path)
+        found = automation_studio_file(below[0]) if len(below) == 1 else None
+    return _readable(found or path / FILE_NAME, path)
+
+
+def _below(path: Path) -> list[Path]:
+    """Return the folders of Automation Studio projects below a folder, those of samples too."""
+    if not os.path.isdir(path):  # noqa: PTH112  # no error for what can be no path
+        return []
+    files = itertools.chain.from_iterable(
+        path.glob(f"{'*/' * depth}*{AUTOMATION_STUDIO}") for depth in range(1, DEEPEST + 1)
+    )
+    found = dict.fromkeys(file.parent for file in itertools.islice(files, MOST_HINTS))
+    return [folder for folder in found if logical_folder(folder) is not None]
 
 
 def _readable(file: Path, named: Path) -> Path:
@@ -57,6 +79,7 @@ def _nearby(path: Path) -> str:
         if project_file(parent) is not None:
             return f"; did you mean {parent}?"
     folder = path if path.is_dir() else path.parent
-    files = itertools.chain(folder.glob(f"*/{FILE_NAME}"), folder.glob("*/*.apj"))
-    found = sorted(dict.fromkeys(str(f.parent) for f in itertools.islice(files, MOST_HINTS)))
+    files = itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
+    folders = [*(file.parent for file in files), *_below(folder)]
+    found = sorted(dict.fromkeys(map(str, folders)))
     return f"; there are projects in {', '.join(found)}" if found else "; a project has one"

@@ -130,13 +130,20 @@ class Configurations:
     def preferred(self) -> str | None:
         """Return the configuration that runs where nobody names one, None if there is none.
 
-        That is the active one, else the first that is made for simulation, else the first.
+        That is the active one, else the first that is made for simulation, else the first; of
+        these, one that runs something.
         """
         active = self.active()
-        if active is not None or not self.folders:
-            return active
-        simulated = (name for name in self.folders if self._is_simulation(name))
-        return next(simulated, next(iter(self.folders)))
+        order = [] if active is None else [active]
+        order += [name for name in self.folders if self._is_simulation(name)]
+        order += self.folders
+        return next((name for name in order if self._has_tasks(name)), next(iter(order), None))
+
+    def _has_tasks(self, name: str) -> bool:
+        known = len(self.findings)
+        file = self._software_file(self._cpu(self._cpu_folder(self.folders[name]))[1])
+        del self.findings[known:]  # they are told when the configuration is read
+        return file is not None and bool(read_software(file)[0].tasks)
 
     def _is_simulation(self, name: str) -> bool:
         file = self._hardware_file(self.folders[name])
@@ -152,7 +159,7 @@ class Configurations:
         self.findings += findings
         cpu = self._cpu_folder(folder)
         build, files = self._cpu(cpu)
-        software_file = next((file for file in files if file.suffix.lower() == ".sw"), cpu)
+        software_file = self._software_file(files) or cpu
         software = self._software(software_file)
         return Configuration(name, folder, hardware, software, tuple(files), build, software_file)
 
@@ -165,6 +172,9 @@ class Configurations:
                 if element.text.strip().lower().endswith(".hw"):
                     return self._found(listed, folder, element)
         return found
+
+    def _software_file(self, files: list[Path]) -> Path | None:
+        return next((file for file in files if file.suffix.lower() == ".sw"), None)
 
     def _software(self, file: Path) -> Software:
         if file.suffix.lower() != ".sw":

@@ -62,12 +62,11 @@ def read_hardware(file: Path) -> tuple[Hardware, list[Finding]]:
     except DocumentError as err:
         return Hardware(), [Finding(file, err.line, str(err))]
     modules = [each for each in root.children if each.tag == "Module"]
-    cpu = next((module for module in modules if _is_cpu(module)), None)
+    likely = [*filter(_is_cpu, modules), *filter(_is_named_as_cpu, modules), *modules]
+    cpu = next(iter(likely), None)
     types = {module.get("Name"): module.get("Type") for module in modules}
     if cpu is None:
-        return Hardware(modules=types), [
-            Finding(file, root.line, "no module has a ConfigurationID: which one is the CPU?")
-        ]
+        return Hardware(), [Finding(file, root.line, "there is no module, and so no CPU")]
     values = _Parameters(file, cpu)
     hardware = Hardware(
         cpu.get("Type"),
@@ -84,6 +83,11 @@ def _is_cpu(module: XmlElement) -> bool:
     """Whether a module is the CPU; old versions name no configuration, but have task classes."""
     ids = {each.get("ID") for each in module.children if each.tag == "Parameter"}
     return bool(ids & {"ConfigurationID", "Cyclic1Duration", "UserRamSize"})
+
+
+def _is_named_as_cpu(module: Element) -> bool:
+    """Whether a module has the type of a CPU: X20CP..., PP..., 5APC..., PC_any."""
+    return any(each in module.get("Type").upper() for each in ("CP", "PC", "PP"))
 
 
 class _Parameters:

@@ -100,9 +100,16 @@ class LogicalView(NamedTuple):
 
 
 def project_file(folder: Path) -> Path | None:
-    """Return the project file (``*.apj``) in a folder, None if there is none."""
-    names = sorted(names_in(folder).values())
-    return next((folder / name for name in names if _is_project(name)), None)
+    """Return the project file (``*.apj``) in a folder, None if there is none.
+
+    Some repositories hold the logical view only: then it is the folder ``Logical``.
+    """
+    names = names_in(folder)
+    found = next((name for name in sorted(names.values()) if _is_project(name)), None)
+    if found is not None:
+        return folder / found
+    logical = folder / names.get("logical", "Logical")
+    return logical if is_package(logical) else None
 
 
 def _is_project(name: str) -> bool:

@@ -5,11 +5,13 @@ Everything that is wrong is found in one go, and what can be read is read.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.suggestion import did_you_mean
+from plcsim.library.library import CBuild
 from plcsim.project.automation_studio.configuration import (
     IO_MAP,
     PERMANENT,
@@ -19,6 +21,7 @@ from plcsim.project.automation_studio.configuration import (
 )
 from plcsim.project.automation_studio.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
+from plcsim.project.automation_studio.hardware import Hardware
 from plcsim.project.automation_studio.logical_view import (
     LogicalView,
     Package,
@@ -36,13 +39,19 @@ from plcsim.project.automation_studio.mapping import (
     read_permanent,
 )
 from plcsim.project.automation_studio.names import FileNames
+from plcsim.project.automation_studio.software import Software, TaskLine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
     from typing import TypeVar
 
     T = TypeVar("T")
+
+
+ALL_PROGRAMS_CLASS: Final = 4
+"""Task class of all programs of a project without a configuration; Cyclic#4 is where a new task
+stands."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +117,8 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
             first.
 
     Raises:
-        ConfigurationError: there is no project, no logical view, or no such configuration.
+        ConfigurationError: there is no project, no logical view, or no such configuration. A
+            project without any runs all its programs.
     """
     file = project_file(folder)
     if file is None:
@@ -121,14 +131,14 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
     has_preprocessor = _has_preprocessor(file, findings)
     view = read_logical_view(logical, names)
     configurations = Configurations(names)
-    chosen = configurations.read(_chosen(folder, configurations, configuration))
+    chosen = _configuration(folder, configurations, configuration, view.root)
     findings += (*view.findings, *configurations.findings)
     tasks = _tasks(chosen, view.root, findings)
-    mapp_variables, found = read_mapp_variables(chosen.folder)
+    mapp_variables, found = read_mapp_variables(chosen.folder) if chosen.name else ([], [])
     findings += found
     return AutomationStudioProject(
         folder,
-        file.stem,
+        folder.resolve().name if file.is_dir() else file.stem,
         view,
         tuple(configurations.folders),
         chosen,
@@ -156,6 +166,8 @@ def _all(
 
 
 def _has_preprocessor(file: Path, findings: list[Finding]) -> bool:
+    if file.is_dir():
+        return False
     try:
         root = read_document(file)
     except DocumentError as err:
@@ -164,15 +176,35 @@ def _has_preprocessor(file: Path, findings: list[Finding]) -> bool:
     return any(element.is_true("Preprocessor") for element in root.all("IEC"))
 
 
+def _configuration(
+    folder: Path, configurations: Configurations, name: str, root: Package
+) -> Configuration:
+    """Return the configuration to read; one with all programs where the project has none."""
+    if name or configurations.folders:
+        return configurations.read(_chosen(folder, configurations, name))
+    message = f"there is no configuration: all programs run in Cyclic#{ALL_PROGRAMS_CLASS}"
+    configurations.findings[:] = [Finding(folder, 0, message, "Physical")]
+    tasks = tuple(
+        TaskLine(name, path, ALL_PROGRAMS_CLASS, 0) for name, path in _unique(_programs(root))
+    )
+    return Configuration("", folder, Hardware(), Software(tasks), (), CBuild(), folder)
+
+
+def _unique(programs: Iterable[tuple[str, ...]]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield the names of tasks and their programs; a name that is taken gets a number."""
+    taken: set[str] = set()
+    for path in programs:
+        names = itertools.chain([path[-1]], (f"{path[-1]}{n}" for n in itertools.count(1)))
+        name = next(each for each in names if each.upper() not in taken)
+        taken.add(name.upper())
+        yield name, path
+
+
 def _chosen(folder: Path, configurations: Configurations, name: str) -> str:
     """Return the name of the configuration to read, in the case it has there."""
     known = configurations.folders
-    preferred = configurations.preferred()
-    if preferred is None:
-        problems = "".join(f"\n{finding}" for finding in configurations.findings)
-        raise ConfigurationError(f"{folder}: the project has no configuration{problems}")
     if not name:
-        return preferred
+        return configurations.preferred() or ""
     for each in known:
         if each.lower() == name.lower():
             return each

@@ -246,6 +246,17 @@ def test_near_projects_are_named_where_one_is_missing(project, monkeypatch):
         read_project(Path())
 
 
+def test_the_one_automation_studio_project_below_a_folder_is_meant(project):
+    package = '<P><Object Type="Program">A</Object></P>'
+    files = {"x.apj": "<P/>", "Logical/Package.pkg": package, "Logical/A/IEC.prg": "<P/>"}
+    folder = project({f"zip/inner/{name}": text for name, text in files.items()})
+    assert read_project(folder).automation_studio.folder == folder / "zip" / "inner"
+    project({f"zip/second/{name}": text for name, text in files.items()})
+    both = "projects in .*zip/inner, .*zip/second"
+    with pytest.raises(ConfigurationError, match=both):
+        read_project(folder)
+
+
 @pytest.mark.parametrize("path", ["a\0b", "x" * 300])
 def test_what_can_be_no_path_is_an_error(path):
     with pytest.raises(ConfigurationError, match="cannot be read"):

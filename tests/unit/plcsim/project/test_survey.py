@@ -47,7 +47,7 @@ def test_a_task_that_cannot_run_and_why(surveyed):
     found = surveyed(configuration="Simulation")
     panel = found.rows[-1]
     (reason,) = panel.reasons
-    assert reason.endswith("Logical/Panel: is written in Ladder Diagram, which plcsim does not run")
+    assert reason.endswith("Panel/Main.ld: is written in Ladder Diagram, which plcsim does not run")
     assert panel.languages == ("Ladder",)
     assert not found.is_right
 

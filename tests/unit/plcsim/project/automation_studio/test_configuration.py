@@ -54,7 +54,7 @@ def test_hardware_of_another_configuration_and_no_list_of_the_cpu(write):
 
 
 def test_the_active_one_is_preferred_then_one_for_simulation_then_the_first(write):
-    folder = write(FILES)
+    folder = write({**FILES, "Physical/Sim/PC/Cpu.sw": SOFTWARE})
     assert configurations(folder).preferred() == "real"
     write({"Physical/Sim/Hardware.hw": HARDWARE.format("PC_any")})
     assert configurations(folder).preferred() == "Sim"
@@ -64,6 +64,16 @@ def test_the_active_one_is_preferred_then_one_for_simulation_then_the_first(writ
     write({"LastUser.set": text.format("gone")})
     assert configurations(folder).preferred() == "Sim"
     write({"LastUser.set": "<P"})
+    assert configurations(folder).preferred() == "Sim"
+
+
+def test_one_that_runs_something_is_preferred_to_the_active_one(write):
+    folder = write(FILES)
+    write({"LastUser.set": '<P><ConfigurationManager ActiveConfigurationName="Sim"/></P>'})
+    found = configurations(folder)
+    assert (found.active(), found.preferred()) == ("Sim", "real")
+    assert found.findings == []
+    write({"Physical/Real/CP/Cpu.sw": "<Sw/>"})
     assert configurations(folder).preferred() == "Sim"
 
 

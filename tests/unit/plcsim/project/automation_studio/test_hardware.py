@@ -54,9 +54,10 @@ def test_what_is_wrong_is_found_and_the_rest_is_read(write):
     ]
 
 
-def test_a_file_without_a_cpu(write):
-    found, (finding,) = hardware(write, {"Supervision": "on"})
-    assert found.cpu_type == ""
-    assert "which one is the CPU?" in finding.message
+def test_a_file_that_does_not_say_which_module_is_the_cpu(write):
+    found, findings = hardware(write, {"Supervision": "on"})
+    assert (found.cpu_type, found.times(1).cycle_ns, findings) == ("X20CP1586", None, [])
+    _, (finding,) = read_hardware(write({"x.hw": "<Hardware/>"}) / "x.hw")
+    assert finding.message == "there is no module, and so no CPU"
     _, (finding,) = read_hardware(write({"x.hw": "<Hard"}) / "x.hw")
     assert finding.message.startswith("it is no XML")

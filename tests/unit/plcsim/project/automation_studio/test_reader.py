@@ -48,9 +48,32 @@ def test_what_is_no_project(write):
     write({"x.APJ": "<Project/>"})
     with pytest.raises(ConfigurationError, match="there is no folder Logical"):
         read_automation_studio(folder)
-    write({"Logical/Package.pkg": "<Package/>"})
-    with pytest.raises(ConfigurationError, match=r"no configuration\n.*no folder Physical"):
-        read_automation_studio(folder)
+
+
+def test_without_a_configuration_all_programs_run(write):
+    program = '<Object Type="Program">{}</Object>'.format
+    package = '<Object Type="Package">Inner</Object>'
+    folder = write(
+        {
+            "LOGICAL/Package.pkg": f"<P>{program('Main')}{package}{program('Other')}</P>",
+            "LOGICAL/Inner/Package.pkg": f"<P>{program('Main')}</P>",
+            "LOGICAL/Main/IEC.prg": "<P/>",
+            "LOGICAL/Other/IEC.prg": "<P/>",
+            "LOGICAL/Inner/Main/IEC.prg": "<P/>",
+        }
+    )
+    found = read_automation_studio(folder)
+    assert found.name == folder.name
+    assert [(each.name, each.source, each.task_class) for each in found.tasks] == [
+        ("Main", "Main", 4),
+        ("Other", "Other", 4),
+        ("Main1", "Inner.Main", 4),
+    ]
+    assert [(each.severity, each.message) for each in found.findings] == [
+        ("warning", "there is no configuration: all programs run in Cyclic#4")
+    ]
+    with pytest.raises(ConfigurationError, match="there is no configuration Real"):
+        read_automation_studio(folder, "Real")
 
 
 def test_all_that_is_wrong_is_found_in_one_go(write):
