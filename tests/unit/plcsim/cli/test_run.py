@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+from textwrap import dedent
 
 import pytest
 
@@ -133,6 +134,17 @@ def test_a_wrong_limit_is_wrong_usage(capsys, option, value):
 def test_a_wrong_project_is_exit_code_1(project_of, capsys):
     assert main(["run", str(project_of("1 // 0\n")), *VIRTUAL]) == 1
     assert capsys.readouterr().err.endswith("main/main.py:1: division by zero\n")
+
+
+def test_with_several_programs_it_is_told_that_the_others_could_run(project_of, capsys):
+    folder = project_of("1 // 0\n")
+    settings = folder / "plc.toml"
+    settings.write_text(settings.read_text("utf-8").replace('"main"', '"main", "other"'), "utf-8")
+    (folder / "other").mkdir()
+    (folder / "other" / "main.py").write_text(dedent(GOOD), "utf-8")
+    assert main(["run", str(folder), *VIRTUAL]) == 1
+    assert "\nplcsim run --keep-going leaves out the programs" in capsys.readouterr().err
+    assert main(["run", str(folder), *VIRTUAL, "--keep-going"]) == 0
 
 
 def test_the_handlers_of_signals_are_given_back(project_of):
