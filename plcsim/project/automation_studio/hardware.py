@@ -85,7 +85,7 @@ def _is_cpu(module: XmlElement) -> bool:
     return bool(ids & {"ConfigurationID", "Cyclic1Duration", "UserRamSize"})
 
 
-def _is_named_as_cpu(module: Element) -> bool:
+def _is_named_as_cpu(module: XmlElement) -> bool:
     """Whether a module has the type of a CPU: X20CP..., PP..., 5APC..., PC_any."""
     return any(each in module.get("Type").upper() for each in ("CP", "PC", "PP"))
 
