@@ -95,12 +95,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--web",
         action="store_true",
         help="serve the controller's pages, as the table [web] does; "
-        "http://127.0.0.1:8080 where that says nothing else",
+        "http://127.0.0.1:8080 where that says nothing else; includes --stay",
     )
     parser.add_argument(
         "--stay",
         action="store_true",
-        help="in SERVICE, do not end before Ctrl-C: the last values can still be read",
+        help="do not end in STOPPED or SERVICE before Ctrl-C: the values can still be read, and "
+        "the controller can be started again from outside",
     )
     add_configuration(parser)
     parser.add_argument(
@@ -140,6 +141,7 @@ def run(options: argparse.Namespace) -> int:
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
+        stays=options.stay or (options.web and options.cycles is None),
         output=output,
         quiet=options.quiet,
     )
@@ -151,7 +153,7 @@ def run(options: argparse.Namespace) -> int:
         hint = KEEP_GOING if len(project.programs) > 1 and not options.keep_going else ""
         code = _finish(result, options, shown, hint)  # a late Ctrl-C shall not cost the report
         code = code or _judge_services(supervisor.services.never_served)
-        if options.stay and code == ExitCode.SERVICE:
+        if options.stay and code == ExitCode.SERVICE and not supervisor.is_asked_to_stop:
             _stay(supervisor, options)
         return code
 

@@ -69,6 +69,16 @@ class ScanListener(Protocol):
         """Handle a cycle time violation."""
 
 
+class RunFollower(Protocol):
+    """Who is told when each program and each cycle ran; durations and times as in `Scan`."""
+
+    def ran(self, task: Task, start_ns: int, end_ns: int, used_ns: int) -> None:
+        """Note a run of CYCLIC and the CPU time it used."""
+
+    def cycled(self, task_class: TaskClass, start_ns: int, end_ns: int) -> None:
+        """Note a cycle, before its class goes to the next release."""
+
+
 class Scan:
     """The loop over task classes.
 
@@ -89,6 +99,8 @@ class Scan:
             preempted.
         active: the program that runs, None while none does.
         origin_ns: when the grids were laid.
+        run_follower: told of every run, None for nobody.
+        idlers: called in SLEEP with the nanoseconds until the next release; `idle` is the first.
     """
 
     def __init__(
@@ -118,7 +130,8 @@ class Scan:
         self._image = image
         self._supervisor = supervisor
         self._heartbeat = heartbeat
-        self._idle = idle
+        self.run_follower: RunFollower | None = None
+        self.idlers = [idle]
         self._own_ns = 0
         self._elsewhere_ns = 0
         self._aborted: tuple[Task, str] | None = None
@@ -186,7 +199,8 @@ class Scan:
             else:
                 if wake_ns == self._end_ns and now_ns >= wake_ns:
                     return
-                self._idle(wake_ns - now_ns)
+                for idle in self.idlers:
+                    idle(wake_ns - now_ns)
                 self._clock.sleep_until_ns(wake_ns)
 
     def _goes_on(self) -> bool:
@@ -280,6 +294,8 @@ class Scan:
         if clock.waits() != waits:
             used_ns = max(used_ns, end_ns - start_ns)
         task.execution.record(used_ns)
+        if self.run_follower is not None:
+            self.run_follower.ran(task, start_ns, end_ns, used_ns)
         self._own_ns += used_ns
         if end_ns > start_ns:  # on the virtual clock it seldom is
             for task_class in self.classes:
@@ -308,6 +324,8 @@ class Scan:
             task_class.violations[violation.cause] += 1
         elif response_ns > task_class.cycle_ns:
             task_class.in_tolerance += 1
+        if self.run_follower is not None:
+            self.run_follower.cycled(task_class, start_ns, end_ns)
         task_class.advance(end_ns)
         if violation is not None:
             self._supervisor.violated(violation, task_class.policy_for(violation.cause))

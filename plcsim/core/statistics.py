@@ -99,12 +99,12 @@ class Histogram:
         for bucket, count in enumerate(self.counts):
             seen += count
             if count and seen >= wanted:
-                return min(_upper_end_ns(bucket), self.maximum_ns)
+                return min(bucket_end_ns(bucket), self.maximum_ns)
         return 0
 
     def buckets(self) -> list[tuple[int, int]]:
         """Return (largest duration in nanoseconds, count) of every bucket that is not empty."""
-        return [(_upper_end_ns(b), count) for b, count in enumerate(self.counts) if count]
+        return [(bucket_end_ns(b), count) for b, count in enumerate(self.counts) if count]
 
     def summary(self) -> Summary:
         """Return count, smallest, mean, percentiles and largest."""
@@ -122,7 +122,8 @@ class Histogram:
         )
 
 
-def _upper_end_ns(bucket: int) -> int:
+def bucket_end_ns(bucket: int) -> int:
+    """Return the largest duration that is counted in a bucket."""
     if bucket < 2 << SUB_BITS:
         return bucket
     shift = (bucket >> SUB_BITS) - 1

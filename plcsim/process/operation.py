@@ -1,13 +1,14 @@
 """Running a controller as its operator asks: pause, single cycles, restart, speed, stop.
 
 Requests come out of the shared image in LATCH and are carried out between two cycles. While the
-controller is paused nothing runs, but commands are taken and their effect is shown.
+controller is paused nothing runs, but commands are taken and their effect is shown. Where the run
+stays, so it is in STOPPED and SERVICE too, until a restart is asked for or the run is ended.
 """
 
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 from plcsim.core.control import AS_FAST_AS_POSSIBLE, REAL_TIME, Action
 from plcsim.core.logbook import Severity
@@ -23,6 +24,9 @@ POLL_S = 0.02
 """A paused controller looks this often for what it is asked."""
 
 
+_RESTARTS: Final = (Action.WARM_RESTART, Action.COLD_RESTART)
+
+
 class _Pacer(Protocol):
     """A virtual clock, which can run at a speed."""
 
@@ -36,7 +40,9 @@ class Operation:
     Args:
         controller: to run.
         pacer: its clock, None where that is the real one.
-        beat: called while it is paused, so that nobody takes it for dead.
+        stays: STOPPED and SERVICE do not end the run.
+        beat: called while nothing runs, so that nobody takes it for dead.
+        show_paused: told whether it is paused, whenever that changes.
         rest: waits for so many seconds.
     """
 
@@ -45,12 +51,16 @@ class Operation:
         controller: Controller,
         *,
         pacer: _Pacer | None = None,
+        stays: bool = False,
         beat: Callable[[], None] = lambda: None,
+        show_paused: Callable[[bool], None] = lambda _is_paused: None,
         rest: Callable[[float], None] = time.sleep,
     ) -> None:
         self._controller = controller
         self._pacer = pacer
+        self._stays = stays
         self._beat = beat
+        self._show_paused = show_paused
         self._rest = rest
         self._is_paused = False
         self._steps = 0
@@ -66,17 +76,24 @@ class Operation:
         first = controller.classes[0]
         last = None if cycles is None else first.cycles + cycles
         while True:
-            if self._is_paused:
+            if self._is_paused or self._is_down:
                 self._stay(until_ns)
             left = None if last is None else last - first.cycles
             if left == 0 or controller.stop_requested or self._is_over(until_ns):
                 return controller.state
             self._run(until_ns, left)
+            if self._is_down:
+                continue
             if controller.state is not State.RUN:
                 return controller.state
             if not (controller.requests or self._is_paused):
                 return controller.state
             self._carry_out()
+
+    @property
+    def _is_down(self) -> bool:
+        """Nothing runs before a restart, and the run waits for one."""
+        return self._stays and self._controller.state in (State.STOPPED, State.SERVICE)
 
     def _run(self, until_ns: int | None, left: int | None) -> None:
         """Run on, or only the single cycles that were asked for."""
@@ -95,15 +112,21 @@ class Operation:
         return until_ns is not None and self._controller.clock.stamp_ns() >= until_ns
 
     def _stay(self, until_ns: int | None) -> None:
-        """Stay paused until asked for something else."""
+        """Stay as it is until asked for something else."""
         controller = self._controller
-        while self._is_paused and not controller.stop_requested and not self._is_over(until_ns):
+        self._show_paused(self._is_paused and not self._is_down)
+        while (
+            (self._is_paused or self._is_down)
+            and not controller.stop_requested
+            and not self._is_over(until_ns)
+        ):
             self._beat()
             for exchange in controller.image.exchanges:
                 exchange()
             self._carry_out()
-            if self._is_paused:
+            if self._is_paused or self._is_down:
                 self._rest(POLL_S)
+        self._show_paused(False)  # noqa: FBT003  # a callable of one argument
         controller.resume()
 
     def _carry_out(self) -> None:
@@ -113,9 +136,12 @@ class Operation:
 
     def _do(self, request: Request) -> None:
         controller = self._controller
+        if self._is_down and request.action not in _RESTARTS:
+            name, state = request.action.name.lower(), controller.state.name
+            controller.log(Severity.INFORMATION, request.source, f"{name}: not in {state}")
+            return
         match request.action:
             case Action.STOP:
-                controller.stop()
                 text = "stop"
             case Action.PAUSE:
                 self._is_paused, self._steps = True, 0
@@ -131,10 +157,20 @@ class Operation:
             case Action.SPEED:
                 text = self._pace(request.argument)
         controller.log(Severity.INFORMATION, request.source, text)
-        if request.action in (Action.WARM_RESTART, Action.COLD_RESTART):
+        if request.action is Action.STOP:
+            self._stop()
+        elif request.action in _RESTARTS:
             controller.shutdown()
             controller.boot()
             controller.start()
+
+    def _stop(self) -> None:
+        """End the run, or only the programs where the run stays."""
+        if not self._stays:
+            self._controller.stop()
+            return
+        self._is_paused, self._steps = False, 0
+        self._controller.shutdown()
 
     def _pace(self, speed: int) -> str:
         if self._pacer is None:

@@ -60,12 +60,13 @@ class RunOrder:
         virtual: on the virtual clock and network.
         for_ns: how long, None for ever.
         cycles: how many cycles of the first class, None for ever.
+        stays: STOPPED and SERVICE do not end the run.
         status_fd: the status page.
         result_fd: a file for the result, a JSON object.
         dump_fd: a file for the Python stack of a program that cannot be interrupted.
         image_fd: an empty file for the shared image.
         system_fd: the system area of the PLC memory, by which compiled programs are ended.
-        wake_fds: an eventfd for each service of the project, none on the virtual clock.
+        wake_fds: an eventfd for each service of the project.
     """
 
     parent: int
@@ -73,6 +74,7 @@ class RunOrder:
     virtual: bool
     for_ns: int | None
     cycles: int | None
+    stays: bool
     status_fd: int
     result_fd: int
     dump_fd: int
@@ -147,6 +149,8 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
     )
     page.clock = clock
+    if order.stays:
+        page.will_stay()
     application = load(project, watched=True)
     rights = _take_rights(project, order)
     if rights.cpu is not None:
@@ -168,7 +172,11 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     controller.start()
     origin_ns = page.origin_ns = controller.scan.origin_ns
     operation = Operation(
-        controller, pacer=clock if isinstance(clock, VirtualClock) else None, beat=page.beat
+        controller,
+        pacer=clock if isinstance(clock, VirtualClock) else None,
+        stays=order.stays,
+        beat=page.beat,
+        show_paused=page.paused,
     )
     operation.run(None if order.for_ns is None else origin_ns + order.for_ns, order.cycles)
     elapsed_ns = clock.now_ns() - origin_ns

@@ -122,6 +122,7 @@ class ServiceProcesses:
         page: the status page.
         output: carries what the services print.
         quiet: the services print nothing but errors.
+        virtual: the scan is on the virtual clock; then only those run that can do with it.
 
     Attributes:
         image_fd: the shared image, for the scan process to lay out.
@@ -129,7 +130,13 @@ class ServiceProcesses:
     """
 
     def __init__(
-        self, settings: Mapping[str, Any], page: StatusPage, output: Output, *, quiet: bool = False
+        self,
+        settings: Mapping[str, Any],
+        page: StatusPage,
+        output: Output,
+        *,
+        quiet: bool = False,
+        virtual: bool = False,
     ) -> None:
         self.image_fd = make_file()
         self._is_laid_out = self._is_closed = False
@@ -148,6 +155,7 @@ class ServiceProcesses:
             for number, ((name, module), wake_fd) in enumerate(
                 zip(modules.items(), self.wake_fds, strict=True)
             )
+            if not virtual or extensions()[name].serves_virtual_clock
         ]
 
     def tend(self, now_ns: int) -> None:

@@ -35,6 +35,8 @@ from plcsim.process.run_file import Run, announce, withdraw
 from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
 from plcsim.process.watchdog import Sight, Sign, Watch, Watchdog
+from plcsim.project.assembly import VIRTUAL_IP
+from plcsim.project.extension import in_process
 from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.status_page import StatusPage
 
@@ -69,12 +71,13 @@ class Supervisor:
         virtual: run on the virtual clock and network.
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
+        stays: STOPPED and SERVICE do not end the run: the scan waits for a restart.
         output: carries what the processes print; by default to this process' stdout and stderr.
         quiet: the services print nothing but errors.
 
     Attributes:
         page: the status page.
-        services: the service processes; there are none on the virtual clock.
+        services: the service processes; few can do with the virtual clock.
     """
 
     def __init__(
@@ -84,6 +87,7 @@ class Supervisor:
         virtual: bool = False,
         for_ns: int | None = None,
         cycles: int | None = None,
+        stays: bool = False,
         output: Output | None = None,
         quiet: bool = False,
     ) -> None:
@@ -97,8 +101,13 @@ class Supervisor:
         self._dump_fd = os.memfd_create("plcsim-dump")
         self._system_fd = SystemArea.shared_file()
         self._system = SystemArea.of_file(self._system_fd)
+        given = project.extensions
         self.services = ServiceProcesses(
-            {} if virtual else project.extensions, self.page, self._output, quiet=quiet
+            in_process(given, VIRTUAL_IP) if virtual else given,
+            self.page,
+            self._output,
+            quiet=quiet,
+            virtual=virtual,
         )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         files = self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd
@@ -111,6 +120,7 @@ class Supervisor:
                 virtual,
                 for_ns,
                 cycles,
+                stays,
                 *fds,
                 self.services.wake_fds,
             ),
@@ -169,6 +179,11 @@ class Supervisor:
             if self._stops > 1:
                 self._system.end_program(system_area.STOPPED)
             self._process.send_signal(signal.SIGINT)
+
+    @property
+    def is_asked_to_stop(self) -> bool:
+        """Somebody called `stop`."""
+        return bool(self._stops)
 
     @property
     def _is_loading(self) -> bool:

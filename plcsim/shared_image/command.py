@@ -32,6 +32,7 @@ _FORCE = struct.Struct("<HHH")
 _CONTROL = struct.Struct("<qH")
 _SAMPLE = struct.Struct("<IIq")
 _CANCEL = struct.Struct("<I")
+_FOLLOW = struct.Struct("<??")
 _SPAN = struct.Struct("<II")
 STORE, MASK, SCATTER = 0, 1, 2
 
@@ -169,9 +170,21 @@ class SampleCommand(NamedTuple):
 
 
 class Cancel(NamedTuple):
-    """End a `SampleCommand`; 0 for all of the service."""
+    """End a `SampleCommand`; 0 for all of the service, and what it follows."""
 
     number: int
+
+
+class Follow(NamedTuple):
+    """Have figures of the scan in the stream beside the ring; what is not asked for again ends.
+
+    Attributes:
+        cycles: when each program of each cycle ran (`plcsim.shared_image.figures.ClassCycle`).
+        histograms: of all task classes and programs, now and then while the scan is idle.
+    """
+
+    cycles: bool = False
+    histograms: bool = False
 
 
 class Answer(NamedTuple):
@@ -189,7 +202,7 @@ class Answer(NamedTuple):
     before: Command
 
 
-Command = Write | ForceCommand | Release | Control | SampleCommand | Cancel
+Command = Write | ForceCommand | Release | Control | SampleCommand | Cancel | Follow
 _KINDS: Final[dict[type, int]] = {
     Write: 1,
     ForceCommand: 2,
@@ -197,8 +210,9 @@ _KINDS: Final[dict[type, int]] = {
     Control: 4,
     SampleCommand: 5,
     Cancel: 6,
+    Follow: 7,
 }
-WRITE, _FORCED, _RELEASED, _CONTROLLED, _SAMPLED, _CANCELLED = _KINDS.values()
+WRITE, _FORCED, _RELEASED, _CONTROLLED, _SAMPLED, _CANCELLED, _FOLLOWED = _KINDS.values()
 
 
 def outcome_of(record: memoryview) -> CommandOutcome:
@@ -276,6 +290,8 @@ def encode_command(command: Command) -> bytes:
             return _record(_SAMPLED, body, len(spans))
         case Cancel(number):
             return _record(_CANCELLED, _CANCEL.pack(number))
+        case Follow(cycles, histograms):
+            return _record(_FOLLOWED, _FOLLOW.pack(cycles, histograms))
 
 
 def _record(kind: int, body: bytes, count: int = 0) -> bytes:
@@ -342,6 +358,8 @@ def _decode(kind: int, count: int, record: bytes) -> Command:
         return SampleCommand(number, task_class, period_ns, spans)
     if kind == _CANCELLED:
         return Cancel(*_CANCEL.unpack_from(record, HEAD.size))
+    if kind == _FOLLOWED:
+        return Follow(*_FOLLOW.unpack_from(record, HEAD.size))
     raise ValueError(f"record of kind {kind}")
 
 

@@ -25,6 +25,8 @@ class EventKind(Enum):
     VIOLATION = 2
     SAMPLE = 3
     RECORD = 4
+    CYCLE = 5
+    HISTOGRAM = 6
 
 
 def encode_entry(entry: Entry) -> bytes:

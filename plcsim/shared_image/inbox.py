@@ -17,6 +17,7 @@ from plcsim.shared_image.command import (
     WRITE,
     Cancel,
     CommandOutcome,
+    Follow,
     ForceCommand,
     Release,
     SampleCommand,
@@ -164,17 +165,19 @@ class Inbox:
 
     def _carry_out(self, command: Command) -> CommandOutcome:
         try:
-            if isinstance(command, SampleCommand | Cancel):
+            if isinstance(command, SampleCommand | Cancel | Follow):
                 return self._sample(command)
             return self._hands.carry_out(command, self._name)
         except PageFault:
             return CommandOutcome.NO_SUCH_ADDRESS
 
-    def _sample(self, command: SampleCommand | Cancel) -> CommandOutcome:
+    def _sample(self, command: SampleCommand | Cancel | Follow) -> CommandOutcome:
         if self.sampler is None:
             return CommandOutcome.NO_COMMAND
         if isinstance(command, Cancel):
             self.sampler.cancel(command.number)
+        elif isinstance(command, Follow):
+            self.sampler.follows = command
         elif not self.sampler.start(command):
             return CommandOutcome.TOO_MANY
         self._consumer.serving(len(self.sampler))

@@ -10,6 +10,7 @@ import struct
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import PageFault
+from plcsim.shared_image.command import Follow
 from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
@@ -93,6 +94,9 @@ class Sampler:
         memory: where the variables lie.
         owners: of the variables.
         stream: takes the samples.
+
+    Attributes:
+        follows: figures that the service asks for beside samples.
     """
 
     def __init__(self, memory: Memory, owners: Owners, stream: StreamWriter) -> None:
@@ -100,9 +104,15 @@ class Sampler:
         self._owners = owners
         self._stream = stream
         self._requests: dict[int, _Request] = {}
+        self.follows = Follow()
 
     def __len__(self) -> int:
         return len(self._requests)
+
+    @property
+    def stream(self) -> StreamWriter:
+        """What the service reads."""
+        return self._stream
 
     def start(self, request: SampleCommand) -> bool:
         """Serve a request from now on; False where there are too many.
@@ -120,11 +130,12 @@ class Sampler:
         return True
 
     def cancel(self, number: int) -> None:
-        """End a request, 0 for all."""
+        """End a request, 0 for all, and what is followed."""
         if number:
             self._requests.pop(number, None)
         else:
             self._requests.clear()
+            self.follows = Follow()
 
     def publish(self, task_class: TaskClass, held: int, release_ns: int, time_ns: int) -> None:
         """Take the samples that are due.

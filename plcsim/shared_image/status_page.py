@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MAGIC = 0x504C_4353_494D_0001
 SIZE = 4096
 
-_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME, _LOST, _CPU = range(7)
+_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME, _LOST, _CPU, _PAUSED, _STAYS = range(9)
 _CLASSES = 16
 _FIELDS_PER_CLASS = 16
 _CELL_OF_CAUSE = {
@@ -137,6 +137,14 @@ class StatusPage:
         """Note the processor that the scan stays on."""
         self._cells[_CPU] = cpu + 1
 
+    def paused(self, is_paused: bool) -> None:  # as `Operation` tells it
+        """Note whether nothing runs because somebody asked for a pause."""
+        self._cells[_PAUSED] = is_paused
+
+    def will_stay(self) -> None:
+        """Note that STOPPED and SERVICE do not end the run."""
+        self._cells[_STAYS] = True
+
     # a service's side
 
     def note_service(self, number: int, state: ServiceState) -> None:
@@ -165,6 +173,16 @@ class StatusPage:
     def state(self) -> State:
         """The system state."""
         return State(self._cells[_STATE])
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether nothing runs because somebody asked for a pause."""
+        return bool(self._cells[_PAUSED])
+
+    @property
+    def stays(self) -> bool:
+        """Whether STOPPED and SERVICE do not end the run."""
+        return bool(self._cells[_STAYS])
 
     @property
     def active(self) -> int | None:

@@ -16,6 +16,7 @@ from plcsim.core.owners import bit_of
 from plcsim.shared_image import layout
 from plcsim.shared_image.directory import Directory, hash_of
 from plcsim.shared_image.events import EventKind, encode_entry, encode_violation
+from plcsim.shared_image.figures import FiguresWriter
 from plcsim.shared_image.force_list import encode_forces, write_forces
 from plcsim.shared_image.hands import Hands
 from plcsim.shared_image.inbox import Inbox
@@ -138,6 +139,8 @@ class ImageWriter:
                 )
             )
         self._samplers = [i.sampler for i in self._inboxes if i.sampler is not None]
+        self._follows = [sampler.follows for sampler in self._samplers]
+        self._figures = FiguresWriter(self._controller)
         self._heads = cells[layout.HEADS : layout.HEADS + layout.MAX_RINGS]
         self._seen = b""
         self._is_busy = False
@@ -167,6 +170,10 @@ class ImageWriter:
                 if inbox not in self._open:
                     self._open.append(inbox)
         self._sampling = [sampler for sampler in self._samplers if sampler]
+        follows = [sampler.follows for sampler in self._samplers]
+        if follows != self._follows:
+            self._follows = follows
+            self._figures.serve(self._samplers)
 
     def publish(self, task_class: TaskClass) -> None:
         """Write the next snapshot and the samples, then answer the commands that they show."""

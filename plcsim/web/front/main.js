@@ -1,16 +1,26 @@
 // The frame around all pages: what they are, the state of the controller, who is logged in.
 
-import { attempt, dialog, h, put, setText, toast } from "./dom.js";
-import { duration, uptime } from "./format.js";
+import { dialog, h, put, setText, toast } from "./dom.js";
+import { uptime } from "./format.js";
 import { controls } from "./control.js";
 import { Ears, link } from "./link.js";
 import { showForces } from "./forces.js";
+import * as classes from "./pages/classes.js";
+import * as logbook from "./pages/logbook.js";
+import * as network from "./pages/network.js";
+import * as source from "./pages/source.js";
 import * as system from "./pages/system.js";
+import * as trace from "./pages/trace.js";
 import * as variables from "./pages/variables.js";
 
 const PAGES = [
   ["system", "System", system],
+  ["classes", "Task classes", classes],
   ["variables", "Variables", variables],
+  ["trace", "Trace", trace],
+  ["source", "Source", source],
+  ["logbook", "Logbook", logbook],
+  ["network", "Network", network],
 ];
 
 const page = document.getElementById("page");

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -195,6 +196,15 @@ async def _logbook(hub: Hub, _caller: Caller, _arguments: Arguments) -> object:
     return [entry for _, entry in hub.entries]
 
 
+async def _sources(hub: Hub, _caller: Caller, _arguments: Arguments) -> object:
+    return await asyncio.to_thread(hub.sources.programs)
+
+
+async def _source(hub: Hub, _caller: Caller, arguments: Arguments) -> object:
+    program, file = text_of(arguments, "program"), text_of(arguments, "file")
+    return await asyncio.to_thread(hub.sources.read, program, file)
+
+
 def _control(action: Action) -> Callable[[Hub, Caller, Arguments], Awaitable[object]]:
     async def do(hub: Hub, caller: Caller, arguments: Arguments) -> object:
         name = action.name.lower()
@@ -214,6 +224,8 @@ ACTS: Final[Mapping[str, Act]] = {
     "search": Act(Role.LOOK, _search),
     "describe": Act(Role.LOOK, _describe),
     "logbook": Act(Role.LOOK, _logbook),
+    "sources": Act(Role.LOOK, _sources),
+    "source": Act(Role.LOOK, _source),
     "write": Act(Role.OPERATE, _write),
     "pause": Act(Role.OPERATE, _control(Action.PAUSE)),
     "continue": Act(Role.OPERATE, _control(Action.CONTINUE)),

@@ -21,7 +21,7 @@ from starlette.routing import Route, WebSocketRoute
 from plcsim.core.errors import PlcError
 from plcsim.web.service.acts import perform, text_of
 from plcsim.web.service.door import COOKIE, IDLE_S, RefusedError
-from plcsim.web.service.session import LOGGED_OUT, Session
+from plcsim.web.service.session import LOGGED_OUT, BrowserSession
 
 if TYPE_CHECKING:
     from collections.abc import MutableMapping
@@ -161,7 +161,7 @@ class _Pages:
             return
         await socket.accept()
         cookie = "" if has_token else socket.cookies.get(COOKIE, "")
-        await Session(self._hub, self._door, socket, caller, cookie).run()
+        await BrowserSession(self._hub, self._door, socket, caller, cookie).run()
 
     async def api(self, request: Request) -> Response:
         """Do one act for a script."""

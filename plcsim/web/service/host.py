@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import json
 import os
 import sys
 from functools import cache
@@ -65,7 +67,8 @@ def _name(words: list[bytes]) -> str:
     text = [word.decode("utf-8", "replace") for word in words]
     modules = [text[i + 1] for i, word in enumerate(text[:-1]) if word == "-m"]
     if modules and modules[0].endswith("service_main"):
-        return text[text.index(modules[0]) + 1]
+        with contextlib.suppress(ValueError, KeyError, TypeError, IndexError):
+            return str(json.loads(text[text.index(modules[0]) + 2])["table"])
     return modules[0] if modules else Path(text[0]).name
 
 

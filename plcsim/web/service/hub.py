@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import time
 from collections import deque
@@ -10,18 +11,27 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.access import LineFile
-from plcsim.shared_image.command import Cancel
+from plcsim.core.errors import PlcError
+from plcsim.shared_image.command import Cancel, Follow, SampleCommand
 from plcsim.shared_image.events import EventKind, entry_of, violation_of
+from plcsim.shared_image.figures import buckets_of, cycle_of
 from plcsim.shared_image.reader import ScanWatch
-from plcsim.shared_image.samples import sample_of
+from plcsim.shared_image.samples import MOST, sample_of
 from plcsim.web.service.commander import Commander
+from plcsim.web.service.figures import ClassFigures
 from plcsim.web.service.host import processes, versions
-from plcsim.web.service.values import LiveValues
-from plcsim.web.service.variables import Variables
+from plcsim.web.service.network import sockets
+from plcsim.web.service.sources import Sources
+from plcsim.web.service.traces import LiveTrace
+from plcsim.web.service.values import SAMPLES, LiveValues
+from plcsim.web.service.variables import VariableTree
 from st_types.types.values import decode
 from st_types.writers.value_text import value_text
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from plcsim.core.tag import Tag
     from plcsim.process.service_main import Service
 
 POLL_S: Final = 0.05
@@ -29,6 +39,9 @@ ENTRIES: Final = 2000
 """Of the logbook, kept for pages that are opened later."""
 
 VIOLATIONS: Final = 200
+MOST_AT_ONCE: Final = 20_000
+"""Records that are taken before the browsers have their turn again."""
+
 AUDIT_FILE: Final = ".plcsim/web-audit.jsonl"
 LARGEST_AUDIT: Final = 10 * 1024 * 1024
 AUDIT_FILES: Final = 10
@@ -46,7 +59,7 @@ class Hub:
         self.given: dict[str, Any] = service.given
         self.page = service.page
         self.values = LiveValues(self.image)
-        self.variables = Variables(self.image.directory)
+        self.variables = VariableTree(self.image.directory)
         self.commander = Commander(self.image, service.wake_fd)
         audit = Path(self.given["folder"]) / AUDIT_FILE
         self.audit = LineFile(audit, LARGEST_AUDIT, AUDIT_FILES, service.table)
@@ -54,6 +67,10 @@ class Hub:
         self.entries_seen = 0
         self.violations: deque[dict[str, Any]] = deque(maxlen=VIOLATIONS)
         self.lost = 0
+        self.traces: dict[int, LiveTrace] = {}
+        self.figures = ClassFigures(self.given["classes"], self.given["tasks"])
+        self.sources = Sources(Path(self.given["folder"]), self.image.directory)
+        self._followers = 0
         self._events = self.image.events(from_oldest=True)
         self._samples = self.image.samples()
         self._watch = ScanWatch(self.image.directory.cycle_ns)
@@ -75,10 +92,18 @@ class Hub:
                 self._enter(record)
             elif record.kind == EventKind.VIOLATION.value:
                 self._violated(record)
-        for record in self._samples.read():
+        for record in self._samples.read(MOST_AT_ONCE):
             if record.kind == EventKind.SAMPLE.value:
                 sample = sample_of(record.data)
-                self.values.sampled(sample.number, sample.data)
+                trace = self.traces.get(sample.number)
+                if trace is not None:
+                    trace.take(sample, record.time_ns)
+                else:
+                    self.values.sampled(sample.number, sample.data)
+            elif record.kind == EventKind.CYCLE.value:
+                self.figures.take_cycle(cycle_of(record.data))
+            elif record.kind == EventKind.HISTOGRAM.value:
+                self.figures.take_histogram(buckets_of(record.data))
         self.lost = self._events.lost
 
     def _enter(self, record: Any) -> None:
@@ -103,6 +128,46 @@ class Hub:
             self._refreshed_s = now_s
             self.values.refresh()
 
+    async def start_trace(self, tags: Sequence[Tag], task_class: int) -> LiveTrace:
+        """LiveTrace variables in every cycle of a task class from now on.
+
+        Raises:
+            PlcError: they cannot be traced, or too many traces run.
+        """
+        free = (n for n in range(SAMPLES + 1, MOST + 1) if n not in self.traces)
+        number = next(free, 0)
+        if not number:
+            raise PlcError(f"{MOST - SAMPLES} traces run already")
+        trace = LiveTrace(number, tags)
+        self.traces[number] = trace
+        try:
+            await self.commander.ask(SampleCommand(number, task_class, 0, trace.spans), "trace")
+        except BaseException:
+            self.traces.pop(number, None)
+            raise
+        return trace
+
+    def end_trace(self, trace: LiveTrace) -> None:
+        """LiveTrace no more."""
+        if self.traces.pop(trace.number, None) is not None:
+            with contextlib.suppress(PlcError):  # the ring is full: what comes is nobody's
+                self.image.send(Cancel(trace.number))
+
+    def follow(self, more: int) -> None:
+        """Note that so many more browsers look at the task classes; fewer where it is negative."""
+        before, self._followers = self._followers, self._followers + more
+        if bool(before) != bool(self._followers):
+            looks = bool(self._followers)
+            with contextlib.suppress(PlcError):
+                self.image.send(Follow(looks, looks))
+
+    def class_of(self, tags: Sequence[Tag]) -> int:
+        """Return the fastest class that a program of these tags runs in, else the fastest."""
+        heads = {tag.path.partition(".")[0].upper() for tag in tags}
+        classes = self.given["classes"]
+        own = [c for c in classes if any(task.upper() in heads for task in c["tasks"])]
+        return int(min(own or classes, key=lambda c: c["cycle_ns"])["number"])
+
     def status(self) -> dict[str, Any]:
         """Return how the controller is."""
         alive = self._watch.is_alive(self.page.heartbeat, time.monotonic_ns())
@@ -110,6 +175,7 @@ class Hub:
             "state": self.page.state.name,
             "elapsed_ns": self.page.elapsed_ns,
             "is_alive": alive,
+            "is_paused": self.page.is_paused,
             "snapshot": self.image.latest,
             "cycles": {c["number"]: self._figures(c["number"]) for c in self.given["classes"]},
         }
@@ -132,6 +198,19 @@ class Hub:
         names = {self._supervisor: "supervisor", self.given["scan_pid"]: "scan"}
         return {"processes": processes(self._supervisor, names), "cpu": self.page.cpu}
 
+    def network(self) -> dict[str, Any]:
+        """Return the sockets of the processes of the run."""
+        return {"sockets": sockets(self.system()["processes"])}
+
+    def task_classes(self) -> dict[str, Any]:
+        """Return histograms, the last cycles and violations of the task classes."""
+        span_ns = 4 * max(c["cycle_ns"] for c in self.given["classes"])
+        return {
+            "histograms": self.figures.histograms(),
+            "cycles": self.figures.last_cycles(span_ns),
+            "violations": list(self.violations),
+        }
+
     def facts(self) -> dict[str, Any]:
         """Return what does not change while the controller runs."""
         directory = self.image.directory
@@ -139,6 +218,7 @@ class Hub:
             "project": directory.project,
             "folder": self.given["folder"],
             "is_virtual": self.given["is_virtual"],
+            "stays": self.page.stays,
             "memory_size": self.given["memory_size"],
             "variables_size": sum(area.data_type.size for area in directory.areas),
             "snapshot_size": directory.bank_size,

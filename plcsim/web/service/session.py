@@ -19,14 +19,16 @@ from typing import TYPE_CHECKING, Any, Final
 from starlette.websockets import WebSocketDisconnect, WebSocketState
 
 from plcsim.core.errors import PlcError
-from plcsim.web.service.acts import perform, texts_of
+from plcsim.web.service.acts import perform, texts_of, whole_of
 from plcsim.web.service.door import Caller
+from plcsim.web.service.traces import MOST_TAGS
 
 if TYPE_CHECKING:
     from starlette.websockets import WebSocket
 
     from plcsim.web.service.door import Door
     from plcsim.web.service.hub import Hub
+    from plcsim.web.service.traces import LiveTrace
     from plcsim.web.service.values import Watched
 
 PERIOD_S: Final = 0.1
@@ -36,12 +38,13 @@ PATIENCE_S: Final = 30.0
 """A browser that has not taken what was sent for so long is let go."""
 
 MOST_WATCHED: Final = 2000
-TOPICS: Final = frozenset({"logbook", "classes", "system"})
+MOST_TRACES: Final = 4
+TOPICS: Final = frozenset({"logbook", "classes", "system", "network"})
 LOGGED_OUT: Final = 4401
 TOO_SLOW: Final = 4408
 
 
-class Session:
+class BrowserSession:
     """Serves one WebSocket.
 
     Args:
@@ -66,6 +69,7 @@ class Session:
         self._due: dict[str, float] = {}
         self._logged = 0
         self._forces = ""
+        self._traces: list[LiveTrace] = []
         self._sending = asyncio.Lock()
 
     async def run(self) -> None:
@@ -82,13 +86,20 @@ class Session:
                 task.cancel()
             await asyncio.gather(reading, telling, return_exceptions=True)
             self._hub.values.leave(self._watched)
+            self._look_at_classes(set())
+            for trace in self._traces:
+                self._hub.end_trace(trace)
 
     async def _send(self, message: object) -> None:
-        text = json.dumps(message, separators=(",", ":"))
+        if not isinstance(message, bytes):
+            message = json.dumps(message, separators=(",", ":"))
         async with self._sending:
             try:
                 async with asyncio.timeout(PATIENCE_S):  # wait_for may lose a cancellation
-                    await self._socket.send_text(text)
+                    if isinstance(message, bytes):
+                        await self._socket.send_bytes(message)
+                    else:
+                        await self._socket.send_text(message)
             except TimeoutError:
                 await self._close(TOO_SLOW, "what was sent is not read")
 
@@ -137,6 +148,10 @@ class Session:
                 return self._watch(texts_of(message, "tags", MOST_WATCHED))
             case "follow":
                 return self._follow(texts_of(message, "topics", len(TOPICS)))
+            case "trace":
+                return await self._trace(message)
+            case "untrace":
+                return self._untrace(message.get("number"))
             case str(name):
                 return await perform(self._hub, self._caller, name, message)
         raise PlcError("'do' must be the name of an act")
@@ -154,9 +169,33 @@ class Session:
         unknown = set(topics) - TOPICS
         if unknown:
             raise PlcError(f"there is no topic {', '.join(sorted(unknown))[:80]}")
-        self._topics = set(topics)
+        self._look_at_classes(set(topics))
         self._due.clear()
         self._logged = 0
+        return {}
+
+    def _look_at_classes(self, topics: set[str]) -> None:
+        """Have the scan tell of its cycles only while a browser shows them."""
+        more = ("classes" in topics) - ("classes" in self._topics)
+        self._topics = topics
+        if more:
+            self._hub.follow(more)
+
+    async def _trace(self, message: dict[str, Any]) -> object:
+        """LiveTrace these tags in every cycle from now on."""
+        if len(self._traces) >= MOST_TRACES:
+            raise PlcError(f"a browser has {MOST_TRACES} traces at most")
+        find = self._hub.image.directory.find
+        tags = [find(path) for path in texts_of(message, "tags", MOST_TAGS)]
+        number = whole_of(message, "class", 0, 8) or self._hub.class_of(tags)
+        trace = await self._hub.start_trace(tags, number)
+        self._traces.append(trace)
+        return {"number": trace.number, "class": number}
+
+    def _untrace(self, number: object) -> object:
+        for trace in [each for each in self._traces if each.number == number]:
+            self._traces.remove(trace)
+            self._hub.end_trace(trace)
         return {}
 
     async def _tell(self) -> None:
@@ -165,6 +204,9 @@ class Session:
             await self._check_caller()
             for message in self._news(started_s):
                 await self._send(message)
+            for trace in list(self._traces):
+                while (data := trace.message()) is not None:
+                    await self._send(data)
             await asyncio.sleep(max(0.01, started_s + PERIOD_S - time.monotonic()))
 
     def _is_due(self, what: str, now_s: float, period_s: float) -> bool:
@@ -191,7 +233,9 @@ class Session:
         if "system" in self._topics and self._is_due("system", now_s, SYSTEM_S):
             news.append({"push": "system", **hub.system()})
         if "classes" in self._topics and self._is_due("classes", now_s, STATUS_S):
-            news.append({"push": "classes", "violations": list(hub.violations)})
+            news.append({"push": "classes", **hub.task_classes()})
+        if "network" in self._topics and self._is_due("network", now_s, SYSTEM_S):
+            news.append({"push": "network", **hub.network()})
         if "logbook" in self._topics and self._logged < hub.entries_seen:
             fresh = [entry for number, entry in hub.entries if number > self._logged]
             self._logged = hub.entries_seen

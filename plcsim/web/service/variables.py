@@ -28,10 +28,10 @@ if TYPE_CHECKING:
 MOST_CHILDREN: Final = 500
 MOST_FOUND: Final = 200
 MOST_KNOWN: Final = 200_000
-"""Variables that the search knows; of an ARRAY it knows the first element."""
+"""VariableTree that the search knows; of an ARRAY it knows the first element."""
 
 
-class Variables:
+class VariableTree:
     """The variables of a controller, as the pages show them.
 
     Args:

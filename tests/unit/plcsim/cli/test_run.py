@@ -11,6 +11,7 @@ import pytest
 
 from plcsim.cli import run
 from plcsim.cli.main import main
+from plcsim.core.system import State
 from plcsim.process.service_processes import ServiceProcesses
 
 GOOD = """
@@ -26,6 +27,17 @@ FAILS = """
     class Main(Program):
         def cyclic(self) -> None:
             int("ten")
+"""
+
+KILLED = """
+    import os
+    import signal
+
+    from plcsim import Program
+
+    class Main(Program):
+        def cyclic(self) -> None:
+            os.kill(os.getpid(), signal.SIGKILL)
 """
 
 VIRTUAL = ["--virtual", "--cycles", "3"]
@@ -64,12 +76,30 @@ def test_a_processor_that_is_not_there_is_noted(project_of, capsys):
 
 def test_in_service_a_run_can_stay_until_ctrl_c(project_of, capsys, monkeypatch):
     stayed = []
+    wait = run.Supervisor.wait
 
-    def ctrl_c(supervisor):
-        stayed.append(supervisor.page.state.name)
+    def wait_and_interrupt(supervisor, look):
+        def interrupt():
+            look()
+            if supervisor.page.state is State.SERVICE and not stayed:
+                stayed.append(supervisor.page.stays)
+                supervisor.stop()
 
-    monkeypatch.setattr(run.Supervisor, "stay", ctrl_c)
+        return wait(supervisor, interrupt)
+
+    monkeypatch.setattr(run.Supervisor, "wait", wait_and_interrupt)
     folder = project_of(FAILS)
+    assert main(["run", str(folder), *VIRTUAL, "--stay"]) == 3
+    assert stayed == [True]
+    assert "until Ctrl-C" not in capsys.readouterr().err  # it has been pressed
+
+
+def test_what_a_scan_process_that_died_has_left_can_be_read_until_ctrl_c(
+    project_of, capsys, monkeypatch
+):
+    stayed = []
+    monkeypatch.setattr(run.Supervisor, "stay", lambda each: stayed.append(each.page.state.name))
+    folder = project_of(KILLED)
     assert main(["run", str(folder), *VIRTUAL, "--stay"]) == 3
     *_, last = capsys.readouterr().err.splitlines()
     assert last == "The values of the last cycle can be read until Ctrl-C."

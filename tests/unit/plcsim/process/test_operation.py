@@ -210,3 +210,72 @@ def test_the_speed_is_that_of_the_virtual_clock(controller, script) -> None:
         "web: speed: as fast as possible",
         "web: the real clock has one speed",
     ]
+
+
+def test_a_run_that_stays_is_stopped_and_started_again(controller, script) -> None:
+    shown: list[bool] = []
+    script.at_cycle = {4: Request(Action.STOP, 0, "web")}
+    script.while_paused = iter(
+        [
+            None,
+            Request(Action.CONTINUE, 0, "web"),
+            Request(Action.STOP, 0, "web"),
+            Request(Action.WARM_RESTART, 0, "web"),
+        ]
+    )
+    operation = Operation(
+        controller,
+        stays=True,
+        beat=script.beat,
+        show_paused=shown.append,
+        rest=lambda _: None,
+    )
+    assert operation.run(cycles=10) is State.RUN
+    assert script.looks == [4, 4, 4, 4]
+    assert value(controller, "main.cycles") == 6  # begun again
+    assert texts(controller) == [
+        "web: stop",
+        "web: continue: not in STOPPED",
+        "web: stop: not in STOPPED",
+        "web: warm restart",
+    ]
+    states = [e.text.partition(":")[0] for e in controller.logbook if e.source == "system"]
+    assert states == ["RUN", "STOPPED", "BOOT", "RUN"]
+    assert shown == [False, False]
+
+
+def test_a_run_that_stays_leaves_service_by_a_restart(
+    make_controller, task_class, program_of
+) -> None:
+    def cyclic(program) -> None:
+        program.cycles += 1
+        if program.cycles == 3:
+            raise RuntimeError("as told")
+
+    controller = make_controller(task_class(1, 10, main=program_of(cyclic, cycles=var(UINT))))
+    controller.boot()
+    script = Script(controller)
+    script.while_paused = iter([None, Request(Action.COLD_RESTART), Request(Action.COLD_RESTART)])
+    operation = Operation(controller, stays=True, beat=script.beat, rest=lambda _: None)
+    assert operation.run(cycles=8) is State.RUN
+    assert script.looks == [3, 3, 6]
+    assert value(controller, "main.cycles") == 2
+
+
+def test_a_signal_ends_a_run_that_stays_in_service(make_controller, task_class, program_of) -> None:
+    def cyclic(_program) -> None:
+        raise RuntimeError("as told")
+
+    controller = make_controller(task_class(1, 10, main=program_of(cyclic)))
+    controller.boot()
+    operation = Operation(controller, stays=True, rest=lambda _: controller.stop())
+    assert operation.run() is State.SERVICE
+
+
+def test_a_pause_is_shown(controller, script) -> None:
+    shown: list[bool] = []
+    script.at_cycle = {2: Request(Action.PAUSE)}
+    script.while_paused = iter([Request(Action.CONTINUE)])
+    operation = Operation(controller, show_paused=shown.append, rest=lambda _: None)
+    operation.run(cycles=4)
+    assert shown == [True, False]

@@ -12,7 +12,7 @@ from plcsim.process.scan_process import RunOrder, file_of
 from plcsim.process.scan_process import project_of as project_from
 from plcsim.project.plc_toml import read_project
 
-ORDER = RunOrder(1, 9, False, None, 5, 3, 4, 5, 6, 7, [8])
+ORDER = RunOrder(1, 9, False, None, 5, False, 3, 4, 5, 6, 7, [8])
 
 
 def test_an_order_comes_through_as_it_is():
