@@ -5,12 +5,13 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from crosnode.errors import CrosnodeError
+from crosnode.errors import CrosnodeError, UnknownTypeError
 from plcsim.recorder.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
 
+    from crosnode.messages import MessageType
     from crosnode.node import CrosNode, Publisher
     from plcsim.core.traffic import Traffic
     from plcsim.recorder.bag.reading import BagMessage, BagReader, BagTopic
@@ -75,7 +76,7 @@ class Player:
         package, _, name = topic.type_name.replace("/msg/", "/").partition("/")
         short = f"{package}/{name}"
         try:
-            kind = self._node.types.define(short, topic.definition)
+            kind = self._type(short, topic)
             if len(topic.digest) == len(kind.md5sum) and kind.md5sum != topic.digest:
                 raise RecordingError(
                     f"{self._bag.path}: {topic.name}: {short} has the MD5 sum {topic.digest} in "
@@ -89,6 +90,13 @@ class Player:
         if self._traffic is not None:
             made.hand_over = partial(_hand_in, self._traffic, made.topic)
         return made
+
+    def _type(self, name: str, topic: BagTopic) -> MessageType:
+        """Return the type that is known here, otherwise that of the bag."""
+        try:
+            return self._node.types.message(name)
+        except UnknownTypeError:
+            return self._node.types.define(name, topic.definition)
 
     def start(self, now_ns: int) -> None:
         """Let the first message of the bag fall on ``now_ns``."""

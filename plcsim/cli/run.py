@@ -128,7 +128,11 @@ def _positive(text: str) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Run the project and return the exit code."""
-    project = _read_project(options)
+    return run_project(options, _read_project(options))
+
+
+def run_project(options: argparse.Namespace, project: Project) -> int:
+    """Run a project that was read, as the options of the command say; return the exit code."""
     check_output("--report", options.report)
     if not (options.quiet or options.virtual):
         for note in notes_on_cpu(project):
@@ -158,18 +162,26 @@ def run(options: argparse.Namespace) -> int:
         return code
 
 
+def recording(file: Path | None) -> dict[str, dict[str, str]]:
+    """Return what ``--record`` says of a project, to be given to `read_project`.
+
+    Raises:
+        ConfigurationError: the bag is there already.
+    """
+    if file is None:
+        return {}
+    if file.exists():
+        raise ConfigurationError(f"--record {file}: exists already, and is not written over")
+    return {"record": {"file": str(file.resolve())}}
+
+
 def _read_project(options: argparse.Namespace) -> Project:
     """Return the project, with what the options say about it; ``--keep-going`` tells what it costs.
 
     Raises:
         ConfigurationError: something is wrong with it, or the bag is there already.
     """
-    given = configuration_of(options)
-    file: Path | None = options.record
-    if file is not None:
-        if file.exists():
-            raise ConfigurationError(f"--record {file}: exists already, and is not written over")
-        given["record"] = {"file": str(file.resolve())}
+    given: dict[str, Any] = {**configuration_of(options), **recording(options.record)}
     if options.web:
         given["web"] = {}
     project = read_project(options.project, given)

@@ -125,8 +125,8 @@ class BagReader:
             except (ValueError, KeyError, TypeError) as err:
                 raise RecordingError(f"{self.path}: {HEAD} is no recording: {err}") from None
         raise RecordingError(
-            f"{self.path}: was not recorded by plcsim: it has no topic {HEAD}; in a test, "
-            "ros.replay plays the messages of any bag to a project"
+            f"{self.path}: was not recorded by plcsim: it has no topic {HEAD}; plcsim replay "
+            "plays its messages to a project"
         )
 
     def records(self) -> Iterator[tuple[int, JournalRecord]]:

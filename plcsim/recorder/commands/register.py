@@ -38,14 +38,19 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = subparsers.add_parser(
         "replay",
-        help="repeat a recorded run, cycle by cycle, and tell where it differs",
-        description="Run a project on what clock, network and writers outside gave it while it was "
-        "recorded. Every cycle must end with the same variables; the first one that does not is "
-        "told. Nothing reaches the world.",
+        help="repeat a recorded run, cycle by cycle, or play a bag of ROS to a project",
+        description="A bag of plcsim: run a project on what clock, network and writers outside "
+        "gave it while it was recorded. Every cycle must end with the same variables; the first "
+        "one that does not is told. Nothing reaches the world. A bag of others, of rosbag record "
+        "or ros2 bag: run the project, and its programs hear each message at its recorded time.",
         examples=(
             ("plcsim replay run.bag my_plc", "the whole run, as fast as it goes"),
             ("plcsim replay run.bag", "inside the project's folder"),
             ("plcsim replay run.bag --to-cycle 500", "what the tags were after cycle 500"),
+            (
+                "plcsim replay field.bag my_plc --record out.bag",
+                "messages of others, on the virtual clock; what the project did is recorded",
+            ),
         ),
         epilog=epilog(
             DONE="the run was repeated exactly",
@@ -63,6 +68,19 @@ def _add_replay(subparsers: argparse._SubParsersAction[argparse.ArgumentParser])
         metavar="N",
         help=CLASS_HELP,
     )
+    played = parser.add_argument_group("only for a bag of others")
+    played.add_argument(
+        "--topic",
+        action="append",
+        default=[],
+        metavar="TOPIC",
+        help="play this one, may be given again (default: those that the programs subscribe to)",
+    )
+    played.add_argument("--clock", action="store_true", help="publish /clock, the time in the bag")
+    played.add_argument(
+        "--real-clock", action="store_true", help="run on the real clock, with the real network"
+    )
+    played.add_argument("--record", type=Path, metavar="FILE", help="record what the project does")
     parser.set_defaults(func=_later("plcsim.recorder.commands.replay", "replay"))
 
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.cli.exit_codes import ExitCode
+from plcsim.cli.run import recording, run_project
 from plcsim.core.duration import format_duration
 from plcsim.core.tag import leaves
 from plcsim.project.assembly import load
+from plcsim.project.extension import extensions
 from plcsim.project.plc_toml import read_project
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.types import HEAD
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.extension import sources_of
 from plcsim.recorder.replay.replay import Replay
@@ -19,21 +23,39 @@ from plcsim.recorder.replay.why import writers
 from st_types.writers.value_text import value_text
 
 if TYPE_CHECKING:
-    import argparse
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
     from pathlib import Path
 
     from plcsim.core.task import TaskClass
     from plcsim.recorder.bag.head import Head
+    from plcsim.recorder.journal.record import JournalRecord
+
+PLAYER: Final = "ros_play"
+"""Table of the extension that plays the bags of others."""
+
+_PLAYED: Final = ("topic", "clock", "real_clock", "record")
+_RUN: Final = {
+    "for_ns": None,
+    "cycles": None,
+    "report": None,
+    "quiet": False,
+    "stay": False,
+}
+"""Options of ``plcsim run`` that ``plcsim replay`` has not."""
 
 
 def replay(options: argparse.Namespace) -> int:
-    """Repeat the run."""
+    """Repeat the run; play a bag of others."""
     with open_bag(options.bag) as bag:
+        if all(topic.name != HEAD for topic in bag.topics):
+            return _play(options)
+        _refuse(options, "bag of others, which is played and not repeated", _PLAYED)
         head = bag.head()
         _tell_changes(head, options.project)
         application = load(read_project(options.project))
         again = Replay(application, head, bag.records())
+        if sys.stderr.isatty():
+            again.after_cycle.append(_Progress(bag.end_ns - bag.start_ns))
         start_s = time.perf_counter()
         difference = again.run(_until(again, options))
         took_s = time.perf_counter() - start_s
@@ -49,6 +71,51 @@ def replay(options: argparse.Namespace) -> int:
         f"{ran_ns / 1e9 / took_s:.0f} times as fast"
     )
     return ExitCode.DONE
+
+
+class _Progress:
+    """Tells on the terminal how far a replay is, once a second.
+
+    Args:
+        whole_ns: what was recorded.
+    """
+
+    def __init__(self, whole_ns: int) -> None:
+        self._whole = format_duration(whole_ns)
+        self._next_s = time.monotonic() + 1
+        self._first_ns: int | None = None
+
+    def __call__(self, _task_class: TaskClass, record: JournalRecord) -> None:
+        """Tell it, where it is time."""
+        if self._first_ns is None:
+            self._first_ns = record.time_ns
+        if time.monotonic() >= self._next_s:
+            self._next_s += 1
+            done_s = (record.time_ns - self._first_ns) // 1_000_000_000
+            sys.stderr.write(f"\r\x1b[K{done_s} s of {self._whole}\r")
+
+
+def _play(options: argparse.Namespace) -> int:
+    """Run the project, and let it hear the messages of a bag that plcsim has not recorded."""
+    _refuse(options, "recording of plcsim, which is repeated", ("to_cycle", "task_class"))
+    if PLAYER not in extensions():
+        raise RecordingError(f"{options.bag}: no installed package plays the bags of others")
+    keys = {"bag": str(options.bag.resolve()), "topics": options.topic, "clock": options.clock}
+    given: dict[str, Any] = {PLAYER: keys, "ros": {}, **recording(options.record)}
+    run = {"virtual": not options.real_clock, "project": options.project}
+    return run_project(argparse.Namespace(**_RUN, **run), read_project(options.project, given))
+
+
+def _refuse(options: argparse.Namespace, meant: str, names: Collection[str]) -> None:
+    """Refuse options that are for another kind of bag.
+
+    Raises:
+        RecordingError: one is given.
+    """
+    for name in names:
+        if getattr(options, name):
+            option = "--class" if name == "task_class" else f"--{name.replace('_', '-')}"
+            raise RecordingError(f"{option} is for a {meant}; {options.bag} is another one")
 
 
 def why(options: argparse.Namespace) -> int:

@@ -6,7 +6,13 @@ import json
 import struct
 from typing import TYPE_CHECKING, Final
 
-from plcsim.recorder.journal.record import JournalStore, packet_head, record_head
+from plcsim.recorder.journal.record import (
+    HAND_IN,
+    JournalStore,
+    hand_in_data,
+    packet_head,
+    record_head,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,6 +67,10 @@ class Journal:
     def wrote(self, address: int, data: bytes) -> None:
         """Note a store from outside, or with address 0 a new list of forced tags."""
         self._writes += JournalStore(self._latches, address, data).to_bytes()
+
+    def handed_in(self, node: str, topic: str, body: bytes) -> None:
+        """Note a message that was given to a node past the network."""
+        self.wrote(HAND_IN, hand_in_data(node, topic, body))
 
     def asked_to_end(self, ending: Ending) -> None:
         """Note that the run shall end after this cycle: from here on nothing preempts it."""

@@ -49,10 +49,11 @@ class RecordedNetwork:
 
     Attributes:
         answers: those of the cycle so far.
+        recorded: the network itself, for what must not stand in the journal.
     """
 
     def __init__(self, network: Network, journal: Journal) -> None:
-        self._network = network
+        self.recorded = self._network = network
         self.answers = journal.network
         self._count = 0
         self._made: dict[Socket, RecordedSocket] = {}

@@ -118,7 +118,7 @@ class JournalStore(NamedTuple):
         latch: in which LATCH since the last record, from 1; 0 between two cycles. Of an ending, how
             many answers the clock had given since.
         address: of the bytes; 0 where ``data`` is the whole list of forced tags, and the values of
-            `plcsim.core.control.Ending` where a run was asked to end.
+            `plcsim.core.control.Ending` where a run was asked to end, and `HAND_IN`.
         data: the bytes.
     """
 
@@ -129,6 +129,21 @@ class JournalStore(NamedTuple):
     def to_bytes(self) -> bytes:
         """Return the entry as `entries` reads it."""
         return _ENTRY.pack(self.latch, self.address, len(self.data)) + self.data
+
+
+HAND_IN: Final = 16
+"""Address of an entry for a message that was handed to a node, see `hand_in_data`."""
+
+
+def hand_in_data(node: str, topic: str, body: bytes) -> bytes:
+    """Return the data of an entry at `HAND_IN`."""
+    return b"\0".join((node.encode(), topic.encode(), body))
+
+
+def handed_in(data: bytes) -> tuple[str, str, bytes]:
+    """Return node, topic and message of `hand_in_data`."""
+    node, topic, body = data.split(b"\0", 2)
+    return node.decode(), topic.decode(), body
 
 
 ENDINGS: Final = {each.value: each for each in Ending}

@@ -45,6 +45,7 @@ class Tape:
         controller.follow_steps(self._stepped)
         controller.follow_endings(journal.asked_to_end)
         controller.context.traffic.followers.append(journal.crossed)
+        controller.context.traffic.hand_in_followers.append(journal.handed_in)
 
     def _latch(self, _task_class: TaskClass) -> None:
         self._journal.latched()

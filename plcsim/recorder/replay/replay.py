@@ -20,7 +20,7 @@ from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.clock import ReplayClock
 from plcsim.recorder.journal.feed import Diverged, EndOfRecord, Feed
 from plcsim.recorder.journal.network import ReplayNetwork
-from plcsim.recorder.journal.record import CYCLE, LIMITS
+from plcsim.recorder.journal.record import CYCLE, HAND_IN, LIMITS, handed_in
 from plcsim.shared_image.directory import describe_type
 
 if TYPE_CHECKING:
@@ -157,7 +157,9 @@ class Replay:
 
     def _write(self, entries: Iterable[JournalStore]) -> None:
         for entry in entries:
-            if entry.address:
+            if entry.address == HAND_IN:
+                self.controller.context.traffic.hand_in(*handed_in(entry.data))
+            elif entry.address:
                 self.controller.memory.write(entry.address, entry.data)
             else:
                 self._force(entry.data)

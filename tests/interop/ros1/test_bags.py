@@ -68,21 +68,15 @@ def test_a_bag_of_a_killed_recorder_is_reindexed(ros: Ros, tmp_path: Path) -> No
 
     ours = recovered(active, tmp_path / "ours.bag")
     ros.tool("rosbag", "reindex", str(left))
-    theirs = ros.tool("rosbag", "info", str(left))
-    assert cycles_in(ros.tool("rosbag", "info", str(tmp_path / "ours.bag"))) == cycles_in(theirs)
-    assert cycles_in(theirs) > 100
-    assert ours > cycles_in(theirs)
+    theirs = counts(ros, Path(left))["/plcsim/cycles"]
+    assert counts(ros, tmp_path / "ours.bag")["/plcsim/cycles"] == theirs
+    assert ours > theirs > 100
 
 
 def recovered(active: Path, target: Path) -> int:
     """Return how many messages are in complete chunks of a bag that is being written."""
     target.unlink(missing_ok=True)
     return reindex(active, target).messages
-
-
-def cycles_in(info: str) -> int:
-    found = re.search(r"/plcsim/cycles +(\d+) msgs", info)
-    return int(found[1]) if found else 0
 
 
 def test_rosbag_and_we_find_the_same_in_a_bag_that_is_cut(ros: Ros, tmp_path: Path) -> None:
@@ -106,20 +100,49 @@ def test_rosbag_and_we_find_the_same_in_a_bag_that_is_cut(ros: Ros, tmp_path: Pa
     bag.close()
 
 
-def test_we_play_what_rosbag_has_recorded(ros: Ros, roscpp: Path, tmp_path: Path) -> None:
+@pytest.fixture
+def theirs(ros: Ros, roscpp: Path, tmp_path: Path) -> Path:
+    """Return a bag that rosbag recorded of a roscpp and of a rospy talker."""
     bag = tmp_path / "theirs.bag"
-    peer = ros.start([str(roscpp / "talker")])
-    ros.until(lambda: "/chatter" in ros.tool("rostopic", "list"))
-    ros.tool("rosbag", "record", "-O", str(bag), "--duration=3", "/chatter", seconds=30)
-    peer.kill()
+    peers = [ros.start([str(roscpp / "talker")]), ros.rospy("talk", "/words", "")]
+    ros.until(lambda: {"/chatter", "/words"} <= set(ros.tool("rostopic", "list").split()))
+    ros.tool("rosbag", "record", "-O", str(bag), "--duration=3", "/chatter", "/words", seconds=30)
+    for peer in peers:
+        peer.kill()
     deadline = time.monotonic() + 10
     while not bag.exists() and time.monotonic() < deadline:
         time.sleep(0.1)
+    return bag
+
+
+def plcsim_replay_plays(ros: Ros, theirs: Path, out: Path, *options: str) -> None:
+    """Play the bag by ``plcsim replay``, and repeat what that did."""
+    command = [sys.executable, "-m", "plcsim", "replay"]
+    listener = str(PROGRAMS / "listener")
+    words = [str(theirs), listener, "--record", str(out), "--topic", "/chatter", *options]
+    process = ros.start([*command, *words])
+    ros.until(lambda: not process.is_running, 90)
+    assert counts(ros, out)["/chatter"] == counts(ros, theirs)["/chatter"] > 50, process.text
+
+    again = ros.start([*command, str(out), listener])
+    ros.until(lambda: not again.is_running, 90)
+    assert "cycles repeated exactly" in again.text
+
+
+def counts(ros: Ros, bag: Path) -> dict[str, int]:
+    """Return how many messages rosbag finds of each topic."""
+    found = re.findall(r"(/\S+) +(\d+) msgs", ros.tool("rosbag", "info", str(bag)))
+    return {topic: int(count) for topic, count in found}
+
+
+def test_we_play_what_rosbag_has_recorded(ros: Ros, theirs: Path, tmp_path: Path) -> None:
+    plcsim_replay_plays(ros, theirs, tmp_path / "virtual.bag")
+    plcsim_replay_plays(ros, theirs, tmp_path / "real.bag", "--real-clock")
 
     plc = Plc(project_target(PROGRAMS / "listener"))
     network = VirtualRos(plc)
     plc.boot()
-    played = network.replay(bag)
+    played = network.replay(theirs)
     plc.run("100ms")
 
     assert played > 50

@@ -7,6 +7,8 @@ import pytest
 from plcsim.cli.main import main
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
+from plcsim.recorder.bag.files import create
+from plcsim.recorder.bag.types import text_message
 
 MAIN = """
 from plcsim import Program
@@ -147,3 +149,16 @@ def test_run_records_into_the_file_that_is_named(
     assert file.exists()
     assert main(words) == 1
     assert "exists already" in capsys.readouterr().err
+
+
+def test_replay_refuses_options_of_the_other_kind_of_bag(
+    project: Path, bag: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    field = create(tmp_path / "field.bag")
+    field.write(field.add("/chatter", "std_msgs/msg/String"), 1, text_message("hello"))
+    field.close()
+
+    assert main(["replay", bag, str(project), "--clock"]) == 1
+    assert "--clock is for a bag of others, which is played" in capsys.readouterr().err
+    assert main(["replay", str(tmp_path / "field.bag"), str(project), "--to-cycle", "5"]) == 1
+    assert "--to-cycle is for a recording of plcsim" in capsys.readouterr().err
