@@ -57,7 +57,7 @@ class Talk:
             return
         if not self.period_ns:
             room = min(20_000, 8 * (1 << 20) // max(1, len(self.body)))
-            for owner in publisher.links.values():
+            for owner in list(publisher.links.values()):  # sending may end a link
                 for _ in range(room - len(owner.queue)):
                     publisher.send_raw(self.body)
             return

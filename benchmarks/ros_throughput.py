@@ -1,13 +1,15 @@
-"""Messages a second, flat out, ours beside rospy's and roscpp's in the same run.
+"""Messages a second, flat out, ours beside rospy's and roscpp's in the same run; and a ping-pong.
 
     python benchmarks/ros_throughput.py [--seconds 3] [--rounds 3] [--json FILE]
 
 Each pair of publisher and subscriber is two processes on the loopback with a master of ours; the
-subscriber counts what it hears in a span of time. "ours" runs unpaced, without a scan. rospy is
+subscriber counts what it hears in a span of time. "ours" runs unpaced, without a scan; "ours, 1 ms"
+and "ours, 10 ms" run on the grid of a task class, with the default limits of a step. rospy is
 measured with its synchronous publisher (queue_size=None), its fastest; roscpp (ros_roscpp.cpp,
 compiled here) with as many messages on their way as it takes without dropping any. The pairs
 alternate, a round of each after the other: rates are medians of the rounds, ratios medians of each
-round's ratio. What is not installed is left out, and its targets with it.
+round's ratio. In the ping-pong rospy answers each String at once. What is not installed is left
+out, and its targets with it.
 """
 
 from __future__ import annotations
@@ -41,10 +43,15 @@ from crosnode.transport.budget import UNPACED
 HERE = Path(__file__).parent
 PYTHON = "/usr/bin/python3"
 SIZES = {"String 16 B": (STRING, 16), "1 MB": (BYTES, 1_000_000)}
-SHARES = {"String 16 B": 0.5, "1 MB": 1.0}
+SHARES = {"String 16 B": 1.0, "1 MB": 1.0}
 """What ours -> ours shall reach of rospy -> rospy."""
 
 RIVALS = ("rospy", "roscpp")
+SCANS = {"ours, 1 ms": 1_000_000, "ours, 10 ms": 10_000_000}
+"""Nanoseconds of cycle of subscribers in a scan."""
+
+PING_PONG_MS = 1.2
+"""What a round trip of a scan of 1 ms shall take."""
 
 ROSPY = r"""
 import sys, time, rospy
@@ -52,7 +59,11 @@ from std_msgs.msg import String, UInt8MultiArray
 act, kind, size, seconds = sys.argv[1], sys.argv[2], int(sys.argv[3]), float(sys.argv[4])
 cls = String if kind == "String" else UInt8MultiArray
 rospy.init_node("rospy_" + act)
-if act == "talk":
+if act == "pong":
+    publisher = rospy.Publisher("/in", cls, queue_size=None, tcp_nodelay=True)
+    rospy.Subscriber("/out", cls, publisher.publish, tcp_nodelay=True)
+    rospy.spin()
+elif act == "talk":
     publisher = rospy.Publisher("/in", cls, queue_size=None, tcp_nodelay=True)
     message = cls(data="x" * size if cls is String else bytes(size))
     while publisher.get_num_connections() == 0:
@@ -138,13 +149,24 @@ class Rival:
         return float(output.split("RATE")[1])
 
 
-def our_rate(port: int, kind: str, seconds: float) -> float:
-    """Count what a subscriber of ours hears, decoded, in a span of time."""
-    context, node = make_node("measured", port, step=UNPACED)
+def rest(release_ns: int, cycle_ns: int) -> int:
+    """Wait for the next release of a scan, as it does; return which."""
+    while release_ns <= time.monotonic_ns():  # as after a missed grid point
+        release_ns += cycle_ns
+    time.sleep(max(0, release_ns - time.monotonic_ns()) / 1e9)
+    return release_ns
+
+
+def our_rate(port: int, kind: str, seconds: float, cycle_ns: int = 0) -> float:
+    """Count what a subscriber of ours hears, decoded, in a span of time; in a scan with a cycle."""
+    limits = {} if cycle_ns else {"step": UNPACED}
+    context, node = make_node("measured", port, **limits)
     subscriber = node.register_subscriber("/in", kind, queue_size=100_000)
     count, before, start_ns, end_ns = 0, 0, 0, 0
+    release_ns = time.monotonic_ns()
     while True:
-        now_ns = context.release_ns = time.monotonic_ns()
+        release_ns = rest(release_ns, cycle_ns) if cycle_ns else time.monotonic_ns()
+        now_ns = context.release_ns = release_ns
         node.do_events_loop()
         while subscriber.pop() is not None:
             count += 1
@@ -157,6 +179,26 @@ def our_rate(port: int, kind: str, seconds: float) -> float:
             break
     node.destroy(steps=200)
     return (count - before) / ((now_ns - start_ns) / 1e9)
+
+
+def ping_pong(port: int, cycle_ns: int, count: int) -> list[int]:
+    """Return nanoseconds from a send to the answer in hand, of pings from a scan, one by one."""
+    context, node = make_node("ping", port)
+    publisher = node.register_publisher("/out", STRING)
+    subscriber = node.register_subscriber("/in", STRING)
+    release_ns, sent_ns = time.monotonic_ns(), 0
+    took: list[int] = []
+    while len(took) < count:
+        release_ns = context.release_ns = rest(release_ns, cycle_ns)
+        node.do_events_loop()
+        heard = subscriber.pop() is not None
+        if heard:
+            took.append(time.monotonic_ns() - sent_ns)
+        if publisher.subscribers and subscriber.publishers and (heard or not sent_ns):
+            sent_ns = time.monotonic_ns()
+            publisher.send(publisher.new(data="ping"))
+    node.destroy(steps=200)
+    return took[count // 10 :]  # past the start
 
 
 def await_master(port: int) -> None:
@@ -180,6 +222,9 @@ class Measurement:
         self.pairs = [Pair("ours", "ours")]
         for name in rivals:
             self.pairs += [Pair(name, name), Pair(name, "ours"), Pair("ours", name)]
+        talkers = "rospy" if "rospy" in rivals else "ours"
+        self.pairs += [Pair(talkers, scan) for scan in SCANS]
+        self.ping_pong_ns: list[int] = []
         self._rivals = rivals
         self._seconds = seconds
 
@@ -188,6 +233,21 @@ class Measurement:
         for name, (kind, size) in SIZES.items():
             for pair in self.pairs:
                 rates.setdefault((name, pair), []).append(self._rate(pair, kind, size))
+        if "rospy" in self._rivals:
+            self._ping_pong()
+
+    def _ping_pong(self) -> None:
+        port = free_port()
+        master = [sys.executable, str(HERE / "_ros_peer.py"), str(port), "idle", "0"]
+        processes: list[subprocess.Popen[Any]] = [subprocess.Popen(master)]
+        try:
+            await_master(port)
+            processes.append(self._rivals["rospy"].start(port, "pong", STRING, 16))
+            self.ping_pong_ns += ping_pong(port, 1_000_000, 1_000)
+        finally:
+            for process in processes:
+                process.kill()
+                process.wait()
 
     def _rate(self, pair: Pair, kind: str, size: int) -> float:
         port = free_port()
@@ -198,8 +258,8 @@ class Measurement:
             await_master(port)
             if pair.publisher != "ours":
                 processes.append(self._rivals[pair.publisher].start(port, "talk", kind, size))
-            if pair.subscriber == "ours":
-                return our_rate(port, kind, self._seconds)
+            if pair.subscriber.startswith("ours"):
+                return our_rate(port, kind, self._seconds, SCANS.get(pair.subscriber, 0))
             return self._rivals[pair.subscriber].rate(port, kind, size, self._seconds)
         finally:
             for process in processes:
@@ -259,6 +319,9 @@ def main() -> int:
     hosts.append(print_machine("after"))
     print_rates(rates)
     targets = found_targets(rates)
+    if took := sorted(measurement.ping_pong_ns):
+        median_ms = took[len(took) // 2] / 1e6
+        targets.append(Target("ping-pong, scan of 1 ms: median", median_ms, PING_PONG_MS, "ms"))
     print_targets(targets)
     figures = [[name, *pair, rounds] for (name, pair), rounds in rates.items()]
     write_json(options.json, hosts, targets, rates=figures)

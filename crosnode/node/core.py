@@ -65,7 +65,8 @@ class NodeCore:
     def flush(self, link: PeerLink) -> None:
         """Write what waits in a link now, as far as the budget of the step allows."""
         link.wake()
-        if self.budget.work >= TRANSFER_WORK:
+        if self.budget.polls > 0 and self.budget.work >= TRANSFER_WORK:
+            self.budget.polls -= 1
             link.flush(self.now_ns, self.budget)
 
     def next_number(self) -> int:

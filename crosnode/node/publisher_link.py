@@ -6,13 +6,15 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
 from crosnode.node.status import StatusKind
-from crosnode.tcpros import HeaderReceived, MessageReceived, Refused, SubscriberConnection
+from crosnode.tcpros import HeaderReceived, MessagesReceived, Refused, SubscriberConnection
 from crosnode.transport.connection import Failed
 from crosnode.transport.transitions import Transitions, next_state
 from crosnode.xmlrpc.api_caller import ApiCall, CallState
 from plcsim.core.backoff import Backoff
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from crosnode.node.core import NodeCore
     from crosnode.tcpros import TypeInfo
     from crosnode.transport.budget import StepBudget
@@ -84,8 +86,8 @@ class Receiver(Protocol):
     def type_info(self) -> TypeInfo:
         """Return what the header says of the type."""
 
-    def receive(self, body: bytes | memoryview, publisher: PublisherLink) -> None:
-        """Take a message."""
+    def receive(self, bodies: Sequence[bytes | memoryview], publisher: PublisherLink) -> None:
+        """Take messages."""
 
 
 class PublisherLink:
@@ -176,9 +178,9 @@ class PublisherLink:
 
     def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
         """Hand messages to the receiver."""
-        if isinstance(event, MessageReceived):
-            self.received += 1
-            self._receiver.receive(event.body, self)
+        if isinstance(event, MessagesReceived):
+            self.received += len(event.bodies)
+            self._receiver.receive(event.bodies, self)
         elif isinstance(event, HeaderReceived) and self.state is PublisherState.CONNECTING:
             self._move(PublisherTrigger.ACCEPTED)
             self._backoff.succeeded()

@@ -7,7 +7,10 @@ pops.
 from __future__ import annotations
 
 from collections import deque
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 T = TypeVar("T")
 
@@ -43,6 +46,14 @@ class DropOldestQueue(Generic[T]):
             self._entries.popleft()
             self.dropped += 1
         self._entries.append(entry)
+
+    def extend(self, entries: Sequence[T]) -> None:
+        """Add entries."""
+        self.pushed += len(entries)
+        self._entries.extend(entries)
+        while len(self._entries) > self.length:
+            self._entries.popleft()
+            self.dropped += 1
 
     def pop(self) -> T | None:
         """Return the oldest entry and take it away, None where there is none."""

@@ -12,6 +12,8 @@ from crosnode.node.status import StatusKind
 from crosnode.tcpros import TypeInfo
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from crosnode.messages import Message, MessageType
     from crosnode.node.border import Border
     from crosnode.node.core import NodeCore
@@ -94,10 +96,11 @@ class Subscriber:
         packet = self.queue.pop()
         return packet.body if packet else None
 
-    def receive(self, body: bytes | memoryview, publisher: PublisherLink) -> None:
-        """Put a message into the program's queue."""
-        self._border.cross(body)
-        self.queue.push(QueuedMessage(body, publisher))
+    def receive(self, bodies: Sequence[bytes | memoryview], publisher: PublisherLink) -> None:
+        """Put messages into the program's queue."""
+        for body in bodies:
+            self._border.cross(body)
+        self.queue.extend([QueuedMessage(body, publisher) for body in bodies])
 
     def take(self, body: bytes) -> None:
         """Put a message into the program's queue that came past the network, from a recording."""

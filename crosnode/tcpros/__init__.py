@@ -2,7 +2,7 @@
 
 from crosnode.tcpros.connection import (
     HeaderReceived,
-    MessageReceived,
+    MessagesReceived,
     Refused,
     ReplyReceived,
     RequestReceived,
@@ -17,7 +17,7 @@ from crosnode.tcpros.topic import PublisherConnection, SubscriberConnection
 __all__ = [
     "ANY",
     "HeaderReceived",
-    "MessageReceived",
+    "MessagesReceived",
     "PublisherConnection",
     "Refused",
     "ReplyReceived",

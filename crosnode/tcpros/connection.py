@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
-from crosnode.transport.budget import CONNECTION_WORK, MESSAGE_WORK
+from crosnode.transport.budget import CONNECTION_WORK, REQUEST_WORK
 from crosnode.transport.connection import (
     ConnectionEvent,
     ConnectionState,
@@ -19,7 +19,7 @@ from crosnode.transport.connection import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Generator, Mapping
+    from collections.abc import Generator, Mapping, Sequence
 
 MIB: Final = 1 << 20
 
@@ -54,10 +54,15 @@ class HeaderReceived(ConnectionEvent):
 
 
 @dataclass(frozen=True, slots=True)
-class MessageReceived(ConnectionEvent):
-    """A message of a topic; ``body`` may be empty."""
+class MessagesReceived(ConnectionEvent):
+    """Messages of a topic, at least one; a body may be empty."""
 
-    body: bytes | memoryview
+    bodies: Sequence[bytes | memoryview]
+
+    @property
+    def count(self) -> int:
+        """Each message has its price."""
+        return len(self.bodies)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +96,9 @@ class TcprosConnection(ProtocolConnection):
     """
 
     IS_PARSED: ClassVar[bool] = False
+    MESSAGE_PRICE: ClassVar[int] = REQUEST_WORK
+    """What each event behind the header costs of the work of a step."""
+
     PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
         {ConnectionState.DECISION, ConnectionState.CLOSED}
     )
@@ -107,7 +115,7 @@ class TcprosConnection(ProtocolConnection):
     def event_price(self) -> int:
         """A header is the price of a new connection."""
         is_new = self.state is ConnectionState.HANDSHAKE
-        return CONNECTION_WORK if is_new else MESSAGE_WORK
+        return CONNECTION_WORK if is_new else self.MESSAGE_PRICE
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""

@@ -163,6 +163,26 @@ class ByteReader:
         size = yield from self._length(limit, what)
         return (yield from self.large(size))
 
+    def take_blocks(self, blocks: list[bytes | memoryview], most: int, limit: int) -> None:
+        """Take the blocks that are there whole, without a stop for each.
+
+        Args:
+            blocks: gets them.
+            most: blocks to take.
+            limit: bytes; a longer block is left.
+        """
+        data = bytes(self._buffer)
+        end, at = len(data), 0
+        while most and end - at >= _LENGTH.size:
+            begin = at + _LENGTH.size
+            (size,) = _LENGTH.unpack_from(data, at)
+            if size > limit or begin + size > end:
+                break
+            at = begin + size
+            blocks.append(data[begin:at])
+            most -= 1
+        del self._buffer[:at]
+
     def block(self, limit: int, what: str) -> Generator[None, None, bytes]:
         """Take a block: four bytes of length, little-endian, then as many bytes.
 

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from crosnode.tcpros.connection import (
     ClientConnection,
-    MessageReceived,
+    MessagesReceived,
     ServerConnection,
     TcprosLimits,
     TypeInfo,
 )
 from crosnode.tcpros.reader import length_of
+from crosnode.transport.budget import MESSAGE_WORK
 from crosnode.transport.connection import Closed, ConnectionEvent, ConnectionState, Table, Trigger
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ class PublisherConnection(ServerConnection):
 
 
 class SubscriberConnection(ClientConnection):
-    """A subscriber's end. Events: HeaderReceived or Refused, MessageReceived, Closed or Failed.
+    """A subscriber's end. Events: HeaderReceived or Refused, MessagesReceived, Closed or Failed.
 
     Args:
         topic: resolved name of the topic.
@@ -105,6 +106,7 @@ class SubscriberConnection(ClientConnection):
     """
 
     TABLE: ClassVar[Table] = SUBSCRIBER
+    MESSAGE_PRICE: ClassVar[int] = MESSAGE_WORK
 
     def __init__(
         self,
@@ -130,9 +132,12 @@ class SubscriberConnection(ClientConnection):
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_answer(self._md5sum))
         while (yield from self._reader.more()):
-            body = yield from self._read_message()
+            bodies: list[bytes | memoryview] = []
+            self._reader.take_blocks(bodies, self.most, self.limits.max_message)
+            if not bodies:
+                bodies.append((yield from self._read_message()))
             self._move(Trigger.MESSAGE)
-            yield MessageReceived(body)
-            del body  # its memory may be used again
+            yield MessagesReceived(bodies)
+            del bodies  # their memory may be used again
         self.close()
         yield Closed()

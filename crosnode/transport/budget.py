@@ -15,8 +15,11 @@ POLL_WORK: Final = 1_024
 TRANSFER_WORK: Final = 8_192
 """Price of a read that gave bytes and of a write, beside the bytes."""
 
-MESSAGE_WORK: Final = 4_096
-"""Price of a message, a request or a reply, beside its bytes."""
+MESSAGE_WORK: Final = 2_048
+"""Price of a message of a topic that comes in, beside its bytes."""
+
+REQUEST_WORK: Final = 4_096
+"""Price of a request or a reply of a service, beside its bytes."""
 
 CONNECTION_WORK: Final = 49_152
 """Price of a connection that is made, taken, or ended, and of its header."""
@@ -38,7 +41,7 @@ class StepLimits(NamedTuple):
         messages: messages, requests, replies and calls taken from what was read.
         accepts: new connections taken.
         calls: connections started: to publishers, services and other nodes.
-        polls: connections looked at.
+        polls: connections looked at, and messages written outside of a look.
         work: all of it together, at the prices above.
     """
 
@@ -54,7 +57,7 @@ class StepLimits(NamedTuple):
 
 UNPACED = StepLimits(
     bytes_in=4 << 20, bytes_out=4 << 20, bytes_parsed=1 << 20, messages=10_000, accepts=100,
-    calls=100, polls=1_000, work=64 << 20,
+    calls=100, polls=200, work=64 << 20,
 )  # fmt: skip
 """Limits of a node that owns its process, such as a benchmark, where a long step hurts nobody."""
 

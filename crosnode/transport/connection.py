@@ -55,6 +55,11 @@ class ConnectionEvent:
 
     __slots__ = ()
 
+    @property
+    def count(self) -> int:
+        """How often the event has its price."""
+        return 1
+
 
 @dataclass(frozen=True, slots=True)
 class Failed(ConnectionEvent):
@@ -83,6 +88,7 @@ class ProtocolConnection(ABC):
 
     Attributes:
         state: of the role's table.
+        most: messages that the next event may hold at most.
         outbox: what is to be written, in order; ``data_to_send`` takes it.
     """
 
@@ -95,6 +101,7 @@ class ProtocolConnection(ABC):
 
     def __init__(self, state: ConnectionState, timeout_ns: int, now_ns: int) -> None:
         self.state = state
+        self.most = 1
         self._timeout_ns = timeout_ns
         self._since_ns = now_ns
         self._is_drained = True

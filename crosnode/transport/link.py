@@ -259,11 +259,12 @@ class PeerLink:
     def _take_events(self, now_ns: int, budget: StepBudget) -> None:
         connection = self.connection
         while budget.messages > 0 and budget.affords(price := connection.event_price):
+            connection.most = min(budget.messages, max(1, budget.work // price))
             event = connection.next_event(now_ns)
             if event is None:
                 return
-            budget.messages -= 1
-            budget.work -= price
+            budget.messages -= event.count
+            budget.work -= event.count * price
             if not isinstance(event, Progress):
                 self._handle(event, now_ns)
 

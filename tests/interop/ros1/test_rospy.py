@@ -13,7 +13,7 @@ from crosnode.messages import MessageTypes
 from crosnode.tcpros import (
     ANY,
     HeaderReceived,
-    MessageReceived,
+    MessagesReceived,
     PublisherConnection,
     Refused,
     ReplyReceived,
@@ -158,8 +158,8 @@ def test_we_hear_a_rospy_talker(uri: str, peer: Peer) -> None:
             assert header.fields["md5sum"] == STRING.md5sum
             assert header.fields["latching"] == "1"
             event = shell.next_event(connection, sock)
-            assert isinstance(event, MessageReceived)
-            assert STRING.decode(event.body) == STRING.new(data="hello " * 300)
+            assert isinstance(event, MessagesReceived)
+            assert STRING.decode(event.bodies[0]) == STRING.new(data="hello " * 300)
     connection, sock = subscribe(publisher, STRING_INFO._replace(md5sum="0" * 32))
     with sock:
         event = shell.next_event(connection, sock)

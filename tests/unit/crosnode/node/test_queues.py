@@ -18,6 +18,18 @@ def test_the_newest_entries_stay(length: int, entries: list[int]) -> None:
     assert queue.pushed == len(entries)
 
 
+@given(st.lists(st.lists(st.integers())), st.integers(1, 10))
+def test_many_entries_at_once_are_as_one_by_one(batches: list[list[int]], length: int) -> None:
+    one: DropOldestQueue[int] = DropOldestQueue(length)
+    many: DropOldestQueue[int] = DropOldestQueue(length)
+    for batch in batches:
+        many.extend(batch)
+        for entry in batch:
+            one.push(entry)
+    assert (many.pushed, many.dropped, len(many)) == (one.pushed, one.dropped, len(one))
+    assert [many.pop() for _ in range(length)] == [one.pop() for _ in range(length)]
+
+
 def test_release_empties_the_queue() -> None:
     queue: DropOldestQueue[int] = DropOldestQueue(2)
     queue.push(1)

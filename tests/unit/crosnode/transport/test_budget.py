@@ -5,13 +5,14 @@ from crosnode.transport.budget import (
     CALL_WORK,
     CONNECTION_WORK,
     MESSAGE_WORK,
+    REQUEST_WORK,
     UNPACED,
     XMLRPC_WORK,
     StepBudget,
     StepLimits,
 )
 
-PRICES = (MESSAGE_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK)
+PRICES = (MESSAGE_WORK, REQUEST_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK)
 
 
 def test_a_budget_starts_with_all_limits() -> None:

@@ -81,7 +81,7 @@ def test_paused_states_want_no_data() -> None:
 
 def test_bytes_are_given_once() -> None:
     connection = example()
-    connection._outbox += [b"a", b"b"]
+    connection.outbox += [b"a", b"b"]
     assert connection.data_to_send() == [b"a", b"b"]
     assert connection.data_to_send() == []
 
