@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 from crosnode.errors import CrosnodeError, MessageValueError
 from crosnode.node import StatusKind
 from crosnode.node.publisher import printable
-from crosnode.plc.bridge_services import FollowedParameter, TagService
+from crosnode.plc.bridge_services import CalledService, FollowedParameter, TagService
 from crosnode.plc.bridge_topics import BridgeStatus, Incoming, Outgoing
 from crosnode.plc.project import make_node, surroundings
 from plcsim.core.errors import ConfigurationError, Findings, TagError
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from crosnode.node import CrosNode, Status
     from crosnode.plc.bridge_topics import StatusChange
     from crosnode.plc.settings import (
+        CallEntry,
         ParameterEntry,
         Publication,
         ServiceEntry,
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
 
 T = TypeVar("T")
-E = TypeVar("E", "Publication", "Subscription", "ParameterEntry", "ServiceEntry")
+E = TypeVar("E", "Publication", "Subscription", "ParameterEntry", "ServiceEntry", "CallEntry")
 
 NEWS: Final = {
     StatusKind.MASTER_FOUND: Severity.INFORMATION,
@@ -79,9 +80,10 @@ class Bridge:
             findings, FollowedParameter, "parameters", settings.table.parameters
         )
         self._services = self._made(findings, TagService, "services", settings.table.services)
+        self._calls = self._made(findings, CalledService, "calls", settings.table.calls)
         findings.check()
-        self._takers: list[Incoming | FollowedParameter | TagService]
-        self._takers = [*self._in, *self._params, *self._services]
+        self._takers: list[Incoming | FollowedParameter | TagService | CalledService]
+        self._takers = [*self._in, *self._params, *self._services, *self._calls]
 
     def _made(
         self,
@@ -114,6 +116,8 @@ class Bridge:
         """Send the tags that are due, and answer the calls that are done."""
         for service in self._services:
             self._checked(service.name, service.answer)
+        for called in self._calls:
+            self._checked(called.name, called.call)
         for outgoing in self._out:
             self._checked(outgoing.name, lambda each=outgoing: each.send(release_ns))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, Generic, NamedTuple, TypeVar
 
 from crosnode.errors import MessageValueError
 from crosnode.messages import Time
@@ -55,23 +55,27 @@ class StatusChange(NamedTuple):
     text: str
 
 
-class StatusTag:
+S = TypeVar("S", bound=IntEnum)
+
+
+class StatusTag(Generic[S]):
     """Tells a tag how an entry does, where one is named.
 
     Args:
         tags: of the controller.
         path: of the tag, None for none.
+        first: status before anything is told; the tag has its number, 0, by itself.
 
     Raises:
-        ConfigurationError: the tag cannot hold the numbers of `BridgeStatus`.
+        ConfigurationError: the tag cannot hold the numbers 0 to 3.
         TagError: there is no such tag.
 
     Attributes:
         status: told last.
     """
 
-    def __init__(self, tags: TagTable, path: str | None) -> None:
-        self.status = BridgeStatus.NONE
+    def __init__(self, tags: TagTable, path: str | None, first: S) -> None:
+        self.status = first
         self._tags = tags
         self._tag = tags.find(path) if path else None
         if self._tag:
@@ -79,7 +83,7 @@ class StatusTag:
             if data_type is BOOL or not _holds(data_type, BridgeStatus.CUT):
                 raise ConfigurationError(f"status: tag {path} is {data_type}, which holds no 0..3")
 
-    def tell(self, status: BridgeStatus) -> bool:
+    def tell(self, status: S) -> bool:
         """Write a status; return whether it is another one."""
         is_new, self.status = status is not self.status, status
         if self._tag and is_new:
@@ -118,7 +122,7 @@ class Outgoing:
         data_type = self._tag.data_type
         surroundings = ConversionContext(node.types, Counter())
         self._conversion = tag_conversion(surroundings, found, data_type, self._tag.path)
-        self._status = StatusTag(controller.tags, entry.status)
+        self._status = StatusTag(controller.tags, entry.status, BridgeStatus.NONE)
         self._node = node
         self._is_stamped = _needs_stamp(self._publisher, data_type)
         self._period = Period(entry.every_ns) if entry.every_ns else None
@@ -187,7 +191,7 @@ class Incoming:
         self._tags = controller.tags
         self._tag = controller.tags.find(entry.tag)
         self._timeout_ns = entry.timeout_ns
-        self._status = StatusTag(controller.tags, entry.status)
+        self._status = StatusTag(controller.tags, entry.status, BridgeStatus.NONE)
         self._age = _age_tag(controller.tags, entry.age)
         self._controller = controller
         self._since_ns = controller.context.release_ns

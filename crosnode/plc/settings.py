@@ -127,6 +127,27 @@ class ServiceEntry:
 
 
 @settings
+class CallEntry:
+    """An entry of [ros.calls]: a service of others that a program calls by tags.
+
+    Attributes:
+        type_name: ``pkg/Name``.
+        call: path of a BOOL tag that the program sets; it is reset when the call is over.
+        request: path of the tag that is the request, None for one of defaults.
+        response: path of the tag that takes the response, None where nobody wants it.
+        status: path of a tag that is told what came of it (`CallStatus`).
+        timeout_ns: nanoseconds after which a call has failed.
+    """
+
+    type_name: Annotated[str, Key("type")]
+    call: str
+    request: str | None = None
+    response: str | None = None
+    status: str | None = None
+    timeout_ns: Annotated[int, Duration(minimum_ns=1)] = 5_000_000_000
+
+
+@settings
 class StepTable:
     """The keys of [ros.step]: bounds of one step of each node, as in `StepLimits`.
 
@@ -180,6 +201,7 @@ class RosTable:
         subscribe: topics to tags, by topic.
         parameters: parameters to tags, by name.
         services: services by tags, by name.
+        calls: services of others that are called by tags, by name.
     """
 
     master: Annotated[str | None, Converted(_master)] = None
@@ -198,11 +220,13 @@ class RosTable:
     subscribe: Mapping[str, Subscription] = field(default_factory=dict)
     parameters: Mapping[str, ParameterEntry] = field(default_factory=dict)
     services: Mapping[str, ServiceEntry] = field(default_factory=dict)
+    calls: Mapping[str, CallEntry] = field(default_factory=dict)
 
     @property
     def has_bridge(self) -> bool:
         """Whether anything goes between tags and ROS without code."""
-        return bool(self.publish or self.subscribe or self.parameters or self.services)
+        tables = (self.publish, self.subscribe, self.parameters, self.services, self.calls)
+        return any(tables)
 
 
 @dataclass(frozen=True)
@@ -274,7 +298,7 @@ def _check(table: Table, keys: RosTable) -> None:
     findings = Findings()
     if fault := _arguments_fault(keys.arguments):
         findings.add(table.error("arguments", fault))
-    for key in ("publish", "subscribe", "parameters", "services"):
+    for key in ("publish", "subscribe", "parameters", "services", "calls"):
         for name in getattr(keys, key):
             try:
                 check_name(name)

@@ -11,6 +11,7 @@ from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, StatusKind
 from crosnode.plc.bridge import is_power_of_two
+from crosnode.plc.bridge_services import CallStatus
 from crosnode.plc.bridge_topics import BridgeStatus
 from crosnode.plc.extension import EXTENSION
 from plcsim.core.clock import VirtualClock
@@ -61,6 +62,10 @@ class Reply(Struct):
     message = var(STRING(20))
 
 
+class Request(Struct):
+    data = var(BOOL)
+
+
 class Plant(Program):
     quality = var(INT)
     age = var(TIME)
@@ -68,6 +73,7 @@ class Plant(Program):
     stamped = var(StampedPlace)
     asked = var(BOOL)
     ignored = var(BOOL)
+    request = var(Request)
     reply = var(Reply)
     count = var(INT)
     level = var(LREAL)
@@ -400,9 +406,68 @@ def test_a_program_that_does_not_answer_in_time_is_told_of_to_the_caller() -> No
     assert rig.tag("plant.ignored") is False
 
 
+def calling(**more: str) -> Rig:
+    """Return a rig whose program calls a service of the peer by tags, and has just called it."""
+    call = {"type": "std_srvs/SetBool", "call": "plant.ignored", "request": "plant.request",
+            "response": "plant.reply", "status": "plant.quality"}  # fmt: skip
+    rig = Rig(calls={"/lamp": call | more})
+    rig.run(200)
+    assert rig.tag("plant.quality") == CallStatus.NONE
+    rig.set("plant.request.data", value=True)
+    return rig
+
+
+def test_a_program_calls_a_service_by_tags() -> None:
+    rig = calling()
+    provider = rig.peer.register_service_provider("/lamp", "std_srvs/SetBool")
+    rig.run(100)
+    for number in range(3):
+        rig.set("plant.ignored", value=True)
+        rig.run(50)
+        assert rig.tag("plant.quality") == CallStatus.RUNNING
+        request = provider.pop()
+        assert request is not None
+        assert request.request.data is True
+        request.respond(success=number != 1, message=f"lit {number}")
+        rig.run(50)
+        assert (rig.tag("plant.quality"), rig.tag("plant.ignored")) == (CallStatus.DONE, False)
+        assert rig.tag("plant.reply") == {"success": number != 1, "message": f"lit {number}"}
+    rig.run(100)
+    assert provider.requests == 3
+
+
+def test_a_call_that_nobody_answers_has_failed() -> None:
+    rig = calling(timeout="300ms")
+    rig.set("plant.ignored", value=True)
+    rig.run(100)
+    assert (rig.tag("plant.quality"), rig.tag("plant.ignored")) == (CallStatus.FAILED, False)
+    provider = rig.peer.register_service_provider("/lamp", "std_srvs/SetBool")
+    rig.run(100)
+    rig.set("plant.ignored", value=True)
+    rig.run(250)
+    assert rig.tag("plant.quality") == CallStatus.RUNNING
+    rig.run(100)
+    assert (rig.tag("plant.quality"), rig.tag("plant.ignored")) == (CallStatus.FAILED, False)
+    assert any("/lamp: no response in time" in line for line in told(rig))
+    late = provider.pop()
+    assert late is not None
+    late.respond(success=True)
+    rig.run(50)
+    assert rig.tag("plant.reply.success") is False
+    rig.set("plant.ignored", value=True)
+    rig.run(50)
+    again = provider.pop()
+    assert again is not None
+    again.respond(success=True)
+    rig.run(50)
+    assert rig.tag("plant.quality") == CallStatus.DONE
+
+
 @pytest.mark.parametrize(
     ("tables", "reason"),
     [
+        ({"calls": {"/s": {"type": "std_srvs/Trigger", "call": "plant.count"}}},
+         "ros.calls./s: call: tag plant.count is INT, not BOOL"),
         ({"subscribe": {"/in": entry("plant.level", "std_msgs/Float64", status="plant.on")}},
          "status: tag plant.on is BOOL, which holds no 0..3"),
         ({"subscribe": {"/in": entry("plant.level", "std_msgs/Float64", age="plant.count")}},
