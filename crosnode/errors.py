@@ -8,6 +8,7 @@
     │   └── DefinitionError          a definition that genmsg would not load, with its line
     ├── MessageValueError            ours: a value that its field cannot hold (also a ValueError)
     ├── InvalidNameError             ours: not a ROS graph name (also a ValueError)
+    ├── TransformError               no transform between two frames (also a LookupError)
     ├── NodeError                the world's: a node cannot start, for it gets no port
     ├── LocalProtocolError           ours: a protocol object used out of turn
     └── RemoteProtocolError          theirs: a peer broke a protocol; its connection ends
@@ -47,6 +48,10 @@ class InvalidNameError(CrosnodeError, ValueError):
 
 class NodeError(CrosnodeError):
     """A node or a master cannot start."""
+
+
+class TransformError(CrosnodeError, LookupError):
+    """There is no transform between two frames, or not at that time."""
 
 
 class LocalProtocolError(CrosnodeError):
