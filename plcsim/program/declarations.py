@@ -41,6 +41,8 @@ class Declarations:
         layout: where its sources lie.
         package: name under which Python finds it.
         languages: that bodies of libraries may be written in.
+        common: what units in the common files declare.
+        dialect: of the common files.
 
     Attributes:
         layout: as above.
@@ -54,8 +56,15 @@ class Declarations:
     """
 
     def __init__(
-        self, layout: SourceLayout, package: str, languages: Sequence[BodyLanguage] = ()
+        self,
+        layout: SourceLayout,
+        package: str,
+        languages: Sequence[BodyLanguage] = (),
+        common: Sequence[DeclarationFile] = (),
+        dialect: Dialect = AUTOMATION_STUDIO,
     ) -> None:
+        self._common = common
+        self._dialect = dialect
         self.layout = layout
         self.folder = layout.folder
         self.package = package
@@ -104,8 +113,9 @@ class Declarations:
         common = self.layout.common
         files = read_declarations(declarations_of(common.files))
         made = self._made_file()
+        files = [*files, *([made] if made else []), *self._common]
         outer = self.catalogue.scopes
-        return Scope(common.name, [*files, *([made] if made else [])], outer, strict=True)
+        return Scope(common.name, files, outer, dialect=self._dialect, strict=True)
 
     def _made_file(self) -> DeclarationFile | None:
         """Return what declares the variables that no file declares, None where there are none."""

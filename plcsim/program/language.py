@@ -32,6 +32,8 @@ class ProgramSource(NamedTuple):
         declarations: of the project.
         scope: what the program declares and sees.
         shared: the global variables of the project.
+        only: of several programs in the files the one that is meant, "" where they are one; what
+            the files declare belongs to the project then.
     """
 
     name: str
@@ -40,6 +42,7 @@ class ProgramSource(NamedTuple):
     declarations: Declarations
     scope: Scope
     shared: DeclaredVariables
+    only: str = ""
 
 
 class ProgramCode(Protocol):

@@ -54,11 +54,14 @@ class ProgramPlace(NamedTuple):
         folder: where it lies.
         own: its files.
         around: the places between the project and it, from the outside in.
+        only: of a PROGRAM that stands among others in the common files, as IEC 61131-3 has it: its
+            name; "" for a program of files of its own.
     """
 
     folder: Path
     own: DeclarationPlace
     around: tuple[DeclarationPlace, ...] = ()
+    only: str = ""
 
 
 class LibraryPlace(NamedTuple):
@@ -107,6 +110,8 @@ class SourceLayout:
         stubs: libraries of which a block without a body is idle, in small letters; "*" for all
             that come without source.
         simulate: rules for blocks of such libraries (`plcsim.library.simulated`), by block.
+        dialect: of its programs in Structured Text, a key of `plcsim.program.loader.DIALECTS`; ""
+            where each program's files tell.
     """
 
     folder: Path
@@ -117,6 +122,7 @@ class SourceLayout:
     c_build: CBuild = PLAIN
     stubs: frozenset[str] = frozenset()
     simulate: Mapping[str, Mapping[str, Value]] = field(default_factory=dict)
+    dialect: str = ""
 
 
 def folder_layout(
@@ -141,8 +147,21 @@ def folder_layout(
 
 
 def program_places(folder: Path, sources: Iterable[str]) -> dict[str, ProgramPlace]:
-    """Return the programs of a project of folders, by the names that plc.toml has for them."""
-    return {source: _program(folder, source) for source in sources}
+    """Return the programs of a project of folders, by the names that plc.toml has for them.
+
+    What is no folder may be a PROGRAM of the .st files that lie in the project's folder itself.
+    """
+    return {
+        source: unit_place(folder, source)
+        if not _is_folder(folder / source) and any(folder.glob("*.[sS][tT]"))
+        else _program(folder, source)
+        for source in sources
+    }
+
+
+def unit_place(folder: Path, name: str) -> ProgramPlace:
+    """Return the place of a PROGRAM among others in the common files."""
+    return ProgramPlace(folder, DeclarationPlace(name, ()), only=name)
 
 
 def outside_libraries(folders: Iterable[Path]) -> tuple[LibraryPlace, ...]:

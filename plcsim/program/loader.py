@@ -23,7 +23,7 @@ from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
 from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
 from plcsim.program.variables import DeclaredVariables, variables_of
-from st_types.resolve.dialect import AUTOMATION_STUDIO
+from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -57,6 +57,9 @@ NOT_THERE: Final = {
     ".sfc": "Sequential Function Chart",
 }
 """Languages of Automation Studio that no language here loads, by suffix in small letters."""
+
+DIALECTS: Final = {"automation-studio": AUTOMATION_STUDIO, "iec": IEC}
+"""Dialects of Structured Text by their names in plc.toml."""
 
 _counter = itertools.count(1)
 
@@ -108,10 +111,21 @@ class ProgramLoader:
         self._languages = languages
         self.warnings: list[str] = []
         self.package = f"plcsim_project_{next(_counter)}"
-        self.declarations = Declarations(layout, self.package, BODIES)
+        common, dialect = self._common_units()
+        self.declarations = Declarations(layout, self.package, BODIES, common, dialect)
         add_package(self.package, layout.folder, lambda: self.declarations.scope)
         for library in self.declarations.own_libraries:
             add_library(library)
+
+    def _common_units(self) -> tuple[Sequence[DeclarationFile], Dialect]:
+        """Return what units in the common files declare, where there are some, and the dialect.
+
+        Raises:
+            ConfigurationError: a file cannot be read.
+        """
+        if not any(place.only for place in self._layout.programs.values()):
+            return (), AUTOMATION_STUDIO
+        return self._declared_in(self._layout.common.files)
 
     def load(self) -> Mapping[str, ProgramCode]:
         """Return all programs by name.
@@ -139,23 +153,29 @@ class ProgramLoader:
         for name in self._layout.programs:
             wrong = Findings()
             with wrong.gathered():
-                self.declarations.scope_of(name, *self._declared_in(name))
+                self.declarations.scope_of(name, *self._declared_by(name))
                 self.warnings += self.declarations.check_program(name)
             if wrong:
                 failures[name] = wrong.texts
         return Loaded({}, common.texts, failures)
 
-    def _declared_in(self, name: str) -> tuple[Sequence[DeclarationFile], Dialect]:
+    def _declared_by(self, name: str) -> tuple[Sequence[DeclarationFile], Dialect]:
         """Return what the files with units of a program declare, and in which dialect."""
-        files = self._layout.programs[name].own.files
+        place = self._layout.programs[name]
+        if place.only:
+            return (), self.declarations.scope.dialect
+        return self._declared_in(place.own.files)
+
+    def _declared_in(self, files: Sequence[Path]) -> tuple[Sequence[DeclarationFile], Dialect]:
+        given = DIALECTS.get(self._layout.dialect)
         try:
             for language in self._languages:
                 declared = language.declarations(language.units(files))
                 if declared:
-                    return declared, language.dialect(declared)
+                    return declared, given or language.dialect(declared)
         except OSError as err:
             raise ConfigurationError(f"{err.filename}: {err.strerror}") from None
-        return (), AUTOMATION_STUDIO
+        return (), given or AUTOMATION_STUDIO
 
     def _load_declared(self, declared: Loaded) -> Loaded:
         """Load the programs whose declarations are right."""
@@ -216,7 +236,9 @@ class ProgramLoader:
         return shared
 
     def _load(self, name: str) -> ProgramCode:
-        folder, own, _ = self._layout.programs[name]
+        folder, own, _, only = self._layout.programs[name]
+        if only:
+            own = self._layout.common
         if not os.path.isdir(folder):  # noqa: PTH112  # no error for what can be no path
             raise ConfigurationError(f"{folder}: no such program folder{self._known()}")
         try:
@@ -231,7 +253,7 @@ class ProgramLoader:
             language, files = found[0]
             scope = self.declarations.scope_of(name)
             return language.load(
-                ProgramSource(name, folder, files, self.declarations, scope, self.shared)
+                ProgramSource(name, folder, files, self.declarations, scope, self.shared, only)
             )
         except OSError as err:
             raise ConfigurationError(f"{err.filename}: {err.strerror}") from None

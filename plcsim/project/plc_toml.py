@@ -10,13 +10,14 @@ from __future__ import annotations
 import shlex
 import tomllib
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.memory import DEFAULT_SIZE
 from plcsim.core.task import HIGHEST_CLASS, LOWEST_CLASS, Policy
-from plcsim.library.library import PLAIN
+from plcsim.library.library import PLAIN, files_in
 from plcsim.program.layout import folder_layout, outside_libraries, program_places
 from plcsim.project.automation_studio.layout import ALL_VENDORS, layout_of
 from plcsim.project.automation_studio.logical_view import project_file as automation_studio_file
@@ -194,16 +195,29 @@ class _Parts:
         for name in ("as", "simulate", PROJECT):
             if name in self._top:
                 raise self._top.error(name, "there is no Automation Studio project here")
-        classes = _task_classes(self._top.table("task_class"), self._plc.tick_ns)
+        classes = self._classes()
         entries = [entry for each in classes for entry in each.programs]
         if self._plc.exception_program is not None:
             entries.append(self._plc.exception_program)
         folder = self._file.parent
         sources = [*dict.fromkeys(entry.source for entry in entries)]
         layout = folder_layout(folder, sources, self._folders.folders)
-        layout = replace(layout, c_build=self._c_build(PLAIN))
+        layout = replace(layout, c_build=self._c_build(PLAIN), dialect=self._plc.dialect)
         name = self._plc.name or folder.resolve().name
         return Project(folder, name, self._plc, classes, layout, self._libraries)
+
+    def _classes(self) -> tuple[TaskClassEntry, ...]:
+        """Return the task classes of plc.toml, else those of a CONFIGURATION beside it."""
+        files = [] if "task_class" in self._top else self._unit_files()
+        if not files:
+            return _task_classes(self._top.table("task_class"), self._plc.tick_ns)
+        # Imported here, for most projects have no need of the parser.
+        configuration = import_module("plcsim.project.configuration")
+        found: tuple[TaskClassEntry, ...] = configuration.configured_classes(files)
+        return found
+
+    def _unit_files(self) -> list[Path]:
+        return [f for f in files_in(self._file.parent) if f.suffix.lower() == ".st"]
 
     def _automation_studio_folder(self) -> Path | None:
         """Return the folder of the Automation Studio project that this is, None for none."""

@@ -107,6 +107,7 @@ class PlcSettings:
         priority: of SCHED_FIFO.
         cpu: the processor to stay on, `ANY_CPU` for any.
         exception_program: runs for violations under the policy "exception".
+        dialect: of its programs in Structured Text; "" where each program's files tell.
         start_date_ns: the controller's date at its start (key "start_date"), as people read it
             there; None for the host's on the real clock, 2000-01-01 on the virtual one.
     """
@@ -120,6 +121,7 @@ class PlcSettings:
     priority: Annotated[int, Whole(1, 98)] = 50
     cpu: Annotated[int, Whole(ANY_CPU, LAST_CPU)] = ANY_CPU
     exception_program: Annotated[ProgramEntry | None, ProgramKind()] = None
+    dialect: Literal["", "iec", "automation-studio"] = ""
     start_date_ns: Annotated[int | None, Key("start_date"), Date()] = None
 
     @property

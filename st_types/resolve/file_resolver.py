@@ -356,16 +356,32 @@ class FileResolver(ConstantResolver):
     ) -> DataType[object] | None:
         """Return the data block, None if it has no layout."""
         entry.scope = local = self._local(node)
+        inherited = self._inherited(node, local)
         (resolver,) = local.resolvers
         resolver.entry, resolver.level = entry, self.level
         lasting = [variable for variable in local.index.variables if _has_place(variable)]
-        members = [resolver._member(variable) for variable in lasting]
+        members = [*inherited, *(resolver._member(variable) for variable in lasting)]
         resolver.entry, resolver.level = None, 0
         self._depth = resolver._depth
         known = [member for member in members if member is not None]
         if local.index.report_duplicates(local.dialect) or len(known) < len(members):
             return None
         return self._made(node, lambda: DataBlockType(node.name, known))
+
+    def _inherited(self, node: FunctionBlockDeclaration, local: Scope) -> Sequence[Member | None]:
+        """Return the members of what a function block EXTENDS; ``local`` sees its variables."""
+        if not node.base:
+            return ()
+        base = self._named_type(NamedType(node.at, node.base))
+        hit = self.scope.lookup("types", node.base)
+        entry = None if hit is None else hit.entry
+        if not isinstance(base, DataBlockType) or not isinstance(entry, PouEntry):
+            if base is not None:
+                self.error(node, f"{node.base} is no function block, so none can extend it")
+            return (None,)
+        assert entry.scope is not None
+        local.outer = (entry.scope, self.scope)
+        return base.members
 
     def _member(self, entry: VariableEntry) -> Member | None:
         """Return a member of a data block; a VAR_IN_OUT is a reference there."""

@@ -92,7 +92,10 @@ class Printer(ExpressionPrinter):
             case VariableBlock():
                 return _lines(_all_comments(item.before), "") + self._variable_block(item, "")
             case FunctionBlockDeclaration():
-                return self._unit(item, f"FUNCTION_BLOCK {item.name}") + "END_FUNCTION_BLOCK\n"
+                base = f" EXTENDS {item.base}" if item.base else ""
+                return (
+                    self._unit(item, f"FUNCTION_BLOCK {item.name}{base}") + "END_FUNCTION_BLOCK\n"
+                )
         result = f" : {self.specification(item.result, '')}" if item.result else ""
         return self._unit(item, f"FUNCTION {item.name}{result}") + "END_FUNCTION\n"
 

@@ -215,6 +215,9 @@ class SpecificationParser(InitialParser):
         if not (text.isidentifier() and text.isascii()) or keyword in END_KEYWORDS:
             self.fail("expected a type")
         self.index += 1
+        while self.texts[self.index] == "." and self.texts[self.index + 1].isidentifier():
+            self.index += 2  # of a namespace or a library only the last name counts
+            text = self.texts[self.index - 1]
         if self.texts[self.index] == "(":
             return self._restricted(self.index - 1, text)
         return NamedType(self.index - 1, text)

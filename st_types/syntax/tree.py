@@ -184,7 +184,10 @@ class VariableBlock(Node):
 
 @dataclass(slots=True)
 class FunctionBlockDeclaration(Node):
-    """``FUNCTION_BLOCK name ... END_FUNCTION_BLOCK``; ``behind`` is the text after the name."""
+    """``FUNCTION_BLOCK name ... END_FUNCTION_BLOCK``; ``behind`` is the text after the name.
+
+    ``base`` is the function block that it EXTENDS, mostly none.
+    """
 
     name: str
     blocks: Sequence[VariableBlock]
@@ -192,6 +195,7 @@ class FunctionBlockDeclaration(Node):
     before: str = field(default="", compare=False)
     behind: str = field(default="", compare=False)
     closing: str = field(default="", compare=False)
+    base: str = ""
 
 
 @dataclass(slots=True)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
+from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Task, Unit
 from plcsim.program.structured_text.check.program import check_program, is_meant, unit_scope
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
@@ -41,9 +42,11 @@ def load(source: ProgramSource) -> StructuredTextCode:
     Raises:
         ConfigurationError: there are errors in it; all are told, with file, line and column.
     """
-    files = [each.unit_file for each in source.scope.files if isinstance(each, UnitDeclarations)]
+    scope = source.declarations.scope if source.only else source.scope
+    files = [each.unit_file for each in scope.files if isinstance(each, UnitDeclarations)]
+    name = scope.name if source.only else source.name
     catalogue = source.declarations.catalogue
-    return compile_program(source.name, files, source.scope, source.shared, catalogue)
+    return compile_program(name, files, scope, source.shared, catalogue, source.only)
 
 
 def compile_program(
@@ -73,6 +76,7 @@ def compile_program(
     stored = find(cache, key)
     if stored is None:
         check_syntax(files)
+        _check_only(files, only)
         stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, only)
         keep(cache, key, stored)
     else:
@@ -82,6 +86,16 @@ def compile_program(
     if absent:
         raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
     return StructuredTextCode(stored.code, scope, layout.variables, stored.warnings)
+
+
+def _check_only(files: Sequence[UnitFile], only: str) -> None:
+    """Raise a ConfigurationError where no file holds the PROGRAM that is meant."""
+    units = [unit for file in files for unit in file.parsed.units]
+    names = [unit.name for unit in units if isinstance(unit, ProgramUnit)]
+    if only and only.upper() not in map(str.upper, names):
+        near = did_you_mean(only, names)
+        told = ", ".join(file.path for file in files)
+        raise ConfigurationError(f"{told}: no PROGRAM {only} is there{near}")
 
 
 def _own_scopes(files: Sequence[UnitFile], scope: Scope, only: str) -> list[Scope]:

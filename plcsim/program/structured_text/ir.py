@@ -431,9 +431,10 @@ Statement = (
     | FillBytes
 )
 
-FunctionKind = Literal["unit", "action", "block", "function", "helper"]
+FunctionKind = Literal["unit", "action", "block", "function", "method", "helper"]
 """``unit`` (INIT, CYCLIC, EXIT) takes nothing. ``block`` takes the address of its data block; its
 own members are places based on local 0. ``action`` takes nothing, that of a block the same address.
+``method`` takes it first, then what a ``function`` takes.
 ``helper`` is what the front makes."""
 
 

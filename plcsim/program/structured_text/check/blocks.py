@@ -62,6 +62,8 @@ class BlockChecker(CallChecker):
         return CallBlock(line, instance, block.name, before, after)
 
     def _instance(self, node: Expression) -> Value | None:
+        if self.method_of(node) is not None:
+            return None
         if type(node) is syntax.Name and self.names.value(node) is None:
             return None
         value = self.value(node)
@@ -152,6 +154,17 @@ class BlockChecker(CallChecker):
             self.error(node, code, message)
         return NOTHING
 
+    def _check_pointer(self, node: Expression, target: Value, value: Value) -> None:
+        """Refuse the address of one function block with methods in a pointer to another one."""
+        if not isinstance(value, Address):
+            return
+        classes, wanted, given = self.names.symbols.classes, _led_to(target), value.place.type
+        if wanted is given or wanted not in classes or given not in classes:
+            return
+        message = f"a pointer to {wanted} does not lead to {given}"
+        hint = "its methods are those of its declared type; an INTERFACE takes any"
+        self.error(node, FindingCode.NOT_SUPPORTED, message, hint)
+
     def assignment(
         self, node: Expression, target: Value, value: Value, line: int
     ) -> Assign | SetAddress:
@@ -160,12 +173,21 @@ class BlockChecker(CallChecker):
         An address goes into a reference itself, unless that refers to an integer of 32 bits: then
         it goes there, as any other value does. So does 0, which is no address.
         """
+        value = self.as_implementation(value, target.type)
+        self._check_pointer(node, target, value)
         if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
             is_address = isinstance(value, Address) or value.type is UDINT or _is_nil(value)
             if is_address and _takes_address(target.type, value):
                 return SetAddress(line, target.pointer, value)
         self.check_fit(node, value, target.type)
         return Assign(line, target, value)
+
+
+def _led_to(target: Value) -> object:
+    """Return what the pointer or reference leads to that takes an address, None if it is none."""
+    if isinstance(target.type, ReferenceType):
+        return target.type.target
+    return target.type if isinstance(target, Target) else None
 
 
 def _takes_address(target: Type, value: Value) -> bool:

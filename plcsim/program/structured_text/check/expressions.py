@@ -11,6 +11,7 @@ from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     ANY_REAL,
     BOOL,
+    UDINT,
     VOID,
     Fit,
     TypeKind,
@@ -28,6 +29,7 @@ from plcsim.program.structured_text.check.typed import (
     Element,
     Member,
     Target,
+    This,
     Unary,
 )
 from plcsim.program.structured_text.codes import FindingCode
@@ -45,6 +47,7 @@ from st_types.types.elementary import BYTE, DWORD, ELEMENTARY, WORD
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from plcsim.program.structured_text.check.classes import Class
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.names import ScopeNames
@@ -62,6 +65,10 @@ class ExpressionChecker:
     Args:
         names: what names mean in it.
         findings: take what is wrong.
+
+    Attributes:
+        this: the function block that a body is compiled for, None for other bodies.
+        maker: the function block in whose text it stands.
     """
 
     def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
@@ -70,6 +77,8 @@ class ExpressionChecker:
         self.error = findings.error
         self._checks = IecCheck(names)
         self._members: dict[tuple[Type, str], tuple[int, Type]] = {}
+        self.this: Class | None = None
+        self.maker: Class | None = None
 
     def value(self, node: Expression) -> Value:
         """Return the value of an expression; `NOTHING` after an error."""
@@ -79,7 +88,24 @@ class ExpressionChecker:
         found = self.names.values.get(node.name)
         if found is None:
             found = self.names.value(node)
+        if found is None and self.this is not None:
+            found = self._of_this(node)
         return self.unknown_name(node) if found is None else found
+
+    def _of_this(self, node: syntax.Name) -> Value | None:
+        """Return what THIS, SUPER, or a property of the function block itself means."""
+        if node.name.upper() in ("THIS", "SUPER"):
+            return self.itself()
+        return self.read_property(node, self.itself(), node.name)
+
+    def itself(self) -> Value:
+        """Return the data block that the body works on."""
+        assert self.this is not None
+        return Target(self.this.data_type, This(UDINT))
+
+    def read_property(self, node: syntax.Node, value: Value, name: str) -> Value | None:
+        """Return what the GET of a property gives, None where there is no such property."""
+        raise NotImplementedError
 
     def unknown_name(self, node: syntax.Name) -> Value:
         """Tell that nothing has this name."""
@@ -120,7 +146,7 @@ class ExpressionChecker:
 
     def _member(self, node: syntax.MemberAccess) -> Value:
         base = node.base
-        if type(base) is syntax.Name and self.names.value(base) is None:
+        if type(base) is syntax.Name and self._is_no_value(base):
             return self._type_member(node, base)
         value = self.value(base)
         name = node.name
@@ -142,8 +168,15 @@ class ExpressionChecker:
         self.error(node, FindingCode.NO_MEMBERS, message, _pointer_hint(data_type))
         return NOTHING
 
+    def _is_no_value(self, node: syntax.Name) -> bool:
+        if self.names.value(node) is not None:
+            return False
+        return self.this is None or self._of_this(node) is None
+
     def _type_member(self, node: syntax.MemberAccess, base: syntax.Name) -> Value:
         """Check ``Type.value`` and ``Type#value`` of an enumeration."""
+        if self.names.is_namespace(base.name):
+            return self._name(syntax.Name(node.at, node.name))
         hit = self.names.scope.lookup("types", base.name)
         data_type = self.names.scope.find_type(base.name) if hit is not None else None
         if data_type is None or hit is None:
@@ -165,6 +198,9 @@ class ExpressionChecker:
     ) -> Value:
         spelling = self.spelling_of(data_type, node.name)
         if spelling is None:
+            read = self.read_property(node, value, node.name)
+            if read is not None:
+                return read
             near = self.findings.near(node.name, (member.name for member in data_type.members))
             message = f"{data_type} has no member {node.name}{near}"
             self.error(node, FindingCode.UNKNOWN_MEMBER, message)
@@ -302,7 +338,7 @@ class ExpressionChecker:
         return left
 
     def _operation(self, node: syntax.Binary, left: Value, right: Value) -> Value:
-        left, right = address_of_aggregate(left), address_of_aggregate(right)
+        left, right = self._operand_of(left), self._operand_of(right)
         if node.operator == "/":
             right = self._checks.divisor(right)
         found = operations.operation(node.operator, left, right)
@@ -317,6 +353,12 @@ class ExpressionChecker:
             message = f"{left.type} and {right.type} are compared as unsigned numbers"
             self.findings.warning(node, FindingCode.SIGN_MIXED, message)
         return found
+
+    def _operand_of(self, value: Value) -> Value:
+        """Return what operations take of a value: the address in a reference or an interface."""
+        if value.type in self.names.symbols.interfaces:
+            return Member(UDINT, value, 0)
+        return address_of_aggregate(value)
 
     def _division_by_zero(self, node: syntax.Binary, value: Binary | Any) -> None:
         if node.operator == "/" and kind_of(value.type) is not TypeKind.REAL:

@@ -23,6 +23,7 @@ from st_types.types.derived import ReferenceType
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from plcsim.program.structured_text.check.classes import Classes, Interface
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Storage, Value
@@ -46,10 +47,18 @@ class Symbols:
 
     Args:
         storages: where the variables of a scope lie; those of others are global.
+
+    Attributes:
+        classes: the function blocks whose text is at hand.
+        interfaces: by the types of their variables.
+        namespaces: names in capitals that may stand before a name: of namespaces and of files.
     """
 
     def __init__(self, storages: Mapping[Scope, Storage]) -> None:
         self.storages = dict(storages)
+        self.classes: Classes = {}
+        self.interfaces: dict[Type, Interface] = {}
+        self.namespaces: set[str] = set()
         self._symbols: dict[VariableEntry, Symbol] = {}
 
     def of(self, entry: VariableEntry) -> Symbol | None:
@@ -187,6 +196,14 @@ class ScopeNames:
         if value is None:
             return named(symbol)
         return Constant(symbol.type, value.value)
+
+    def is_namespace(self, name: str) -> bool:
+        """Return whether a name is that of a namespace, of a library or of a list of variables."""
+        if self.scope.dialect.case_sensitive:
+            return False
+        upper = name.upper()
+        known = (scope.name.upper() for scope in self.scope.chain)
+        return upper in self.symbols.namespaces or upper in known
 
     def constant(self, node: Name) -> Value | None:
         """Return the place of a VAR CONSTANT, None for any other name."""

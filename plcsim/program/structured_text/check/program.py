@@ -3,9 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.check import typed
+from plcsim.program.structured_text.check.classes import (
+    BODY,
+    GET,
+    SET,
+    Class,
+    Interface,
+    body_as_method,
+    interface_type,
+    key_of_method,
+)
 from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.kinds import kind_of, plain
 from plcsim.program.structured_text.check.names import BY_ADDRESS, ScopeNames, Symbols, named
@@ -17,7 +28,9 @@ from plcsim.program.structured_text.syntax.tree import (
     FunctionBlockUnit,
     FunctionUnit,
     Include,
+    InterfaceUnit,
     MethodUnit,
+    NamespaceUnit,
     ProgramUnit,
     UnsupportedUnit,
 )
@@ -29,10 +42,12 @@ from st_types.syntax.tree import (
     TypeBlock,
     VariableBlock,
 )
+from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
+    from plcsim.program.structured_text.check.classes import Method
     from plcsim.program.structured_text.check.typed import BodyKind, Storage, Value
     from plcsim.program.structured_text.syntax.tree import (
         Part,
@@ -40,7 +55,7 @@ if TYPE_CHECKING:
         StructuredTextFile,
         Unit,
     )
-    from st_types.resolve.declared import DeclaredFunction
+    from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
     from st_types.syntax.tree import Item
     from st_types.types.derived import DataBlockType
 
@@ -62,6 +77,8 @@ def declarations_of(file: StructuredTextFile) -> DeclarationFile:
             items.append(unit)
         elif isinstance(unit, FunctionUnit | FunctionBlockUnit) and _is_declared(unit):
             items.append(unit.declaration)
+        elif isinstance(unit, InterfaceUnit):
+            items.append(interface_type(unit))
         elif isinstance(unit, Configuration):
             items += unit.blocks
             items += [block for resource in unit.resources for block in resource.blocks]
@@ -84,6 +101,8 @@ def is_meant(unit: ProgramUnit, only: str) -> bool:
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
     """Return True for a function (block) that has its parameters or its result beside its body."""
     declaration = unit.declaration
+    if isinstance(unit, FunctionBlockUnit) and (unit.bases or unit.words or unit.parts):
+        return True
     has_result = isinstance(declaration, FunctionDeclaration) and declaration.result is not None
     return has_result or bool(declaration.blocks)
 
@@ -126,6 +145,7 @@ class _Owner:
     scope: Scope
     block: DataBlockType[object] | None = None
     actions: dict[str, _Job] = field(default_factory=dict)
+    this: Class | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -140,6 +160,7 @@ class _Job:
     owner: _Owner
     function: DeclaredFunction | None = None
     is_needed: bool = True
+    maker: Class | None = None
     calls: set[str] = field(default_factory=set)
     body: typed.CheckedBody | None = None
 
@@ -156,12 +177,15 @@ class _ProgramChecker:
         self._jobs: list[_Job] = []
         self._program = self._owner = _Owner(scope)
         self._taken: set[tuple[str, str]] = set()
+        self._owners: dict[Class, _Owner] = {}
+        self._methods: set[str] = set()
 
     def add(self, file: StructuredTextFile) -> None:
         """Take the units of a file."""
         self._file = file
         self._findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
         self._owner = self._program
+        self.symbols.namespaces.add(PurePath(file.path).stem.upper())
         for unit in file.units:
             _RULES[type(unit)](self, unit)
 
@@ -193,6 +217,8 @@ class _ProgramChecker:
         for part in parts:
             if isinstance(part, ActionUnit):
                 self._add_action(part, owner)
+            elif isinstance(part, MethodUnit):
+                self._add_method(part, owner)
             else:
                 self._refused(part)
 
@@ -220,17 +246,46 @@ class _ProgramChecker:
 
     def _function_block(self, unit: FunctionBlockUnit) -> None:
         name = unit.declaration.name
-        for word in (*unit.words, *(["EXTENDS or IMPLEMENTS"] if unit.bases else [])):
-            message = f"{word} of {name} is not supported"
-            self._findings.error(unit, FindingCode.NOT_SUPPORTED, message)
         block = self._scope.find_function_block(name)
         if block is None or block.data_type is None:
             self._undeclared(unit, "FUNCTION_BLOCK", name)
         elif self._is_new(unit, "block", name):
             self.symbols.storages[block.scope] = "instance"
-            self._owner = owner = _Owner(block.scope, block.data_type)
+            own = self._class(unit, block, block.data_type)
+            self._owner = owner = _Owner(block.scope, block.data_type, this=own)
+            self._owners[own] = owner
             self._parts(unit.parts, owner)
-            self._jobs.append(_Job(name, "block", unit, unit.body, self._file, owner))
+            if "ABSTRACT" not in unit.words:
+                self._jobs.append(_Job(name, "block", unit, unit.body, self._file, owner))
+
+    def _class(
+        self,
+        unit: FunctionBlockUnit,
+        block: DeclaredFunctionBlock,
+        data_type: DataBlockType[object],
+    ) -> Class:
+        """Note a function block with its methods; its base is looked up when all are known."""
+        found = self.symbols.classes[data_type] = Class(block, data_type, unit, self._file)
+        found.methods[BODY] = body_as_method(unit)
+        return found
+
+    def _add_method(self, unit: MethodUnit, owner: _Owner) -> None:
+        """Take a method, or an accessor of a property."""
+        this, declaration = owner.this, unit.declaration
+        if this is None:
+            self._refused(unit)
+            return
+        for block in declaration.blocks:
+            if block.section == "VAR_INST":
+                message = "VAR_INST is not supported"
+                self._findings.error(block, FindingCode.NOT_SUPPORTED, message)
+        key = key_of_method(unit, self._scope.dialect.key(declaration.name))
+        if "PROPERTY" in unit.words and not key.endswith((GET, SET)):
+            return  # its accessors follow
+        if key in this.methods:
+            message = f"{this.block.name} has two methods {declaration.name}"
+            self._findings.error(unit, FindingCode.DECLARED_TWICE, message)
+        this.methods[key] = unit
 
     def _undeclared(self, unit: FunctionUnit | FunctionBlockUnit, word: str, name: str) -> None:
         if self._scope.lookup("types" if word == "FUNCTION_BLOCK" else "functions", name):
@@ -249,6 +304,19 @@ class _ProgramChecker:
         message = f"{word} {name}".rstrip()
         self._findings.error(unit, FindingCode.NOT_SUPPORTED, f"{message} is not supported")
 
+    def _namespace(self, unit: NamespaceUnit) -> None:
+        self.symbols.namespaces.add(unit.name.upper())
+
+    def _interface(self, unit: InterfaceUnit) -> None:
+        """Note an interface with the methods that it asks for."""
+        data_type = self._scope.find_type(unit.name)
+        if not isinstance(data_type, StructType):
+            return  # what is wrong was told
+        methods = [part for part in unit.parts if isinstance(part, MethodUnit)]
+        key_of = self._scope.dialect.key
+        keys = {key_of_method(each, key_of(each.declaration.name)) for each in methods}
+        self.symbols.interfaces[data_type] = Interface(unit.name, unit.bases, keys)
+
     def _include(self, unit: Include) -> None:
         self._findings.error(
             unit, FindingCode.NOT_SUPPORTED, f"#include {unit.path} is not supported"
@@ -262,6 +330,10 @@ class _ProgramChecker:
     def bodies(self) -> list[typed.CheckedBody]:
         """Check what is needed: actions as soon as something calls them."""
         found: list[typed.CheckedBody] = []
+        for each in self.symbols.classes.values():
+            base = self._scope.find_function_block(each.block.node.base)
+            if each.block.node.base and base is not None and base.data_type is not None:
+                each.base = self.symbols.classes.get(base.data_type)
         waiting = [job for job in reversed(self._jobs) if job.is_needed]
         while waiting:
             waiting += self._check(waiting.pop(), found)
@@ -309,11 +381,12 @@ class _ProgramChecker:
         names.values = self._values.setdefault(owner.scope, {})
         result = self._result(job, names)
         checker = StatementChecker(names, findings, self._callable(owner))
+        checker.this, checker.maker = owner.this, job.maker or owner.this
         line = findings.line(job.unit)
         statements = checker.statements(job.nodes)
         body = typed.CheckedBody(job.name, job.kind, job.file.path, line, statements, owner.block)
         body.result = result
-        if job.kind in ("function", "block"):
+        if job.kind in ("function", "block", "method"):
             body.parameters, body.locals = self._variables(owner.scope)
         into.append(body)
         job.body, job.calls = body, checker.called_functions
@@ -321,7 +394,22 @@ class _ProgramChecker:
         found = [action for action in called if not action.is_needed]
         for action in found:
             action.is_needed = True
-        return found
+        return [*found, *self._called_methods(checker.called_methods)]
+
+    def _called_methods(self, methods: Mapping[str, Method]) -> Iterator[_Job]:
+        """Yield the methods that are called for the first time."""
+        for label, method in methods.items():
+            if label in self._methods:
+                continue
+            self._methods.add(label)
+            around = self._owners[method.owner]
+            scope = method.function.scope
+            self.symbols.storages[scope] = "frame"
+            owner = _Owner(scope, around.block, around.actions, method.owner)
+            unit, file = method.unit, method.maker.file
+            job = _Job(label, "method", unit, unit.body, file, owner, method.function)
+            job.maker = method.maker
+            yield job
 
     def _callable(self, owner: _Owner) -> Mapping[str, _Job]:
         """Return the actions that bodies can call.
@@ -346,8 +434,8 @@ class _ProgramChecker:
         if job.function is None or job.function.result is None:
             return None
         data_type = plain(job.function.result)
-        result = typed.Symbol(job.name, data_type, "frame", names.scope, used=True)
-        names.values[job.name] = named(result)
+        result = typed.Symbol(job.function.name, data_type, "frame", names.scope, used=True)
+        names.values[job.function.name] = named(result)
         return result
 
     def _variables(self, scope: Scope) -> tuple[list[typed.Symbol], list[typed.Symbol]]:
@@ -392,6 +480,8 @@ _RULES: Mapping[type, Callable[..., None]] = {
     FunctionUnit: _ProgramChecker._function,
     FunctionBlockUnit: _ProgramChecker._function_block,
     MethodUnit: _ProgramChecker._refused,
+    InterfaceUnit: _ProgramChecker._interface,
+    NamespaceUnit: _ProgramChecker._namespace,
     UnsupportedUnit: _ProgramChecker._refused,
     Include: _ProgramChecker._include,
     TypeBlock: _ProgramChecker._declarations,

@@ -72,8 +72,12 @@ class StatementChecker(BlockChecker):
         if type(node.value) is tree.Assignment:
             self._chain(node, into)
             return
-        target = self.assigned(node.target)
         assert not isinstance(node.value, tree.Assignment)
+        written = self.written_property(node.target, node.value)
+        if written is not None:
+            into.append(typed.Evaluate(line, written))
+            return
+        target = self.assigned(node.target)
         into.append(self.assignment(node.value, target, self.value(node.value), line))
 
     def _chain(self, node: tree.Assignment, into: list[Statement]) -> None:

@@ -185,6 +185,42 @@ class Call:
     arguments: Sequence[Value | None]
 
 
+@dataclass(slots=True, eq=False)
+class This:
+    """The address of the data block that the body works on."""
+
+    type: Type
+
+
+@dataclass(slots=True, eq=False)
+class MethodCall:
+    """A call of a method of ``instance``; ``label`` names its body, the rest as in `Call`."""
+
+    type: Type
+    function: DeclaredFunction
+    arguments: Sequence[Value | None]
+    instance: Value
+    label: str
+
+
+@dataclass(slots=True, eq=False)
+class Implementation:
+    """What a variable of an interface holds: address and number of a function block, or nothing."""
+
+    type: Type
+    place: Value | None
+    number: int
+
+
+@dataclass(slots=True, eq=False)
+class Dispatch:
+    """A call of a method by an interface: of the function block whose number it holds."""
+
+    type: Type
+    number: Value
+    calls: Sequence[tuple[int, MethodCall]]
+
+
 Value = (
     Constant
     | Variable
@@ -200,6 +236,10 @@ Value = (
     | Builtin
     | Edge
     | Call
+    | This
+    | MethodCall
+    | Implementation
+    | Dispatch
 )
 
 PLACES = (Variable, Member, Element, Target, Bit)
@@ -386,7 +426,7 @@ Statement = (
     | Label
 )
 
-BodyKind = Literal["unit", "action", "block", "function"]
+BodyKind = Literal["unit", "action", "block", "function", "method"]
 
 
 @dataclass(slots=True, eq=False)
@@ -399,7 +439,7 @@ class CheckedBody:
         path: its file.
         line: where it begins.
         statements: what it does.
-        block: data block of the function block that it is, or that an action belongs to.
+        block: data block of the function block that it is, or that an action or a method has.
         parameters: of a function, in order.
         locals: variables that live for one call: those of a function, VAR_TEMP.
         result: of a function, None for none; among the locals too.

@@ -25,7 +25,7 @@ NO_OFFSET: Final = b"\0\0"
 """Memory argument of an access whose address is complete."""
 
 
-_OF_BLOCKS: Final = ("block", "action")
+_OF_BLOCKS: Final = ("block", "action", "method")
 """Kinds of functions whose only parameter, if there is one, is the address of a data block."""
 
 _IF: Final = IF + EMPTY

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check.calls import parameters_of
 from plcsim.program.structured_text.check.kinds import (
+    VOID,
     TypeKind,
     is_unsigned,
     kind_of,
@@ -158,6 +159,47 @@ class FunctionLowering(BitLowering):
             for argument, parameter in zip(node.arguments, parameters, strict=True)
         ]
         return self._called(node.function.name, arguments, node.type)
+
+    def method(self, node: typed.MethodCall) -> ir.Expression:
+        """Return the result of a method: the instance goes first, then where the result goes."""
+        parameters = parameters_of(node.function)
+        arguments = [
+            self._given(argument, parameter)
+            for argument, parameter in zip(node.arguments, parameters, strict=True)
+        ]
+        name, this = f"method {node.label}", self.address(node.instance)
+        if node.type is VOID:
+            return ir.Call(None, name, [this, *arguments])
+        if is_scalar(node.type):
+            return ir.Call(value_type_of(node.type), name, [this, *arguments])
+        place = ir.AddressOf(self._result_place(node.type))
+        call = ir.Call(None, name, [this, place, *arguments])
+        return ir.StatementExpression("i32", [ir.Evaluate(self.line, call)], place)
+
+    def implementation(self, node: typed.Implementation) -> ir.Expression:
+        """Return the address of what a variable of an interface is to hold."""
+        place = self._result_place(node.type)
+        address = ir.Const("i32", 0) if node.place is None else self.address(node.place)
+        number = ir.Place(place.base, place.offset + 4)
+        before: list[ir.Statement] = [
+            ir.Store(self.line, "w32", place, address),
+            ir.Store(self.line, "w32", number, ir.Const("i32", node.number)),
+        ]
+        return after(before, ir.AddressOf(place))
+
+    def dispatch(self, node: typed.Dispatch) -> ir.Expression:
+        """Return the result of the method of the function block that an interface holds.
+
+        Where it holds none the address is 0, and the first of them ends the program.
+        """
+        number = self.value(node.number)
+        (_, first), *others = node.calls
+        found = self.method(first)
+        assert found.type is not None
+        for which, call in others:
+            condition = ir.Compare("i32", "eq", number, ir.Const("i32", which))
+            found = ir.IfExpression(found.type, condition, self.method(call), found)
+        return found
 
     def _given(self, node: Value | None, parameter: Parameter) -> ir.Expression:
         if node is None:

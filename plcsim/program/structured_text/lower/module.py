@@ -75,31 +75,35 @@ def _function(module: LoweringContext, body: CheckedBody, file: int) -> ir.Funct
         statements,
         file,
         body.line,
-        exported=body.kind != "action",
+        exported=body.kind not in ("action", "method"),
     )
+
+
+_FUNCTIONS = ("function", "method")
 
 
 def _signature(body: CheckedBody) -> tuple[list[ir.ValueType], ir.ValueType | None]:
     """Return parameters and result; a result that is no scalar goes to the first parameter."""
-    if body.kind != "function":
-        return (["i32"] if body.block is not None else []), None
+    this: list[ir.ValueType] = ["i32"] if body.block is not None else []
+    if body.kind not in _FUNCTIONS:
+        return this, None
     parameters: list[ir.ValueType] = [
         "i32" if symbol.by_address else value_type_of(symbol.type) for symbol in body.parameters
     ]
     if body.result is None:
-        return parameters, None
+        return [*this, *parameters], None
     if is_scalar(body.result.type):
-        return parameters, value_type_of(body.result.type)
-    return ["i32", *parameters], None
+        return [*this, *parameters], value_type_of(body.result.type)
+    return [*this, "i32", *parameters], None
 
 
 def _place_parameters(context: FunctionContext, body: CheckedBody) -> None:
     """Parameters stay in their locals, unless the address of one is taken."""
-    first = 0
+    first = 1 if body.kind == "method" else 0
     if body.result is not None and not is_scalar(body.result.type):
         body.result.by_address = True
-        context.in_locals[body.result] = 0
-        first = 1
+        context.in_locals[body.result] = first
+        first += 1
     for index, symbol in enumerate(body.parameters, first):
         if symbol.by_address or not symbol.has_address:
             context.in_locals[symbol] = index
@@ -113,6 +117,7 @@ def _initial_statements(context: FunctionContext, body: CheckedBody) -> list[ir.
     """Give variables that live for one call their initial values."""
     found: list[ir.Statement] = []
     first = 1 if body.result is not None and body.result.by_address else 0
+    first += body.kind == "method"
     for index, symbol in enumerate(body.parameters, first):
         if symbol not in context.in_locals:
             value_type = context.locals[index]

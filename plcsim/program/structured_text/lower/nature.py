@@ -51,7 +51,7 @@ def _is_unsigned_chain(node: Value) -> bool:
 def is_pure(node: Value) -> bool:
     """Return True where nothing changes if a value is worked out twice, or not at all."""
     match node:
-        case typed.Constant() | typed.Variable():
+        case typed.Constant() | typed.Variable() | typed.This():
             return True
         case typed.Binary() | typed.Compare():
             return _is_pure_chain(node)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.check.kinds import UDINT
+from plcsim.program.structured_text.check.kinds import UDINT, VOID
 from plcsim.program.structured_text.lower import conversions
 from plcsim.program.structured_text.lower.conversions import common_type, to_type
 from plcsim.program.structured_text.lower.functions import FunctionLowering
@@ -193,7 +193,21 @@ class StatementLowering(FunctionLowering):
     # Calls
 
     def _evaluate(self, node: typed.Evaluate, into: list[ir.Statement]) -> None:
-        if not is_pure(node.value):
+        value = node.value
+        if isinstance(value, typed.Dispatch) and value.type is VOID:
+            number = self.value(value.number)
+            (_, first), *others = value.calls
+            arms = [
+                ir.Arm(
+                    node.line,
+                    ir.Compare("i32", "eq", number, ir.Const("i32", which)),
+                    [ir.Evaluate(node.line, self.method(call))],
+                )
+                for which, call in others
+            ]
+            last = [ir.Evaluate(node.line, self.method(first))]
+            into += [ir.If(node.line, arms, last)] if arms else last
+        elif not is_pure(value):
             into.append(ir.Evaluate(node.line, self.value(node.value)))
 
     def _call_block(self, node: typed.CallBlock, into: list[ir.Statement]) -> None:

@@ -309,4 +309,8 @@ _RULES: dict[type, Callable[[Any, Any], ir.Expression]] = {
     typed.Builtin: lambda lowering, node: lowering.builtin(node),
     typed.Edge: lambda lowering, node: lowering.edge(node),
     typed.Call: lambda lowering, node: lowering.call(node),
+    typed.MethodCall: lambda lowering, node: lowering.method(node),
+    typed.Implementation: lambda lowering, node: lowering.implementation(node),
+    typed.Dispatch: lambda lowering, node: lowering.dispatch(node),
+    typed.This: lambda _lowering, _node: ir.Local("i32", 0),
 }

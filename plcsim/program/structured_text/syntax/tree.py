@@ -178,6 +178,22 @@ class UnsupportedUnit(Node):
 
 
 @dataclass(slots=True)
+class InterfaceUnit(Node):
+    """``INTERFACE name ... END_INTERFACE``; ``bases`` are what it EXTENDS."""
+
+    name: str
+    bases: Sequence[str]
+    parts: Sequence[Part]
+
+
+@dataclass(slots=True)
+class NamespaceUnit(Node):
+    """``NAMESPACE name``; what it holds are units of the file, before this one."""
+
+    name: str
+
+
+@dataclass(slots=True)
 class ProgramUnit(Node):
     """``PROGRAM name ... END_PROGRAM``; ``at`` is the name.
 
@@ -262,6 +278,8 @@ Unit = (
     | ActionUnit
     | MethodUnit
     | Configuration
+    | InterfaceUnit
+    | NamespaceUnit
     | UnsupportedUnit
     | Include
 )

@@ -16,7 +16,9 @@ from plcsim.program.structured_text.syntax.tree import (
     FunctionBlockUnit,
     FunctionUnit,
     Include,
+    InterfaceUnit,
     MethodUnit,
+    NamespaceUnit,
     ProgramConfiguration,
     ProgramUnit,
     StructuredTextFile,
@@ -211,7 +213,9 @@ class UnitParser(StatementParser):
         named = self.index - 1
         bases = self._bases()
         blocks, body, parts = self._content(f"END_{self.keys[at]}", at, has_parts=True)
-        declaration = FunctionBlockDeclaration(named, name, blocks)
+        extended = self.texts[named + 1].upper() == "EXTENDS"
+        base = bases[0] if extended and bases else ""
+        declaration = FunctionBlockDeclaration(named, name, blocks, base=base)
         into.append(FunctionBlockUnit(named, declaration, body, parts, words, bases))
 
     def _action_unit(self, into: list[Unit]) -> None:
@@ -262,10 +266,10 @@ class UnitParser(StatementParser):
         at = self.index
         self.index += 1
         name = self._name("after INTERFACE")
-        into.append(UnsupportedUnit(self.index - 1, "INTERFACE", name))
-        self._bases()
+        found: list[Part] = []
+        into.append(InterfaceUnit(self.index - 1, name, self._bases(), found))
         while self.keys[self.index] in ("METHOD", "PROPERTY"):
-            self._part([])
+            self._part(found)
             self.accept(";")
         self._close("END_INTERFACE", at)
 
@@ -273,7 +277,7 @@ class UnitParser(StatementParser):
         at = self.index
         self.index += 1
         self._words()
-        into.append(UnsupportedUnit(self.index, "NAMESPACE", self._name("after NAMESPACE")))
+        into.append(NamespaceUnit(self.index, self._name("after NAMESPACE")))
         self.enter()
         while self.keys[self.index] != "END_NAMESPACE":
             if not self.text:

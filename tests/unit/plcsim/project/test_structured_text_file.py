@@ -4,7 +4,8 @@ import pytest
 
 from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
-from plcsim.project.assembly import assemble
+from plcsim.project.assembly import assemble, load
+from plcsim.project.plc_toml import read_project
 from plcsim.project.structured_text_file import load_file
 
 MS = 1_000_000
@@ -40,7 +41,7 @@ PLANT = """
 
 
 @pytest.fixture
-def load(project):
+def load_text(project):
     return lambda text, **options: load_file(project({"plant.st": text}) / "plant.st", **options)
 
 
@@ -51,17 +52,17 @@ def run(application, cycles):
     return controller, lambda path: controller.tags.read(controller.tags.find(path))
 
 
-def test_tasks_become_task_classes_by_their_priority(load):
-    controller, value = run(load(PLANT), 8)
+def test_tasks_become_task_classes_by_their_priority(load_text):
+    controller, value = run(load_text(PLANT), 8)
     classes = [(c.number, c.cycle_ns, [t.name for t in c.tasks]) for c in controller.classes]
     assert classes == [(1, 10 * MS, ["left", "right"]), (2, 40 * MS, ["drain"])]
     assert value("level") == 116
     assert (value("left.c.out"), value("drain.c.out"), value("drain.seen")) == (8, 20, 112)
 
 
-def test_without_a_configuration_every_program_runs_in_class_1(load):
+def test_without_a_configuration_every_program_runs_in_class_1(load_text):
     text = PLANT[: PLANT.index("CONFIGURATION")] + "VAR_GLOBAL level : INT; END_VAR\n"
-    controller, value = run(load(text, cycle_ns=5 * MS), 2)
+    controller, value = run(load_text(text, cycle_ns=5 * MS), 2)
     assert [(c.number, c.cycle_ns) for c in controller.classes] == [(1, 5 * MS)]
     assert [task.name for task in controller.tasks] == ["Fill", "Drain"]
     assert value("level") == 2
@@ -95,20 +96,79 @@ def test_files_of_automation_studio_belong_together(project):
         ("PROGRAM Fill", "PROGRAM", "error ST1001"),
     ],
 )
-def test_what_is_wrong_is_told_with_its_place(load, old, new, told):
+def test_what_is_wrong_is_told_with_its_place(load_text, old, new, told):
     with pytest.raises(ConfigurationError) as raised:
-        load(PLANT.replace(old, new, 1))
+        load_text(PLANT.replace(old, new, 1))
     assert told in str(raised.value)
 
 
-def test_nine_tasks_are_too_many(load):
+def test_nine_tasks_are_too_many(load_text):
     tasks = "".join(f"TASK t{n} (INTERVAL := T#10ms, PRIORITY := {n});" for n in range(9))
     programs = "".join(f"PROGRAM p{n} WITH t{n} : Fill;" for n in range(9))
     head = PLANT[: PLANT.index("RESOURCE")]
     with pytest.raises(ConfigurationError, match="9 tasks; a controller has 8 task classes"):
-        load(f"{head}{tasks}{programs}END_CONFIGURATION\n")
+        load_text(f"{head}{tasks}{programs}END_CONFIGURATION\n")
 
 
-def test_a_file_without_a_program_has_nothing_to_run(load):
+def test_a_file_without_a_program_has_nothing_to_run(load_text):
     with pytest.raises(ConfigurationError, match="no PROGRAM is in it"):
-        load("FUNCTION f : INT VAR_INPUT x : INT; END_VAR f := x; END_FUNCTION\n")
+        load_text("FUNCTION f : INT VAR_INPUT x : INT; END_VAR f := x; END_FUNCTION\n")
+
+
+PARTS = {
+    "blocks.st": PLANT[: PLANT.index("PROGRAM Fill")],
+    "programs.st": PLANT[PLANT.index("PROGRAM Fill") : PLANT.index("CONFIGURATION")],
+    "plant.st": PLANT[PLANT.index("CONFIGURATION") :],
+}
+
+
+def test_the_files_beside_a_plc_toml_without_task_classes_are_the_project(project):
+    application = load(read_project(project({"plc.toml": '[plc]\nname = "plant"\n', **PARTS})))
+    controller, value = run(application, 8)
+    assert [(c.number, [t.name for t in c.tasks]) for c in controller.classes] == [
+        (1, ["left", "right"]),
+        (2, ["drain"]),
+    ]
+    assert (value("level"), value("left.c.out"), value("drain.seen")) == (116, 8, 112)
+
+
+def test_task_classes_of_plc_toml_name_programs_that_share_files(project):
+    toml = '[task_class.1]\nprograms = ["Fill", {name = "d", source = "drain"}, "other"]\n'
+    other = "PROGRAM _CYCLIC x := level; END_PROGRAM"
+    files = {"plc.toml": toml, **PARTS, "other/c.st": other, "other/v.var": "VAR x : INT; END_VAR"}
+    _, value = run(load(read_project(project(files))), 3)
+    assert (value("level"), value("d.c.out"), value("other.x")) == (103, 30, 103)
+
+
+def test_a_program_that_no_file_holds_is_named(project):
+    toml = '[task_class.1]\nprograms = ["Full"]\n'
+    with pytest.raises(ConfigurationError, match=r"no PROGRAM Full.*did you mean Fill"):
+        load(read_project(project({"plc.toml": toml, **PARTS})))
+
+
+@pytest.mark.parametrize(("dialect", "seen"), [("", 30000), ("iec", -2768)])
+def test_plc_toml_says_the_dialect_of_a_project(project, dialect, seen):
+    files = {
+        "plc.toml": f'[plc]\ndialect = "{dialect}"\n[task_class.1]\nprograms = ["p"]\n',
+        "p/c.st": "PROGRAM _CYCLIC c := (a + b) / 2; END_PROGRAM",
+        "p/v.var": "VAR a, b : INT := 30000; c : INT; END_VAR",
+    }
+    _, value = run(load(read_project(project(files))), 1)
+    assert value("p.c") == seen
+
+
+def test_a_file_of_a_project_sees_what_the_project_declares(project):
+    files = {
+        "plc.toml": '[task_class.2]\ncycle = "40ms"\nprograms = ["p", "q"]\n',
+        "Global.var": "VAR level : INT := 7; END_VAR",
+        "mylib/l.fun": "FUNCTION twice : INT VAR_INPUT x : INT; END_VAR END_FUNCTION",
+        "mylib/l.st": "FUNCTION twice twice := 2 * x; END_FUNCTION",
+        "p/c.st": "PROGRAM _CYCLIC a := twice(level); END_PROGRAM",
+        "p/v.var": "VAR a : INT; END_VAR",
+        "q/c.st": "PROGRAM _CYCLIC broken broken; END_PROGRAM",
+    }
+    folder = project(files)
+    controller, value = run(load_file(folder / "p" / "c.st"), 1)
+    assert (value("p.a"), [c.cycle_ns for c in controller.classes]) == (14, [40 * MS])
+    controller, _ = run(load_file(folder / "p" / "c.st", cycle_ns=5 * MS), 1)
+    assert [c.cycle_ns for c in controller.classes] == [5 * MS]

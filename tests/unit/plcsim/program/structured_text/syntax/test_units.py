@@ -6,7 +6,9 @@ from plcsim.program.structured_text.syntax.tree import (
     FunctionBlockUnit,
     FunctionUnit,
     Include,
+    InterfaceUnit,
     MethodUnit,
+    NamespaceUnit,
     Part,
     ProgramUnit,
     Unit,
@@ -42,6 +44,11 @@ def outline(unit: Unit | Part) -> str:
             return " ".join([" ".join(text.split()), *map(outline, parts)])
         case ActionUnit():
             return f"action {unit.name} {{{shapes(unit.body)}}}"
+        case InterfaceUnit():
+            bases = ",".join(unit.bases)
+            return " ".join([f"interface {unit.name} {bases}:", *map(outline, unit.parts)])
+        case NamespaceUnit():
+            return f"namespace {unit.name}"
         case UnsupportedUnit():
             return f"unsupported {unit.keyword} {unit.name}"
         case VariableBlock():
