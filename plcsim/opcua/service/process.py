@@ -20,6 +20,8 @@ from plcsim.opcua.service.audit import WriteLog
 from plcsim.opcua.settings import OpcuaProject, settings_from
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from asyncua import Server
 
     from plcsim.opcua.service.attributes import Attributes
@@ -31,6 +33,9 @@ FOLDER: Final = ".plcsim/opcua"
 """Of the server's certificate and key."""
 
 LARGEST_MESSAGE: Final = 4 * 1024 * 1024
+MOST_UNREAD: Final = 8 * 1024 * 1024
+"""Bytes of answers that a client leaves unread; then its connection is cut off."""
+
 COLLECT_S: Final = 0.05
 """Answers of the scan are looked for at least so often."""
 
@@ -175,4 +180,12 @@ async def _report(readings: Readings, server: Server, period_s: float) -> None:
     """Hand changes to the subscriptions, once a sampling interval."""
     while True:
         await readings.report(server.iserver.aspace)
+        cut_off(server.iserver.asyncio_transports)
         await asyncio.sleep(period_s)
+
+
+def cut_off(transports: Iterable[asyncio.Transport]) -> None:
+    """End the connections of clients that ask on and on and read no answer."""
+    for transport in list(transports):
+        if transport.get_write_buffer_size() > MOST_UNREAD:
+            transport.abort()
