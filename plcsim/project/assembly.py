@@ -18,11 +18,13 @@ from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
 from plcsim.core.logbook import Severity
 from plcsim.host.garbage import collect_while_idle
 from plcsim.host.time_limit import time_limit
+from plcsim.library.fileio.settings import MadeDevices
 from plcsim.network import VirtualNetwork
 from plcsim.program.fault import location_of
 from plcsim.program.loader import Loaded, ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.automation_studio import problems
+from plcsim.project.automation_studio.file_devices import file_devices
 from plcsim.project.automation_studio.io_channels import (
     NO_MAPS,
     Maps,
@@ -218,7 +220,7 @@ def _load(
     settings: list[object] = []
     catalogue = loader.declarations.catalogue
     with findings.gathered():
-        settings = catalogue.read_settings(project.libraries)
+        settings = [*catalogue.read_settings(project.libraries), *_made_devices(project)]
     loaded = Loaded({}, (), {})
     with findings.gathered():
         loaded = loader.load_each() if project.keep_going else Loaded(loader.load(), (), {})
@@ -248,6 +250,15 @@ def _load(
         maps,
         loader.unload,
     )
+
+
+def _made_devices(project: Project) -> list[MadeDevices]:
+    """Return the file devices of Hardware.hw, for FileIO."""
+    found = project.automation_studio
+    if found is None:
+        return []
+    named = found.configuration.hardware.file_devices
+    return [MadeDevices(file_devices(named, project.folder.resolve()))]
 
 
 def _setup(project: Project, codes: Mapping[str, ProgramCode]) -> Setup:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping  # read at run time
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path  # likewise
 from typing import Annotated
 
@@ -21,3 +21,14 @@ class FileIoSettings:
     """
 
     devices: Mapping[str, Annotated[Path, PathTo("folder")]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class MadeDevices:
+    """Devices that nobody names in plc.toml; their folders are made when a program uses them.
+
+    Attributes:
+        folders: by the names of devices.
+    """
+
+    folders: Mapping[str, Path]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
@@ -16,7 +17,7 @@ from plcsim.library.fileio.interface import (
     fiERR_SPACE,
     fiERR_SYSTEM,
 )
-from plcsim.library.fileio.settings import FileIoSettings
+from plcsim.library.fileio.settings import FileIoSettings, MadeDevices
 from plcsim.library.idents import Idents
 
 if TYPE_CHECKING:
@@ -110,7 +111,10 @@ class Volumes:
     def __init__(self, context: Context) -> None:
         settings = context.settings(FileIoSettings) or FileIoSettings()
         self.context = context
-        self._folders = {os.fsencode(n): folder for n, folder in settings.devices.items()}
+        made = context.settings(MadeDevices) or MadeDevices({})
+        devices = {**made.folders, **settings.devices}
+        self._folders = {os.fsencode(name): folder for name, folder in devices.items()}
+        self._made = {folder for name, folder in devices.items() if name not in settings.devices}
         self.files: Idents[OpenFile] = Idents(context, MOST_OPEN)
         self.directories: Idents[OpenDirectory] = Idents(context, MOST_OPEN)
         self.links: Idents[LinkedDevice] = Idents(context, MOST_OPEN)
@@ -138,13 +142,21 @@ class Volumes:
         for _, link in self.links:
             if link.name == device:
                 return link.folder
-        return self._folders.get(device)
+        return self._ready(self._folders.get(device))
+
+    def _ready(self, folder: Path | None) -> Path | None:
+        """Make the folder of a device that plc.toml does not name."""
+        if folder in self._made and not folder.is_dir():
+            with suppress(OSError):  # what is done there is refused then
+                folder.mkdir(parents=True)
+        return folder
 
     def linked_folder(self, path: bytes) -> Path | None:
         """Return the folder that ``/DEVICE=`` names: a known one, or one inside it."""
         for name, folder in self._folders.items():
             rest = path[len(name) :]
             if path[: len(name)].upper() == name.upper() and rest[:1] in (b"", b"/", b"\\"):
+                self._ready(folder)
                 return inside(folder, rest)
         return None
 

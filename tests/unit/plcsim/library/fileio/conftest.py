@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.library.fileio.settings import FileIoSettings
+from plcsim.library.fileio.settings import FileIoSettings, MadeDevices
 
 
 @pytest.fixture
@@ -28,4 +28,5 @@ def files(make_plc, user):
             }
             return self.finish(view, **given)
 
-    return Files([FileIoSettings(devices={"USER": user, "F:": stick})])
+    made = MadeDevices({"F:": user.parent / "other", "G:": user.parent / "deep" / "G"})
+    return Files([FileIoSettings(devices={"USER": user, "F:": stick}), made])

@@ -26,6 +26,15 @@ def test_names_of_one_file(files, user, path):
     assert status(files, path) == ERR_OK
 
 
+def test_a_device_that_only_the_hardware_names_is_made_when_it_is_used(files, user):
+    folder = user.parent / "deep" / "G"
+    assert not folder.exists()
+    assert status(files, "a.txt", "G:") == fiERR_FILE_NOT_FOUND
+    assert folder.is_dir()
+    assert status(files, "a.txt", "F:") == fiERR_FILE_NOT_FOUND
+    assert not (user.parent / "other").exists()
+
+
 def test_both_kinds_of_slash_separate(files, user):
     (user / "Log" / "2026").mkdir(parents=True)
     (user / "Log" / "2026" / "a.txt").write_text("a")
