@@ -8,13 +8,13 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
-from plcsim.library.motion.profile import Limits, Profile, to_position, to_velocity
+from plcsim.library.motion.profile import MotionLimits, MotionProfile, to_position, to_velocity
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.core.context import Context
-    from plcsim.library.motion.profile import Segment
+    from plcsim.library.motion.profile import MotionSegment
 
 MOST_AXES: Final = 1024
 """Axes of one controller; what is beyond is no axis."""
@@ -54,7 +54,7 @@ MOVABLE: Final = frozenset(
 """States in which an axis takes a movement."""
 
 
-class Status(Enum):
+class CommandStatus(Enum):
     """What became of a command."""
 
     BUSY = auto()
@@ -64,7 +64,7 @@ class Status(Enum):
     REFUSED = auto()
 
 
-class Command:
+class MotionCommand:
     """A command to an axis.
 
     Attributes:
@@ -73,21 +73,21 @@ class Command:
     """
 
     def __init__(self) -> None:
-        self.status = Status.BUSY
+        self.status = CommandStatus.BUSY
         self.error_id = 0
 
     @property
     def is_in_control(self) -> bool:
         """Whether it still moves the axis."""
-        return self.status in (Status.BUSY, Status.REACHED)
+        return self.status in (CommandStatus.BUSY, CommandStatus.REACHED)
 
     def finish(self) -> None:
         """Let it be done."""
-        self.status = Status.DONE
+        self.status = CommandStatus.DONE
 
     def refuse(self, error_id: int) -> None:
         """End it with an error."""
-        self.status, self.error_id = Status.REFUSED, error_id
+        self.status, self.error_id = CommandStatus.REFUSED, error_id
 
 
 class Axis:
@@ -108,8 +108,8 @@ class Axis:
         self.is_powered = False
         self.is_homed = False
         self._now_ns = 0
-        self._profile = Profile(0, 0.0, 0.0)
-        self._command = Command()
+        self._profile = MotionProfile(0, 0.0, 0.0)
+        self._command = MotionCommand()
         self._command.finish()
         self._master: Axis | None = None
         self._is_held = False
@@ -125,7 +125,7 @@ class Axis:
             self._follow(self._master, now_ns)
             return
         self.position, self.velocity = self._profile.at(now_ns)
-        if now_ns >= self._profile.end_ns and self._command.status is Status.BUSY:
+        if now_ns >= self._profile.end_ns and self._command.status is CommandStatus.BUSY:
             self._arrive()
 
     def _follow(self, master: Axis, now_ns: int) -> None:
@@ -133,11 +133,11 @@ class Axis:
         self.position += self._ratio * (master.position - self._master_position)
         self.velocity = self._ratio * master.velocity
         self._master_position = master.position
-        self._command.status = Status.REACHED
+        self._command.status = CommandStatus.REACHED
 
     def _arrive(self) -> None:
         if self.state is AxisState.CONTINUOUS_MOTION:
-            self._command.status = Status.REACHED
+            self._command.status = CommandStatus.REACHED
             return
         self._command.finish()
         if not (self.state is AxisState.STOPPING and self._is_held):
@@ -164,36 +164,36 @@ class Axis:
         if self.state is AxisState.ERRORSTOP:
             self.state = AxisState.STANDSTILL if self.is_powered else AxisState.DISABLED
 
-    def home(self, command: Command, position: float) -> None:
+    def home(self, command: MotionCommand, position: float) -> None:
         """Set the position where the axis stands."""
         if self._takes(command, [position], frozenset([AxisState.STANDSTILL])):
             self.position, self.is_homed = position, True
             self._begin(command, AxisState.HOMING, ())
 
-    def move_to(self, command: Command, position: float, limits: Limits) -> None:
+    def move_to(self, command: MotionCommand, position: float, limits: MotionLimits) -> None:
         """Go to a position, and stay there."""
         if self._takes(command, [position], MOVABLE):
             segments = to_position(position - self.position, self.velocity, limits)
             self._begin(command, AxisState.DISCRETE_MOTION, segments, position)
 
-    def move_by(self, command: Command, distance: float, limits: Limits) -> None:
+    def move_by(self, command: MotionCommand, distance: float, limits: MotionLimits) -> None:
         """Go on over a distance: from the target of the movement that is under way."""
         start = self._profile.target if self.state is AxisState.DISCRETE_MOTION else None
         self.move_to(command, (self.position if start is None else start) + distance, limits)
 
-    def move_at(self, command: Command, velocity: float, limits: Limits) -> None:
+    def move_at(self, command: MotionCommand, velocity: float, limits: MotionLimits) -> None:
         """Take a velocity, and keep it."""
         if self._takes(command, [velocity], MOVABLE):
             segments = to_velocity(self.velocity, velocity, limits)
             self._begin(command, AxisState.CONTINUOUS_MOTION, segments)
 
-    def halt(self, command: Command, limits: Limits) -> None:
+    def halt(self, command: MotionCommand, limits: MotionLimits) -> None:
         """Come to rest; another movement may interrupt that."""
         if self._takes(command, (), MOVABLE):
             segments = to_velocity(self.velocity, 0.0, limits)
             self._begin(command, AxisState.DISCRETE_MOTION, segments)
 
-    def stop(self, command: Command, limits: Limits) -> None:
+    def stop(self, command: MotionCommand, limits: MotionLimits) -> None:
         """Come to rest; no movement is taken before `end_stop`."""
         if self._takes(command, (), MOVABLE | {AxisState.STOPPING}):
             segments = to_velocity(self.velocity, 0.0, limits)
@@ -206,7 +206,7 @@ class Axis:
         if self.state is AxisState.STOPPING and not self._command.is_in_control:
             self.state = AxisState.STANDSTILL
 
-    def couple(self, command: Command, master: Axis, ratio: float) -> None:
+    def couple(self, command: MotionCommand, master: Axis, ratio: float) -> None:
         """Follow another axis from here on, with its velocity times ``ratio``."""
         if not self._takes(command, [ratio], MOVABLE):
             return
@@ -217,12 +217,12 @@ class Axis:
         self._begin(command, AxisState.SYNCHRONIZED_MOTION, ())
         self._master, self._ratio, self._master_position = master, ratio, master.position
 
-    def uncouple(self, command: Command) -> None:
+    def uncouple(self, command: MotionCommand) -> None:
         """Go on with the velocity that the coupled axis has."""
         if self._master is None:
             command.refuse(NOT_ALLOWED)
             return
-        self._begin(Command(), AxisState.CONTINUOUS_MOTION, ())
+        self._begin(MotionCommand(), AxisState.CONTINUOUS_MOTION, ())
         command.finish()
 
     def masters(self) -> Sequence[Axis]:
@@ -235,29 +235,29 @@ class Axis:
         return found
 
     def _takes(
-        self, command: Command, numbers: Sequence[float], states: frozenset[AxisState]
+        self, command: MotionCommand, numbers: Sequence[float], states: frozenset[AxisState]
     ) -> bool:
         if self.state not in states:
             command.refuse(NOT_ALLOWED)
         elif not all(abs(number) <= FARTHEST for number in numbers):
             command.refuse(NO_NUMBER)
-        return command.status is Status.BUSY
+        return command.status is CommandStatus.BUSY
 
     def _begin(
         self,
-        command: Command,
+        command: MotionCommand,
         state: AxisState,
-        segments: Sequence[Segment],
+        segments: Sequence[MotionSegment],
         target: float | None = None,
     ) -> None:
         if self._command.is_in_control and self._command is not command:
-            self._command.status = Status.ABORTED
+            self._command.status = CommandStatus.ABORTED
         self._command, self._master, self.state = command, None, state
-        self._profile = Profile(self._now_ns, self.position, self.velocity, segments, target)
+        self._profile = MotionProfile(self._now_ns, self.position, self.velocity, segments, target)
 
     def _rest(self, state: AxisState) -> None:
         self.velocity = 0.0
-        self._begin(Command(), state, ())
+        self._begin(MotionCommand(), state, ())
         self._command.finish()
 
 

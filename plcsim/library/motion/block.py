@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from plcsim.library.motion.axis import NO_AXIS, Command, Status, axes_of
-from plcsim.library.motion.members import Members, Variables
-from plcsim.library.motion.profile import Limits
+from plcsim.library.motion.axis import NO_AXIS, CommandStatus, MotionCommand, axes_of
+from plcsim.library.motion.members import BlockVariables, StructMembers
+from plcsim.library.motion.profile import MotionLimits
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     FindType = Callable[[str], DataType[Any] | None]
 
-DEFAULT: Final = Limits(1_000.0, 5_000.0, 5_000.0)
+DEFAULT: Final = MotionLimits(1_000.0, 5_000.0, 5_000.0)
 """Limits of an axis, for parameters that are 0."""
 
 
@@ -45,17 +45,17 @@ class MotionBlock:
     def __init__(self, data_type: StructType[Any], context: Context, _find_type: FindType) -> None:
         self.data_type = data_type
         self.context = context
-        self._members = Members(data_type)
+        self._members = StructMembers(data_type)
 
     def run(self, address: int) -> None:
         """Run the block whose data block lies at an address."""
-        variables = Variables(self.context.memory, self._members, address)
+        variables = BlockVariables(self.context.memory, self._members, address)
         axis = self.axes.at(variables.address(*self.axis_names))
         if axis is not None:
             axis.update(self.context.release_ns)
         self.call(address, variables, axis)
 
-    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+    def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Run one call; the axis is as it is now, None where the block names none."""
         raise NotImplementedError(type(self).__name__)
 
@@ -69,7 +69,7 @@ class _Calls:
     """Commands and last inputs of blocks, by their addresses; a restart forgets them."""
 
     def __init__(self, _context: Context) -> None:
-        self.commands: dict[int, Command] = {}
+        self.commands: dict[int, MotionCommand] = {}
         self.inputs: dict[tuple[int, str], int] = {}
 
 
@@ -81,20 +81,20 @@ def changes(context: Context, address: int, name: str, value: int) -> bool:
     return before != value
 
 
-def rises(context: Context, address: int, variables: Variables, name: str) -> bool:
+def rises(context: Context, address: int, variables: BlockVariables, name: str) -> bool:
     """Whether an input of a block is TRUE and was not in the call before."""
     value = variables.is_true(name)
     return changes(context, address, name, value) and value
 
 
-def command_of(context: Context, address: int) -> Command | None:
+def command_of(context: Context, address: int) -> MotionCommand | None:
     """Return the last command of a block, None before the first and after its end was shown."""
     return context.library(_Calls).commands.get(address)
 
 
-def give_command(context: Context, address: int) -> Command:
+def give_command(context: Context, address: int) -> MotionCommand:
     """Return a new command of a block."""
-    made = context.library(_Calls).commands[address] = Command()
+    made = context.library(_Calls).commands[address] = MotionCommand()
     return made
 
 
@@ -112,7 +112,7 @@ class ExecuteBlock(MotionBlock):
 
     reached: ClassVar[str] = "Done"
 
-    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+    def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Take a command, or tell of the last."""
         execute, context = variables.is_true("Execute"), self.context
         is_edge = changes(context, address, "Execute", execute)
@@ -122,7 +122,9 @@ class ExecuteBlock(MotionBlock):
                 command.refuse(NO_AXIS)
             else:
                 self.begin(variables, axis, command)
-            self._show(variables, command if command.status is Status.REFUSED else Command())
+            self._show(
+                variables, command if command.status is CommandStatus.REFUSED else MotionCommand()
+            )
             return
         if is_edge and axis is not None:
             self.end(axis)
@@ -131,18 +133,18 @@ class ExecuteBlock(MotionBlock):
         if found is not None and not execute and not found.is_in_control:
             forget_command(context, address)
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Give the command to the axis."""
         raise NotImplementedError(type(self).__name__)
 
     def end(self, axis: Axis) -> None:
         """Do what the end of Execute means; for most, nothing."""
 
-    def _show(self, variables: Variables, command: Command | None) -> None:
+    def _show(self, variables: BlockVariables, command: MotionCommand | None) -> None:
         status = None if command is None else command.status
         is_busy = command is not None and command.is_in_control
-        variables.set(**{self.reached: status in (Status.REACHED, Status.DONE)})
-        variables.set(Busy=is_busy, Active=is_busy, CommandAborted=status is Status.ABORTED)
+        variables.set(**{self.reached: status in (CommandStatus.REACHED, CommandStatus.DONE)})
+        variables.set(Busy=is_busy, Active=is_busy, CommandAborted=status is CommandStatus.ABORTED)
         error_id = 0 if command is None else command.error_id
         variables.set(Error=error_id != 0, ErrorID=error_id)
 
@@ -150,7 +152,7 @@ class ExecuteBlock(MotionBlock):
 class EnableBlock(MotionBlock):
     """A block with Enable that reads or switches as long as that is TRUE."""
 
-    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+    def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Read, or show nothing."""
         enable = variables.is_true("Enable")
         is_wrong = enable and axis is None
@@ -160,15 +162,15 @@ class EnableBlock(MotionBlock):
         if axis is not None:
             self.read(address, variables, axis, enable=enable)
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show what the axis has."""
         raise NotImplementedError(type(self).__name__)
 
 
-def limits_of(variables: Variables, prefix: str = "") -> Limits:
+def limits_of(variables: BlockVariables, prefix: str = "") -> MotionLimits:
     """Return the limits in a block's inputs, or in a part of its parameters."""
     given = (variables.number(f"{prefix}{name}") for name in ("Velocity", *_RATES))
-    return Limits(*(_positive(*each) for each in zip(given, DEFAULT, strict=True)))
+    return MotionLimits(*(_positive(*each) for each in zip(given, DEFAULT, strict=True)))
 
 
 _RATES: Final = ("Acceleration", "Deceleration")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from plcsim.library.motion.axis import NO_AXIS, AxisState, Status
+from plcsim.library.motion.axis import NO_AXIS, AxisState, CommandStatus
 from plcsim.library.motion.block import (
     MotionBlock,
     changes,
@@ -14,7 +14,7 @@ from plcsim.library.motion.block import (
     limits_of,
     rises,
 )
-from plcsim.library.motion.members import Variables, referred
+from plcsim.library.motion.members import BlockVariables, referred
 from plcsim.library.motion.plcopen import NEGATIVE, jog
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class AxisBasic(MotionBlock):
         super().__init__(data_type, context, find_type)
         self._parameters = referred(data_type, "Parameters")
 
-    def call(self, address: int, variables: Variables, axis: Axis | None) -> None:
+    def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Take commands, and show what the axis does."""
         enable = variables.is_true("Enable")
         is_wrong = enable and axis is None
@@ -51,11 +51,13 @@ class AxisBasic(MotionBlock):
             axis.reset()
         at = variables.address("Parameters")
         if enable and at and self._parameters is not None:
-            parameters = Variables(self.context.memory, self._parameters, at)
+            parameters = BlockVariables(self.context.memory, self._parameters, at)
             self._commands(address, variables, axis, parameters)
         self._show(address, variables, axis, enable=enable)
 
-    def _commands(self, address: int, inputs: Variables, axis: Axis, parameters: Variables) -> None:
+    def _commands(
+        self, address: int, inputs: BlockVariables, axis: Axis, parameters: BlockVariables
+    ) -> None:
         context = self.context
         edges = {name for name in ("Home", *MOVES) if rises(context, address, inputs, name)}
         stop = inputs.is_true("Stop")
@@ -68,7 +70,7 @@ class AxisBasic(MotionBlock):
             jog(context, address, inputs, axis, parameters, "Jog.")
             self._move(address, axis, parameters, edges)
 
-    def _move(self, address: int, axis: Axis, parameters: Variables, edges: set[str]) -> None:
+    def _move(self, address: int, axis: Axis, parameters: BlockVariables, edges: set[str]) -> None:
         limits = limits_of(parameters)
         for edge in sorted(edges):
             command = give_command(self.context, address)
@@ -83,23 +85,23 @@ class AxisBasic(MotionBlock):
                     sign = -1 if parameters.number("Direction") == NEGATIVE else 1
                     axis.move_at(command, sign * parameters.number("Velocity"), limits)
 
-    def _show(self, address: int, outputs: Variables, axis: Axis, *, enable: bool) -> None:
+    def _show(self, address: int, outputs: BlockVariables, axis: Axis, *, enable: bool) -> None:
         command = command_of(self.context, address) if enable else None
         status = None if command is None else command.status
         moves = axis.state not in (AxisState.DISABLED, AxisState.STANDSTILL, AxisState.ERRORSTOP)
-        is_there = status is Status.DONE and any(outputs.is_true(each) for each in MOVES)
-        is_wrong = axis.state is AxisState.ERRORSTOP or status is Status.REFUSED
+        is_there = status is CommandStatus.DONE and any(outputs.is_true(each) for each in MOVES)
+        is_wrong = axis.state is AxisState.ERRORSTOP or status is CommandStatus.REFUSED
         outputs.set(
             PowerOn=enable and axis.is_powered,
             IsHomed=enable and axis.is_homed,
-            InVelocity=status is Status.REACHED and outputs.is_true("MoveVelocity"),
+            InVelocity=status is CommandStatus.REACHED and outputs.is_true("MoveVelocity"),
             InPosition=is_there,
             MoveDone=is_there,
             Info__MoveDone=is_there,
             MoveActive=enable and moves,
-            Stopped=outputs.is_true("Stop") and status is Status.DONE,
-            CommandBusy=status is Status.BUSY,
-            CommandAborted=status is Status.ABORTED,
+            Stopped=outputs.is_true("Stop") and status is CommandStatus.DONE,
+            CommandBusy=status is CommandStatus.BUSY,
+            CommandAborted=status is CommandStatus.ABORTED,
             Position=axis.position if enable else 0.0,
             Velocity=axis.velocity if enable else 0.0,
             UpdateDone=enable and outputs.is_true("Update"),
@@ -111,7 +113,7 @@ class AxisBasic(MotionBlock):
         )
         if enable and is_wrong:
             outputs.set(Error=True, StatusID=0 if command is None else command.error_id)
-        if status is Status.REFUSED and not any(map(outputs.is_true, ("Home", *MOVES))):
+        if status is CommandStatus.REFUSED and not any(map(outputs.is_true, ("Home", *MOVES))):
             forget_command(self.context, address)
         outputs.set_enumeration("Info.PLCopenState", f"AXIS_{axis.state.name}")
         outputs.set_enumeration("Info.BootState", "BLP_DONE")

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from st_types.types.elementary import DataType
 
 
-class Place(NamedTuple):
+class MemberPlace(NamedTuple):
     """Where a member lies in its structure."""
 
     data_type: DataType[Any]
     offset: int
 
 
-class Members:
+class StructMembers:
     """The members of a structure.
 
     Args:
@@ -31,7 +31,7 @@ class Members:
     """
 
     def __init__(self, data_type: StructType[Any]) -> None:
-        self._places: dict[str, Place] = {}
+        self._places: dict[str, MemberPlace] = {}
         self._add("", data_type, 0)
 
     def _add(self, prefix: str, data_type: StructType[Any], start: int) -> None:
@@ -41,14 +41,14 @@ class Members:
             if isinstance(kind, StructType):
                 self._add(f"{name}.", kind, start + offset)
             else:
-                self._places[name.upper()] = Place(kind, start + offset)
+                self._places[name.upper()] = MemberPlace(kind, start + offset)
 
-    def find(self, name: str) -> Place | None:
+    def find(self, name: str) -> MemberPlace | None:
         """Return where a member lies, None where there is none; names count in any case."""
         return self._places.get(name.upper())
 
 
-class Variables:
+class BlockVariables:
     """The values of a structure at an address.
 
     Args:
@@ -59,7 +59,7 @@ class Variables:
 
     __slots__ = ("_address", "_members", "_memory")
 
-    def __init__(self, memory: Memory, members: Members, address: int) -> None:
+    def __init__(self, memory: Memory, members: StructMembers, address: int) -> None:
         self._memory = memory
         self._members = members
         self._address = address
@@ -98,10 +98,10 @@ class Variables:
                 return
 
 
-def referred(data_type: StructType[Any], name: str) -> Members | None:
+def referred(data_type: StructType[Any], name: str) -> StructMembers | None:
     """Return the members of what a REFERENCE TO in a structure leads to."""
     member = next((each for each in data_type.members if each.name.upper() == name.upper()), None)
     kind = None if member is None else resolve_alias(member.data_type)
     target = kind.target if isinstance(kind, ReferenceType) else None
     target = None if target is None else resolve_alias(target)
-    return Members(target) if isinstance(target, StructType) else None
+    return StructMembers(target) if isinstance(target, StructType) else None

@@ -17,14 +17,14 @@ from plcsim.library.motion.block import (
     give_command,
     limits_of,
 )
-from plcsim.library.motion.members import Members, Variables
+from plcsim.library.motion.members import BlockVariables, StructMembers
 from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.core.context import Context
-    from plcsim.library.motion.axis import Axis, Command
+    from plcsim.library.motion.axis import Axis, MotionCommand
     from plcsim.library.motion.block import FindType
 
 NEGATIVE: Final = 1
@@ -36,7 +36,7 @@ DRIVE_STATUS: Final = "MC_DRIVESTATUS_TYP"
 class Power(EnableBlock):
     """MC_Power: with power one call after Enable."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Switch at an edge; several blocks may know one axis."""
         variables.set(Status=enable and axis.is_powered)
         if changes(self.context, address, "Enable", enable):
@@ -46,7 +46,7 @@ class Power(EnableBlock):
 class Home(ExecuteBlock):
     """MC_Home: any mode sets the position where the axis stands."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Set it."""
         axis.home(command, variables.number("Position"))
 
@@ -54,7 +54,7 @@ class Home(ExecuteBlock):
 class MoveAbsolute(ExecuteBlock):
     """MC_MoveAbsolute."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Move."""
         axis.move_to(command, variables.number("Position"), limits_of(variables))
 
@@ -62,7 +62,7 @@ class MoveAbsolute(ExecuteBlock):
 class MoveAdditive(ExecuteBlock):
     """MC_MoveAdditive."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Move."""
         axis.move_by(command, variables.number("Distance"), limits_of(variables))
 
@@ -70,7 +70,7 @@ class MoveAdditive(ExecuteBlock):
 class MoveRelative(ExecuteBlock):
     """MC_MoveRelative: from where the axis is."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Move."""
         target = axis.position + variables.number("Distance")
         axis.move_to(command, target, limits_of(variables))
@@ -81,7 +81,7 @@ class MoveVelocity(ExecuteBlock):
 
     reached: ClassVar[str] = "InVelocity"
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Move."""
         sign = -1 if variables.number("Direction") == NEGATIVE else 1
         axis.move_at(command, sign * variables.number("Velocity"), limits_of(variables))
@@ -90,7 +90,7 @@ class MoveVelocity(ExecuteBlock):
 class Halt(ExecuteBlock):
     """MC_Halt."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Slow down."""
         axis.halt(command, limits_of(variables))
 
@@ -98,7 +98,7 @@ class Halt(ExecuteBlock):
 class Stop(ExecuteBlock):
     """MC_Stop: the axis takes no movement as long as Execute is TRUE."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Slow down."""
         axis.stop(command, limits_of(variables))
 
@@ -110,7 +110,7 @@ class Stop(ExecuteBlock):
 class Reset(ExecuteBlock):
     """MC_Reset: out of ERRORSTOP."""
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Reset."""
         axis.reset()
         command.finish()
@@ -122,7 +122,7 @@ class GearIn(ExecuteBlock):
     axis_names: ClassVar[tuple[str, ...]] = ("Slave",)
     reached: ClassVar[str] = "InGear"
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Couple."""
         master = self.axes.at(variables.address("Master"))
         ratio = variables.number("RatioNumerator") / (variables.number("RatioDenominator") or 1)
@@ -137,7 +137,7 @@ class GearOut(ExecuteBlock):
 
     axis_names: ClassVar[tuple[str, ...]] = ("Slave",)
 
-    def begin(self, variables: Variables, axis: Axis, command: Command) -> None:
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Uncouple."""
         axis.uncouple(command)
 
@@ -145,14 +145,19 @@ class GearOut(ExecuteBlock):
 class JogVelocity(EnableBlock):
     """MC_BR_JogVelocity."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Move while one of the inputs is TRUE."""
         is_jogging = enable and jog(self.context, address, variables, axis, variables, "")
         variables.set(Active=enable, Ready=enable, Jogging=is_jogging)
 
 
 def jog(
-    context: Context, address: int, inputs: Variables, axis: Axis, given: Variables, prefix: str
+    context: Context,
+    address: int,
+    inputs: BlockVariables,
+    axis: Axis,
+    given: BlockVariables,
+    prefix: str,
 ) -> bool:
     """Move an axis while JogPositive or JogNegative is TRUE; return whether it does.
 
@@ -177,7 +182,7 @@ def jog(
 class ReadPosition(EnableBlock):
     """MC_ReadActualPosition."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show it."""
         variables.set(Position=axis.position if enable else 0.0)
 
@@ -185,7 +190,7 @@ class ReadPosition(EnableBlock):
 class ReadVelocity(EnableBlock):
     """MC_ReadActualVelocity."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show it."""
         variables.set(Velocity=axis.velocity if enable else 0.0)
 
@@ -193,7 +198,7 @@ class ReadVelocity(EnableBlock):
 class ReadStatus(EnableBlock):
     """MC_ReadStatus."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show the state."""
         for state in AxisState:
             name = state.name.replace("_", "")
@@ -203,7 +208,7 @@ class ReadStatus(EnableBlock):
 class ReadAxisInfo(EnableBlock):
     """MC_ReadAxisInfo."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show it."""
         variables.set(Simulation=enable, CommunicationReady=enable, ReadyForPowerOn=enable)
         variables.set(PowerOn=enable and axis.is_powered, IsHomed=enable and axis.is_homed)
@@ -212,7 +217,7 @@ class ReadAxisInfo(EnableBlock):
 class ReadAxisError(EnableBlock):
     """MC_ReadAxisError: the model has no faults of a drive but the state ERRORSTOP."""
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show that there is none."""
         is_wrong = enable and axis.state is AxisState.ERRORSTOP
         variables.set(AxisErrorID=int(is_wrong), AxisErrorCount=int(is_wrong))
@@ -229,14 +234,14 @@ class ReadDriveStatus(EnableBlock):
     ) -> None:
         super().__init__(data_type, context, find_type)
         found = find_type(DRIVE_STATUS)
-        self._status = Members(found) if isinstance(found, StructType) else None
+        self._status = StructMembers(found) if isinstance(found, StructType) else None
 
-    def read(self, address: int, variables: Variables, axis: Axis, *, enable: bool) -> None:
+    def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Write it; an address that is wild is a page fault."""
         at = variables.address("AdrDriveStatus")
         if not (enable and at) or self._status is None:
             return
-        Variables(self.context.memory, self._status, at).set(
+        BlockVariables(self.context.memory, self._status, at).set(
             Simulation=True,
             NetworkInit=True,
             DriveEnable=True,

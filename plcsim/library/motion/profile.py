@@ -15,7 +15,7 @@ S: Final = 1_000_000_000
 """Nanoseconds of a second."""
 
 
-class Limits(NamedTuple):
+class MotionLimits(NamedTuple):
     """What a motion keeps to; all above 0."""
 
     velocity: float
@@ -23,14 +23,14 @@ class Limits(NamedTuple):
     deceleration: float
 
 
-class Segment(NamedTuple):
+class MotionSegment(NamedTuple):
     """A part of a motion: how long, in seconds, and with which acceleration."""
 
     duration: float
     acceleration: float
 
 
-class Profile(NamedTuple):
+class MotionProfile(NamedTuple):
     """A motion.
 
     Attributes:
@@ -44,7 +44,7 @@ class Profile(NamedTuple):
     start_ns: int
     position: float
     velocity: float
-    segments: Sequence[Segment] = ()
+    segments: Sequence[MotionSegment] = ()
     target: float | None = None
 
     @property
@@ -68,7 +68,7 @@ class Profile(NamedTuple):
         return position + velocity * left, velocity
 
 
-def to_velocity(start: float, end: float, limits: Limits) -> list[Segment]:
+def to_velocity(start: float, end: float, limits: MotionLimits) -> list[MotionSegment]:
     """Return the segments that take an axis from one velocity to another."""
     if start * end < 0:
         return [*to_velocity(start, 0.0, limits), *to_velocity(0.0, end, limits)]
@@ -76,10 +76,10 @@ def to_velocity(start: float, end: float, limits: Limits) -> list[Segment]:
     if change == 0:
         return []
     rate = limits.acceleration if change > 0 else limits.deceleration
-    return [Segment(abs(change) / rate, math.copysign(rate, end - start))]
+    return [MotionSegment(abs(change) / rate, math.copysign(rate, end - start))]
 
 
-def to_position(distance: float, velocity: float, limits: Limits) -> list[Segment]:
+def to_position(distance: float, velocity: float, limits: MotionLimits) -> list[MotionSegment]:
     """Return the segments that take an axis over a distance, and end at rest.
 
     Args:
@@ -94,7 +94,7 @@ def to_position(distance: float, velocity: float, limits: Limits) -> list[Segmen
     return _from(distance, velocity, limits)
 
 
-def _from(distance: float, velocity: float, limits: Limits) -> list[Segment]:
+def _from(distance: float, velocity: float, limits: MotionLimits) -> list[MotionSegment]:
     """Return the segments of a motion that needs no turning round."""
     sign, length = math.copysign(1.0, distance), abs(distance)
     if length == 0:
@@ -105,5 +105,5 @@ def _from(distance: float, velocity: float, limits: Limits) -> list[Segment]:
     first = to_velocity(sign * start, sign * top, limits)
     ramp = sum(abs(start * start - top * top) / (2 * abs(rate)) for _, rate in first)
     cruise = length - ramp - top * top / (2 * d)
-    between = [Segment(cruise / top, 0.0)] if cruise > 0 else []
-    return [*first, *between, Segment(top / d, -sign * d)]
+    between = [MotionSegment(cruise / top, 0.0)] if cruise > 0 else []
+    return [*first, *between, MotionSegment(top / d, -sign * d)]

@@ -2,13 +2,13 @@
 
 import pytest
 
-from plcsim.library.motion.profile import Limits, Profile, S, to_position, to_velocity
+from plcsim.library.motion.profile import MotionLimits, MotionProfile, S, to_position, to_velocity
 
-LIMITS = Limits(velocity=10.0, acceleration=5.0, deceleration=20.0)
+LIMITS = MotionLimits(velocity=10.0, acceleration=5.0, deceleration=20.0)
 
 
 def of(segments, position=0.0, velocity=0.0, target=None):
-    return Profile(0, position, velocity, segments, target)
+    return MotionProfile(0, position, velocity, segments, target)
 
 
 def test_a_long_way_has_a_ramp_a_constant_velocity_and_a_ramp():
