@@ -17,11 +17,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.ansi_c.inline_assembly import HINT, overlay_without_rdtsc
+from plcsim.ansi_c.symbols import chosen, without_weak
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from plcsim.ansi_c.static_library import StaticLibrary
     from plcsim.ansi_c.toolchain import Toolchain
     from plcsim.machine.cache import CodeCache
 
@@ -73,12 +76,14 @@ class BuildOrder:
         sources: files in C and C++; what does not end with ``.c`` is C++.
         folders: where headers are looked for, in order.
         options: further ones of the compiler, such as ``-DX=1``.
+        libraries: of which is linked what the sources need.
     """
 
     name: str
     sources: Sequence[Path]
     folders: Sequence[Path] = ()
     options: Sequence[str] = ()
+    libraries: Sequence[StaticLibrary] = ()
 
 
 @dataclass
@@ -102,19 +107,37 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
             "file:line:column: text".
     """
     with tempfile.TemporaryDirectory(prefix="plcsim-c-") as folder:
-        work = Path(folder)
-        objects = [
-            _Object(source, work / f"{number}", order, toolchain)
-            for number, source in enumerate(order.sources)
-        ]
-        _compile([o for o in objects if not o.load(cache)])
-        findings = [finding for o in objects for finding in o.errors]
-        if findings:
-            raise ConfigurationError(*findings)
-        for compiled in objects:
-            compiled.store(cache)
-        wasm = _link(order, objects, toolchain, cache, work)
+        objects = _compiled(order.sources, order, toolchain, cache, Path(folder, "own"))
+        read = {file for o in objects for file in o.files}
+        used = [*order.libraries, *toolchain.libraries]
+        sources = [s for each in used if each.is_used(read) for s in each.sources]
+        offered = _compiled(sources, order, toolchain, cache, Path(folder, "others"))
+        taken = chosen([o.content for o in objects], [o.content for o in offered])
+        objects += [offered[number] for number in taken]
+        wasm = _link(order, objects, toolchain, cache, Path(folder))
     return Built(wasm, [warning for o in objects for warning in o.warnings])
+
+
+def _compiled(
+    sources: Sequence[Path], order: Order, toolchain: Toolchain, cache: CodeCache, work: Path
+) -> list[_Object]:
+    """Compile what is not known.
+
+    Raises:
+        ConfigurationError: there are errors; all of them are told.
+    """
+    work.mkdir()
+    objects = [
+        _Object(source, work / f"{number}", order, toolchain)
+        for number, source in enumerate(sources)
+    ]
+    _compile([o for o in objects if not o.load(cache)])
+    findings = [finding for o in objects for finding in o.errors]
+    if findings:
+        raise ConfigurationError(*findings)
+    for each in objects:
+        each.store(cache)
+    return objects
 
 
 class _Object:
@@ -131,14 +154,18 @@ class _Object:
         self.content = b""
         self.errors: list[str] = []
         self.warnings: list[str] = []
+        self.files: frozenset[str] = frozenset()
         self.toolchain = toolchain
+        self._work = target.parent
         self._dependencies = target.with_suffix(".d")
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
             *_OPTIONS,
             *(_C_OPTIONS if is_c else _CPP_OPTIONS),
             *order.options,
-            *(part for folder in order.folders for part in ("-I", str(folder))),
+            *(part for folder in order.folders[:-1] for part in ("-I", str(folder))),
+            *(() if is_c else toolchain.cpp_options),
+            *(part for folder in order.folders[-1:] for part in ("-I", str(folder))),
             str(source),
         ]
         self._manifest = _key("manifest", toolchain.identity, *self.command)
@@ -153,17 +180,25 @@ class _Object:
             return False
         self.content = cache.load(manifest["object"]) or b""
         self.warnings = manifest["warnings"]
+        self.files = frozenset(manifest["files"])
         return bool(self.content)
 
     def full_command(self) -> list[str]:
-        return [*self.command, "-MD", "-MF", str(self._dependencies), "-o", str(self.file)]
+        overlay = overlay_without_rdtsc(self.source, self._work)
+        read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
+        made = ("-MD", "-MF", str(self._dependencies), "-o", str(self.file))
+        return [*self.command, *read, *made]
 
     def finish(self, code: int, told: str) -> None:
         """Take what the compiler has made and told."""
-        found = [(m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}") for m in _FINDING.finditer(told)]
+        found = [
+            (m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}" + (f" ({HINT})" if " in asm" in m[5] else ""))
+            for m in _FINDING.finditer(told)
+        ]
         self.warnings = [text for kind, text in found if kind == "warning"]
         if code == 0:
             self.content = self.file.read_bytes()
+            self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
             return
         self.errors = [text for kind, text in found if kind == "error"]
         if not self.errors:
@@ -173,10 +208,9 @@ class _Object:
         """Keep the object, where it was compiled now."""
         if not self._dependencies.is_file():
             return
-        files = {str(self.source), *_read_dependencies(self._dependencies)}
         key = _key("object", self.content)
         manifest = {
-            "files": {file: _hash_of(file) for file in sorted(files)},
+            "files": {file: _hash_of(file) for file in sorted(self.files)},
             "object": key,
             "warnings": self.warnings,
         }
@@ -221,8 +255,8 @@ def _link(
     known = cache.load(key)
     if known is not None:
         return known
-    for compiled in objects:
-        compiled.file.write_bytes(compiled.content)
+    for compiled, content in zip(objects, without_weak([o.content for o in objects]), strict=True):
+        compiled.file.write_bytes(content)
     target = work / "module.wasm"
     command = [
         *toolchain.linker,

@@ -14,6 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
+from plcsim.ansi_c.static_library import FOLDER, StaticLibrary
 from plcsim.core.errors import ConfigurationError
 
 OLDEST, NEWEST = 14, 30
@@ -30,6 +31,15 @@ _NO_FILL = "-mno-bulk-memory-opt"  # newer clangs write memory.fill without bulk
 _DYNAMIC = "--unresolved-symbols=import-dynamic"  # what LLD 14 does by itself
 
 
+_NOT_THERE = (
+    *("THREADS", "MONOTONIC_CLOCK", "LOCALIZATION", "WIDE_CHARACTERS", "FILESYSTEM", "TERMINAL"),
+    *("RANDOM_DEVICE", "UNICODE", "VENDOR_AVAILABILITY_ANNOTATIONS", "TIME_ZONE_DATABASE"),
+)
+"""Of C++'s library, on a controller."""
+
+_CPP_SOURCES = ("hash.cpp",)
+
+
 class Toolchain(NamedTuple):
     """A compiler and a linker.
 
@@ -39,6 +49,8 @@ class Toolchain(NamedTuple):
         c: command that compiles C, with its target.
         cpp: the same for C++.
         linker: command that links, with what its version needs.
+        cpp_options: by which C++ finds the headers of its library, where the toolchain has it.
+        libraries: what these headers need is linked from here.
     """
 
     name: str
@@ -46,6 +58,8 @@ class Toolchain(NamedTuple):
     c: tuple[str, ...]
     cpp: tuple[str, ...]
     linker: tuple[str, ...]
+    cpp_options: tuple[str, ...] = ()
+    libraries: tuple[StaticLibrary, ...] = ()
 
     def environment(self) -> dict[str, str]:
         """Return the environment to run it in: nothing of the user's C setup takes part."""
@@ -85,7 +99,26 @@ def zig() -> Toolchain | None:
         (command, "cc", "-target", _ZIG_TARGET, _NO_FILL),
         (command, "c++", "-target", _ZIG_TARGET, _NO_FILL),
         (command, "wasm-ld", _DYNAMIC),
+        *_cpp_library(program.parent / "lib" / "libcxx"),
     )
+
+
+def _cpp_library(folder: Path) -> tuple[tuple[str, ...], tuple[StaticLibrary, ...]]:
+    """Return the options for the headers of a libc++, and what they need of its sources."""
+    headers = folder / "include"
+    if not headers.is_dir():
+        return (), ()
+    settings = {
+        "ABI_VERSION": "1",
+        "ABI_NAMESPACE": "__1",
+        "HARDENING_MODE_DEFAULT": "_LIBCPP_HARDENING_MODE_FAST",
+        "ASSERTION_SEMANTIC_DEFAULT": "_LIBCPP_ASSERTION_SEMANTIC_ENFORCE",
+        **dict.fromkeys((f"HAS_{name}" for name in _NOT_THERE), "0"),
+    }
+    defined = (f"-D_LIBCPP_{name}={value}" for name, value in settings.items())
+    sources = (FOLDER / "cpp_library.cpp", *(folder / "src" / name for name in _CPP_SOURCES))
+    options = ("-nostdinc++", "-I", str(FOLDER / "include"), "-I", str(headers), *defined)
+    return options, (StaticLibrary(sources, (headers,)),)
 
 
 @cache

@@ -18,6 +18,10 @@ extern "C" {
 
 typedef __WINT_TYPE__ wint_t;
 
+typedef struct {
+	unsigned char bytes[4];
+} mbstate_t; /* for <string> of C++, which asks that there is one */
+
 size_t wcslen(const wchar_t *text);
 wchar_t *wcscpy(wchar_t *target, const wchar_t *source);
 wchar_t *wcsncpy(wchar_t *target, const wchar_t *source, size_t count);

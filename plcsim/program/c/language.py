@@ -55,8 +55,8 @@ class CBodies:
     def bodies(self, library: Library) -> dict[str, Executable]:
         """Compile the C files of a library; return the bodies in them."""
         files = c_files(library.files)
-        if not files:
-            return {}
+        if not files or not (library.scope.functions or library.scope.function_blocks):
+            return {}  # static: programs are linked with what they need of it
         from plcsim.program.c.library import bodies_in  # noqa: PLC0415  # as in `load` above
 
         return bodies_in(library, files)

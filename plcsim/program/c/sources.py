@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.ansi_c.build import BuildOrder, build
@@ -14,10 +15,12 @@ from plcsim.ansi_c.headers import (
     program_headers,
     written_headers,
 )
+from plcsim.ansi_c.static_library import UNIT_TEST, StaticLibrary
 from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.library.installed import Scopes
 from plcsim.machine.cache import CodeCache, default_folder
 from plcsim.machine.shared_module import read_shared
+from plcsim.program.c.names import c_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -50,7 +53,18 @@ def compile_program(source: ProgramSource) -> LinkedModule:
     brought = [*_with_own_header(own), *_with_headers(others)]
     c_build = source.declarations.layout.c_build
     folders = [source.folder, *c_build.include_folders, *brought, headers]
-    return _compiled(source.name, source.files, folders, *_options(c_build))
+    static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
+    order = BuildOrder(source.name, source.files, folders, _options(c_build), [*static, UNIT_TEST])
+    return _compiled(order)
+
+
+def is_static(library: Library) -> bool:
+    """Return whether a library in C declares nothing that others could call by its module.
+
+    Its code becomes part of each program that needs it.
+    """
+    scope = library.scope
+    return not (scope.functions or scope.function_blocks) and bool(c_files(library.files))
 
 
 def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
@@ -66,7 +80,7 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     )
     option = f"-D_{library.name.upper()}_EXPORT"
     folders = [library.folder, *library.c_build.include_folders, headers]
-    return _compiled(library.name, files, folders, option, *_options(library.c_build))
+    return _compiled(BuildOrder(library.name, files, folders, [option, *_options(library.c_build)]))
 
 
 def _options(c_build: CBuild) -> list[str]:
@@ -101,16 +115,12 @@ def _headers(kind: str, scopes: Sequence[Scope], make: Callable[[], Mapping[str,
     return written_headers(identity_of(kind, scopes), make, parent)
 
 
-def _compiled(
-    name: str, files: Sequence[Path], folders: Sequence[Path], *options: str
-) -> LinkedModule:
+def _compiled(order: BuildOrder) -> LinkedModule:
+    """Build what is ordered, with the headers that are the same for everybody."""
     cache = default_folder()
-    overlay = written_overlay([*folders, INCLUDE], folders[-1].parent)
-    order = BuildOrder(
-        name,
-        files,
-        [*folders, INCLUDE],
-        [*options, "-Xclang", "-ivfsoverlay", "-Xclang", str(overlay)],
-    )
+    folders = [*order.folders, INCLUDE]
+    overlay = written_overlay(folders, order.folders[-1].parent)
+    options = [*order.options, "-Xclang", "-ivfsoverlay", "-Xclang", str(overlay)]
+    order = replace(order, folders=folders, options=options)
     built = build(order, find_toolchain(), CodeCache(cache.parent / "c" if cache else None))
     return LinkedModule(read_shared(built.wasm), built.warnings)

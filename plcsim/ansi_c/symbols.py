@@ -1,0 +1,123 @@
+"""What objects define and what they need, to link of static libraries what is needed of them.
+
+Source: WebAssembly tool conventions, "Linking", version 2. Archives would do it, but linkers differ
+in what they ask of one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from plcsim.machine.reader import CUSTOM, FUNCTION, GLOBAL, IMPORTS, Reader, imports, sections
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_SYMBOL_TABLE = 8
+_OF_FUNCTION, _OF_DATA, _OF_GLOBAL, _OF_SECTION, _OF_TAG, _OF_TABLE = range(6)
+_WEAK, _LOCAL, _UNDEFINED, _EXPLICIT_NAME = 1, 2, 0x10, 0x40
+_KIND_OF_IMPORT: Final = {_OF_FUNCTION: FUNCTION, _OF_GLOBAL: GLOBAL}
+
+
+class Symbols(NamedTuple):
+    """Names that an object shares with others.
+
+    Attributes:
+        defined: what it holds.
+        needed: what it uses and does not hold.
+        weak: functions among what it holds for which another definition would be taken, with the
+            places of their flags in the object.
+    """
+
+    defined: set[str]
+    needed: set[str]
+    weak: dict[str, int]
+
+
+def symbols_of(wasm: bytes) -> Symbols:
+    """Return the symbols of an object that the compiler has made.
+
+    Raises:
+        MachineError: it is none.
+    """
+    imported: dict[int, list[str]] = {FUNCTION: [], GLOBAL: []}
+    found = Symbols(set(), set(), {})
+    for section in sections(wasm):
+        if section.number == IMPORTS:
+            for each in imports(wasm, section):
+                if each.kind in imported:
+                    imported[each.kind].append(each.name)
+        elif section.number == CUSTOM and section.name == "linking":
+            reader = Reader(wasm, section.start, section.end)
+            reader.uleb()
+            while reader.more:
+                kind, size = reader.byte(), reader.uleb()
+                end = reader.offset + size
+                if kind == _SYMBOL_TABLE:
+                    for _ in range(reader.uleb()):
+                        _read(reader, imported, found)
+                reader.offset = end
+    return found
+
+
+def _read(reader: Reader, imported: dict[int, list[str]], found: Symbols) -> None:
+    """Read one symbol."""
+    kind, place = reader.byte(), reader.offset
+    flags = reader.uleb()
+    name = ""
+    if kind == _OF_DATA:
+        name = reader.name()
+        if not flags & _UNDEFINED:
+            reader.uleb(), reader.uleb(), reader.uleb()
+    else:
+        index = reader.uleb()
+        if kind != _OF_SECTION and (flags & _EXPLICIT_NAME or not flags & _UNDEFINED):
+            name = reader.name()
+        elif kind in _KIND_OF_IMPORT:
+            name = imported[_KIND_OF_IMPORT[kind]][index]
+    if not name or flags & _LOCAL:
+        return
+    (found.needed if flags & _UNDEFINED else found.defined).add(name)
+    if kind == _OF_FUNCTION and flags & _WEAK and not flags & _UNDEFINED:
+        found.weak[name] = place
+
+
+def chosen(wanted: Sequence[bytes], offered: Sequence[bytes]) -> list[int]:
+    """Return which of some objects others need, by what these define, in their order.
+
+    Args:
+        wanted: objects that are linked anyway.
+        offered: objects of static libraries; what a former one defines counts.
+    """
+    symbols = [symbols_of(wasm) for wasm in offered]
+    own = [symbols_of(wasm) for wasm in wanted]
+    defined = {name for each in own for name in each.defined}
+    missing = {name for each in own for name in each.needed} - defined
+    taken: set[int] = set()
+    while True:
+        found = next(
+            (n for n, s in enumerate(symbols) if n not in taken and s.defined & missing), None
+        )
+        if found is None:
+            return sorted(taken)
+        taken.add(found)
+        defined |= symbols[found].defined
+        missing = (missing | symbols[found].needed) - defined
+
+
+def without_weak(objects: Sequence[bytes]) -> list[bytes]:
+    """Return objects whose weak functions are the module's own where nothing else defines them.
+
+    A linker would let another module define them; the first definition is the one to take.
+    """
+    symbols = [symbols_of(wasm) for wasm in objects]
+    settled = {name for each in symbols for name in each.defined - each.weak.keys()}
+    changed = []
+    for wasm, each in zip(objects, symbols, strict=True):
+        content = bytearray(wasm)
+        for name, place in each.weak.items():
+            if name not in settled:
+                content[place] &= ~_WEAK
+                settled.add(name)
+        changed.append(bytes(content))
+    return changed
