@@ -119,7 +119,7 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
 
 
 def _compiled(
-    sources: Sequence[Path], order: Order, toolchain: Toolchain, cache: CodeCache, work: Path
+    sources: Sequence[Path], order: BuildOrder, toolchain: Toolchain, cache: CodeCache, work: Path
 ) -> list[_Object]:
     """Compile what is not known.
 
