@@ -80,7 +80,7 @@ class DeclarationParser(SpecificationParser):
             try:
                 items += self._items()
             except UnexpectedTokenError as err:
-                self.diagnostics.error(err.offset, err.message, err.hint)
+                self.tell(err.offset, err.message, err.hint)
                 self._skip_to_item(start)
         self._check_end()
         return DeclarationFile(items, self.trivia[self.index], self.tokens, self.diagnostics)

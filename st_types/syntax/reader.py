@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Final, NoReturn
 
 from st_types.syntax.lexer import TokenKind, is_open_string, kind_of
+from st_types.syntax.trivia import open_comment
 
 if TYPE_CHECKING:
     from st_types.syntax.diagnostics import DiagnosticLog
@@ -33,6 +34,16 @@ class UnexpectedTokenError(Exception):
         self.hint = hint
 
 
+FOREIGN_SIGNS: Final = {
+    "=": "'=' compares, ':=' assigns",
+    "!": "'<>' compares for unequal, NOT negates",
+    "&": "'&' and AND are one",
+    "|": "OR is written OR",
+    "%": "the rest of a division is written MOD",
+}
+"""What to write for the signs of other languages."""
+
+
 class TokenReader:
     """A place in a list of tokens.
 
@@ -50,6 +61,7 @@ class TokenReader:
         self.index = 0
         self.diagnostics = diagnostics
         self.depth = 0
+        self._told = -1
 
     @property
     def text(self) -> str:
@@ -99,12 +111,24 @@ class TokenReader:
         self.index += 1
         return text
 
+    def tell(self, offset: int, message: str, hint: str = "") -> None:
+        """Record an error, unless it only follows from another one.
+
+        That is one at the same place, and what is missing behind a comment that is never closed:
+        the parser of a file tells of the comment.
+        """
+        is_lost = not self.text and open_comment(self.tokens.trivia[self.index]) is not None
+        if offset != self._told and not is_lost:
+            self._told = offset
+            self.diagnostics.error(offset, message, hint)
+
     def fail(self, expected: str, hint: str = "") -> NoReturn:
         """Give up at the next token: ``expected`` says what should stand in its place.
 
         Raises:
             UnexpectedTokenError: always.
         """
+        hint = hint or FOREIGN_SIGNS.get(self.text, "")
         raise UnexpectedTokenError(self.here(), f"{expected}, found {self.found()}", hint)
 
     def fail_before(self, expected: str) -> NoReturn:

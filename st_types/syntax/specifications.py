@@ -85,7 +85,7 @@ class SpecificationParser(InitialParser):
                 self.recover(err, depth, index)
         keyword = texts[self.index].upper()
         if keyword != end:
-            self.diagnostics.error(self.here(), f"expected {end}, found {self.found()}")
+            self.tell(self.here(), f"expected {end}, found {self.found()}")
         if keyword == end or (keyword in _SINGLE_ENDS and end in _SINGLE_ENDS):
             self.index += 1
         return found
@@ -116,7 +116,7 @@ class SpecificationParser(InitialParser):
 
         That is behind the next semicolon, at ``name :`` on a new line, or at a block's keyword.
         """
-        self.diagnostics.error(err.offset, err.message, err.hint)
+        self.tell(err.offset, err.message, err.hint)
         self.depth = depth
         texts, trivia = self.texts, self.trivia
         index = max(self.index, start + 1)

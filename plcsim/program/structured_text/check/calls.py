@@ -417,6 +417,12 @@ class CallChecker(ExpressionChecker):
         if self.names.value(name) is not None:
             return self._not_callable(node)
         scope = self.names.scope
+        if scope.find_function_block(name.name) is not None:
+            message = f"{name.name} is a function block; an instance of it can be called"
+            self.error(
+                node, FindingCode.NOT_CALLABLE, message, f"declare x : {name.name}; then x()"
+            )
+            return NOTHING
         known = (each for outer in scope.chain for each in outer.index.names("functions"))
         message = f"no function is called {name.name}{self.findings.near(name.name, known)}"
         self.error(node, FindingCode.UNKNOWN_NAME, message, scope.hint("functions", name.name))

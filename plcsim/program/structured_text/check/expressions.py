@@ -280,7 +280,9 @@ class ExpressionChecker:
                 self.error(node, FindingCode.NO_ARRAY, message, _pointer_hint(array))
             return NOTHING
         if len(indices) != len(array.bounds):
-            message = f"{array} takes {len(array.bounds)} indices, not {len(indices)}"
+            count = len(array.bounds)
+            noun = "index" if count == 1 else "indices"
+            message = f"{array} takes {count} {noun}, not {len(indices)}"
             self.error(node, FindingCode.WRONG_INDEX, message)
             return NOTHING
         for place, (each, (low, high)) in enumerate(zip(node.indices, array.bounds, strict=True)):

@@ -7,7 +7,7 @@ on behind the next semicolon or at the next keyword, so that one run finds them 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar, NoReturn
+from typing import TYPE_CHECKING, ClassVar, Final, NoReturn
 
 from plcsim.program.structured_text.syntax.keywords import (
     KEYS,
@@ -43,7 +43,7 @@ from st_types.syntax.expressions import (
     Name,
 )
 from st_types.syntax.lexer import NAME
-from st_types.syntax.reader import UnexpectedTokenError
+from st_types.syntax.reader import MAX_DEPTH, UnexpectedTokenError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,6 +57,12 @@ _OPENED_BY = {"ELSIF": ("END_IF",), "ELSE": ("END_IF", "END_CASE"), "UNTIL": ("E
 _AFTER_STATEMENT_WORDS = frozenset([":=", ".", "[", "^", "ACCESS"])
 _LABEL_SIGNS = frozenset([":", ",", ".."])
 _LABEL_SCAN_ENDS = frozenset([":", ",", "..", ":=", ";", "(", "[", "ACCESS", "", "^"])
+MISSPELT: Final = {
+    key.replace("_", ""): key for key in sorted(STATEMENT_ENDS | UNIT_ENDS) if "_" in key
+} | {"ELSEIF": "ELSIF", "ELIF": "ELSIF", "ENDIF": "END_IF"}
+"""Keywords as people write them by mistake."""
+
+FOREIGN_FIRSTS: Final = frozenset(["+", "-", "*", "/", "="])
 _VENDOR_ASSIGNMENTS = ("REF", "S", "R")
 _RECOVERY = STATEMENT_STARTS | STATEMENT_ENDS | UNIT_ENDS | UNIT_STARTS
 
@@ -69,6 +75,8 @@ class StatementParser(DeclarationParser):
 
     _open: list[str]
     """The END keywords of the statements and units that are open, the outermost first."""
+    _lost = False
+    """Statements were nested too deep, so what ends which is not known any more."""
 
     keys: list[str]
 
@@ -90,7 +98,8 @@ class StatementParser(DeclarationParser):
             try:
                 self._statements(found)
             except UnexpectedTokenError as err:
-                self.diagnostics.error(err.offset, err.message, err.hint)
+                self.tell(err.offset, err.message, err.hint)
+                self._lost |= self.depth > MAX_DEPTH
                 self.depth = depth
                 del self._open[opened:]
                 self._recover_statement(start)
@@ -142,7 +151,8 @@ class StatementParser(DeclarationParser):
         return any(end in self._open for end in _OPENED_BY.get(key, ()))
 
     def _skip_stray(self, key: str) -> None:
-        self.diagnostics.error(self.here(), f"unexpected {key}: nothing is open that it ends")
+        if not self._lost:
+            self.tell(self.here(), f"unexpected {key}: nothing is open that it ends")
         self.index += 1
 
     def _directive_in_body(self) -> None:
@@ -237,6 +247,9 @@ class StatementParser(DeclarationParser):
 
     def _rare_statement(self, at: int, target: Expression) -> Statement:
         """Parse ``p ACCESS x``, ``p REF= x``, ``b S= x``, a call, ``a = b`` as a statement."""
+        self._refuse_foreign()
+        if type(target) is Name and (meant := MISSPELT.get(target.name.upper())):
+            return self._misspelt(target, meant)
         if self.keys[self.index] == "ACCESS":
             self.index += 1
             return self._ended(Assignment(self.index - 1, target, self.expression(), "ACCESS"))
@@ -251,6 +264,22 @@ class StatementParser(DeclarationParser):
                 ExpressionStatement(at, Binary(self.index - 1, "=", target, self.expression()))
             )
         return self._ended(ExpressionStatement(at, target))
+
+    def _refuse_foreign(self) -> None:
+        """Give up at ``+=``, ``++`` and ``==``."""
+        keys, at = self.keys, self.index
+        if keys[at] in FOREIGN_FIRSTS and keys[at + 1] in ("=", keys[at]):
+            sign = f"{keys[at]}{keys[at + 1]}"
+            hint = f"{sign} is no operator; a := a {keys[at]} 1 is how it is written"
+            self.fail("expected ':='", "'=' compares, ':=' assigns" if sign == "==" else hint)
+
+    def _misspelt(self, name: Name, meant: str) -> Statement:
+        """Take ENDIF for END_IF, after a finding."""
+        message = f"{name.name} is no keyword"
+        self.tell(self.tokens.offset(name.at), message, f"did you mean {meant}?")
+        self.index = name.at
+        self.keys[name.at] = meant
+        return ExpressionStatement(name.at, Name(name.at, ""))
 
     def _ended(self, statement: Statement) -> Statement:
         """Step over the semicolon; where the next statement starts a line, only tell it is missing.
@@ -269,7 +298,7 @@ class StatementParser(DeclarationParser):
             key = self.keys[self.index]
             if key not in _STOPS and (key == ":" or ("\n" not in trivia and "\r" not in trivia)):
                 raise
-            self.diagnostics.error(err.offset, err.message, err.hint)
+            self.tell(err.offset, err.message, err.hint)
         return statement
 
     def _expected_end(self, statement: Statement) -> str:
@@ -294,7 +323,7 @@ class StatementParser(DeclarationParser):
             return
         line = self.tokens.location(at).line
         opened = self.texts[at].upper()
-        self.diagnostics.error(
+        self.tell(
             self.here(), f"expected {end} of the {opened} in line {line}, found {self.found()}"
         )
 
@@ -328,12 +357,14 @@ class StatementParser(DeclarationParser):
         start, depth = self.index, self.depth
         try:
             found = self.expression()
+            if self.keys[self.index] == ":=":
+                self.fail(f"expected '{word}' {context}", "'=' compares, ':=' assigns")
             if self.keys[self.index] != word:
                 self.fail_before(f"expected '{word}' {context}")
         except UnexpectedTokenError as err:
             if not self._finds(word):
                 raise
-            self.diagnostics.error(err.offset, err.message, err.hint)
+            self.tell(err.offset, err.message, err.hint)
             self.depth = depth
             return Name(start, "")
         self.index += 1
@@ -394,7 +425,7 @@ class StatementParser(DeclarationParser):
                 labels.append(self._case_label())
             self.expect(":", "after the labels of a CASE element")
         except UnexpectedTokenError as err:
-            self.diagnostics.error(err.offset, err.message, err.hint)
+            self.tell(err.offset, err.message, err.hint)
             self.depth = depth
             self._recover_statement(at)
         return CaseElement(at, labels, self.statements())
@@ -426,7 +457,7 @@ class StatementParser(DeclarationParser):
         except UnexpectedTokenError as err:
             if not self._finds("DO"):
                 raise
-            self.diagnostics.error(err.offset, err.message, err.hint)
+            self.tell(err.offset, err.message, err.hint)
             self.depth = depth
             variable, first, last, step = Name(at, ""), Name(at, ""), Name(at, ""), None
         body = self._body("END_FOR")
@@ -459,6 +490,10 @@ class StatementParser(DeclarationParser):
         at = self.index
         self.index += 1
         body = self._body("END_REPEAT")
+        if self.keys[self.index] == "END_REPEAT":
+            self.tell(self.here(), "expected UNTIL and a condition before END_REPEAT")
+            self.index += 1
+            return RepeatStatement(at, body, Name(at, ""))
         self.expect("UNTIL", "after the statements of REPEAT")
         condition = self.expression()
         while self.accept(";"):

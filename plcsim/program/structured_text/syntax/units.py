@@ -57,7 +57,7 @@ class UnitParser(StatementParser):
             try:
                 self._unit(units)
             except UnexpectedTokenError as err:
-                self.diagnostics.error(err.offset, err.message, err.hint)
+                self.tell(err.offset, err.message, err.hint)
                 self._recover_unit(start)
         self._check_end()
         return StructuredTextFile(units, self.tokens, self.diagnostics)
