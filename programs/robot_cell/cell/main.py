@@ -1,15 +1,16 @@
-"""The cell: its states, the action that drives the arm, and what it tells of its joints.
+"""The cell: its states, what drives the arm, and what it tells of its joints and of itself.
 
-The arm is simulated: a joint is where the trajectory wants it. The HMI enables and stops the cell
-by two coils; a goal is refused unless the cell is READY or MOVING, and a newer one takes the place
-of an older one, as trajectory controllers do it.
+The arm is simulated: a joint is where the trajectory wants it. Trajectories come as goals of an
+action, or are streamed: a newer one takes the place of an older one, whichever way they came, as
+trajectory controllers do it, and a streamed one without points stops the arm. The HMI enables and
+stops the cell by two coils; nothing is taken unless the cell is READY or MOVING.
 """
 
 from enum import IntEnum
 
 from crosnode.action.server import ActionServer, Goal
-from crosnode.messages import Time
-from crosnode.node import CrosNode, Publisher
+from crosnode.messages import Message, Time
+from crosnode.node import CrosNode, Publisher, Subscriber
 from crosnode.plc.project import create_node
 from plcsim import Program
 from st_types import ARRAY, BOOL, LREAL, UDINT, USINT, var
@@ -19,6 +20,10 @@ from .trajectory import JOINTS, NAMES, Trajectory, fault_of, fill, position_at
 CYCLE_S = 0.004
 STATES_EVERY = 5
 """Cycles between two messages on /joint_states: 50 a second."""
+STATUS_EVERY = 25
+"""Cycles between two messages on /robot_status: 10 a second."""
+AUTO = 2
+"""Of industrial_msgs/RobotMode."""
 
 
 class State(IntEnum):
@@ -31,13 +36,15 @@ class State(IntEnum):
 
 
 class Cell(Program):
-    """Six joints, one action."""
+    """Six joints, one action, one stream."""
 
-    __slots__ = ("follow", "goal", "joint_states", "node")
+    __slots__ = ("commands", "follow", "goal", "joint_states", "node", "robot_status")
 
     node: CrosNode
     follow: ActionServer
+    commands: Subscriber
     joint_states: Publisher
+    robot_status: Publisher
     goal: Goal | None
 
     enable = var(BOOL)
@@ -50,6 +57,7 @@ class Cell(Program):
     done = var(UDINT)
     stopped = var(UDINT)
     refused = var(UDINT)
+    streamed = var(UDINT)
 
     def init(self) -> None:
         """Make the node; nothing waits for the master."""
@@ -57,6 +65,12 @@ class Cell(Program):
         self.joint_states = self.node.register_publisher("/joint_states", "sensor_msgs/JointState")
         self.follow = ActionServer(
             self.node, "/follow_joint_trajectory", "control_msgs/FollowJointTrajectory"
+        )
+        self.commands = self.node.register_subscriber(
+            "/joint_path_command", "trajectory_msgs/JointTrajectory"
+        )
+        self.robot_status = self.node.register_publisher(
+            "/robot_status", "industrial_msgs/RobotStatus"
         )
         self.goal = None
 
@@ -67,11 +81,15 @@ class Cell(Program):
         self.switch()
         while (goal := self.follow.pop()) is not None:
             self.take(goal)
-        if self.goal is not None:
-            self.move(self.goal)
+        while (trajectory := self.commands.pop()) is not None:
+            self.stream(trajectory)
+        if self.state == State.MOVING:
+            self.move()
         self.cycle += 1
         if self.cycle % STATES_EVERY == 0:
             self.tell()
+        if self.cycle % STATUS_EVERY == 0:
+            self.tell_status()
 
     def switch(self) -> None:
         """Follow the HMI's coils."""
@@ -104,20 +122,43 @@ class Cell(Program):
         elif self.state not in (State.READY, State.MOVING):
             self.refused += 1
             goal.reject("the cell is not enabled")
-        elif fault := fault_of(goal.goal, start)[0]:
+        elif fault := fault_of(goal.goal.trajectory, start)[0]:
             self.refused += 1
-            goal.reject(fault_of(goal.goal, start)[1], error_code=fault)
+            goal.reject(fault_of(goal.goal.trajectory, start)[1], error_code=fault)
         else:
-            if self.goal is not None:
-                self.goal.cancel("a newer goal")
-                self.goal.set_canceled("a newer goal")
-            fill(self.trajectory, goal.goal, start)
             goal.accept()
-            self.goal, self.time_s, self.state = goal, 0.0, State.MOVING
+            self.begin(goal.goal.trajectory, goal, "a newer goal")
 
-    def move(self, goal: Goal) -> None:
-        """Go one cycle further on the way of a goal."""
-        if goal.is_canceled:
+    def stream(self, trajectory: Message) -> None:
+        """Begin with a streamed trajectory, or pass it over; one without points stops the arm."""
+        if self.state not in (State.READY, State.MOVING):
+            self.refused += 1
+        elif not trajectory.points:
+            self.give_way("a streamed stop")
+            self.state = State.READY
+        elif fault_of(trajectory, list(self.position))[0]:
+            self.refused += 1
+        else:
+            self.streamed += 1
+            self.begin(trajectory, None, "a streamed trajectory")
+
+    def begin(self, trajectory: Message, goal: Goal | None, text: str) -> None:
+        """Let a trajectory take the place of the one that is under way."""
+        self.give_way(text)
+        fill(self.trajectory, trajectory, list(self.position))
+        self.goal, self.time_s, self.state = goal, 0.0, State.MOVING
+
+    def give_way(self, text: str) -> None:
+        """End the goal that is under way, for something newer."""
+        if self.goal is not None:
+            self.goal.cancel(text)
+            self.goal.set_canceled(text)
+            self.goal = None
+
+    def move(self) -> None:
+        """Go one cycle further on the way."""
+        goal = self.goal
+        if goal is not None and goal.is_canceled:
             goal.set_canceled()
             self.goal, self.state = None, State.READY
             return
@@ -125,10 +166,12 @@ class Cell(Program):
         for number, at in enumerate(position_at(self.trajectory, self.time_s), 1):
             self.position[number] = at
         if self.time_s >= self.trajectory.points[self.trajectory.count - 1].time_s:
-            self.done += 1
-            goal.succeed("there")
-            self.goal, self.state = None, State.READY
-        elif self.cycle % STATES_EVERY == 0:
+            self.state = State.READY
+            if goal is not None:
+                self.done += 1
+                goal.succeed("there")
+                self.goal = None
+        elif goal is not None and self.cycle % STATES_EVERY == 0:
             goal.feedback(joint_names=NAMES)
 
     def tell(self) -> None:
@@ -136,6 +179,17 @@ class Cell(Program):
         message = self.joint_states.new(name=NAMES, position=list(self.position))
         message.header.stamp = Time.from_ns(self.node.now_ns)
         self.joint_states.send(message)
+
+    def tell_status(self) -> None:
+        """Tell how the cell is, as industrial robots do it."""
+        message = self.robot_status.new()
+        message.header.stamp = Time.from_ns(self.node.now_ns)
+        message.mode.val = AUTO
+        message.e_stopped.val = int(self.state == State.STOPPED)
+        message.drives_powered.val = int(self.state in (State.READY, State.MOVING))
+        message.motion_possible.val = int(self.state in (State.READY, State.MOVING))
+        message.in_motion.val = int(self.state == State.MOVING)
+        self.robot_status.send(message)
 
     def exit(self) -> None:
         """End goal and node."""

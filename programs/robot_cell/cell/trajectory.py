@@ -33,9 +33,8 @@ class Trajectory(Struct):
     points = var(ARRAY(Point, (0, POINTS)))
 
 
-def fault_of(goal: Message, start: list[float]) -> tuple[int, str]:
+def fault_of(trajectory: Message, start: list[float]) -> tuple[int, str]:
     """Return error code and text of a trajectory that the arm cannot follow, (0, "") otherwise."""
-    trajectory = goal.trajectory
     if sorted(trajectory.joint_names) != NAMES:
         return INVALID_JOINTS, f"joints are {', '.join(NAMES)}"
     if not 0 < len(trajectory.points) <= POINTS:
@@ -66,9 +65,9 @@ def rows_of(trajectory: Message) -> list[tuple[float, list[float]]]:
     ]
 
 
-def fill(target: Trajectory, goal: Message, start: list[float]) -> None:
+def fill(target: Trajectory, trajectory: Message, start: list[float]) -> None:
     """Copy a trajectory into PLC memory, behind where the arm is."""
-    rows = [(0.0, start), *rows_of(goal.trajectory)]
+    rows = [(0.0, start), *rows_of(trajectory)]
     for point, (time_s, position) in zip(target.points, rows, strict=False):
         point.time_s = time_s
         for number, at in enumerate(position, 1):

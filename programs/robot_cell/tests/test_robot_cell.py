@@ -8,7 +8,7 @@ import pytest
 
 from crosnode.action.client import ActionClient, ClientGoal
 from crosnode.action.goal_states import GoalState
-from crosnode.messages import Duration
+from crosnode.messages import Duration, Message
 from crosnode.testing import Ros
 from plcsim.testing import Plc
 
@@ -30,15 +30,17 @@ class Planner:
 
     def send(self, *points: tuple[float, float], names: list[str] = NAMES) -> ClientGoal:
         """Send a goal of points: seconds, and the position of all joints."""
+        return self.client.send(trajectory=self.trajectory(*points, names=names))
+
+    def trajectory(self, *points: tuple[float, float], names: list[str] = NAMES) -> Message:
+        """Return a trajectory of such points."""
         new = self.node.types.message("trajectory_msgs/JointTrajectoryPoint").new
         rows = [
             new(positions=[at] * 6, time_from_start=Duration.from_ns(round(s * 1e9)))
             for s, at in points
         ]
-        trajectory = self.node.types.message("trajectory_msgs/JointTrajectory").new(
-            joint_names=names, points=rows
-        )
-        return self.client.send(trajectory=trajectory)
+        kind = self.node.types.message("trajectory_msgs/JointTrajectory")
+        return kind.new(joint_names=names, points=rows)
 
 
 @pytest.fixture
@@ -154,3 +156,81 @@ def test_a_planner_that_is_lost_stops_nothing_and_finds_the_end(
     plc.faults.reset(planner.node.host)
     plc.run("2s")
     assert (plc["cell.done"], plc["cell.state"]) == (1, READY)
+
+
+class Streamer:
+    """A planner that streams, and hears the robot's status."""
+
+    def __init__(self, plc: Plc, planner: Planner) -> None:
+        self.plc = plc
+        self.planner = planner
+        node = planner.node
+        self.out = node.register_publisher("/joint_path_command", "trajectory_msgs/JointTrajectory")
+        self.status = node.register_subscriber("/robot_status", "industrial_msgs/RobotStatus")
+        plc.until(lambda: self.out.subscribers and self.status.publishers)
+
+    def send(self, *points: tuple[float, float]) -> None:
+        self.out.send(self.planner.trajectory(*points))
+
+    def newest(self) -> tuple[int, ...]:
+        """Return stop, drives, possible and motion of the newest status."""
+        self.plc.run("150ms")
+        (*_, last) = iter(self.status.pop, None)
+        assert last.mode.val == 2
+        found = (last.e_stopped, last.drives_powered, last.motion_possible, last.in_motion)
+        return tuple(each.val for each in found)
+
+
+@pytest.fixture
+def streamer(plc: Plc, planner: Planner) -> Streamer:
+    return Streamer(plc, planner)
+
+
+def test_a_stream_of_single_points_is_followed(plc: Plc, streamer: Streamer) -> None:
+    plc["cell.enable"] = True
+    plc.until({"cell.state": READY})
+    for number in range(1, 51):  # 50 a second, each 40 ms ahead
+        streamer.send((0.04, 0.02 * number))
+        plc.run("20ms")
+    assert plc["cell.streamed"] == 50
+    assert plc["cell.position[3]"] == pytest.approx(1.0, abs=0.03)
+    plc.until({"cell.state": READY})
+    assert plc["cell.position[3]"] == 1.0
+    assert plc["cell.refused"] == 0
+
+
+def test_a_streamed_trajectory_takes_the_place_of_a_goal_and_one_without_points_stops(
+    plc: Plc, streamer: Streamer
+) -> None:
+    plc["cell.enable"] = True
+    goal = streamer.planner.send((2.0, 2.0))
+    plc.until({"cell.state": MOVING})
+    streamer.send((2.0, -1.0))
+    plc.until(lambda: goal.is_over)
+    assert (goal.state, goal.text) == (GoalState.PREEMPTED, "a streamed trajectory")
+    plc.run("500ms")
+    streamer.send()
+    plc.until({"cell.state": READY})
+    assert -0.4 < plc["cell.position[1]"] < -0.1
+
+
+def test_what_is_streamed_while_the_cell_is_off_or_is_too_fast_moves_nothing(
+    plc: Plc, streamer: Streamer
+) -> None:
+    streamer.send((1.0, 0.5))
+    plc.until({"cell.refused": 1})
+    plc["cell.enable"] = True
+    plc.until({"cell.state": READY})
+    streamer.send((0.1, 2.0))
+    plc.until({"cell.refused": 2})
+    assert plc["cell.position[1]"] == 0.0
+
+
+def test_the_status_of_the_robot(plc: Plc, streamer: Streamer) -> None:
+    assert streamer.newest() == (0, 0, 0, 0)
+    plc["cell.enable"] = True
+    assert streamer.newest() == (0, 1, 1, 0)
+    streamer.send((1.0, 0.5))
+    assert streamer.newest() == (0, 1, 1, 1)
+    plc["cell.stop"] = True
+    assert streamer.newest() == (1, 0, 0, 0)
