@@ -31,6 +31,7 @@ class Context:
         heap: what programs reserve while they run.
         traffic: messages that programs send and receive, told to whoever follows them.
         globals: a view of the global variables; None where the project has none.
+        run_block: runs a function block whose body is not in Python; given by who knows libraries.
         violation: the violation an exception program was called for, None before the first.
     """
 
@@ -42,6 +43,7 @@ class Context:
         "heap",
         "memory",
         "network",
+        "run_block",
         "traffic",
         "violation",
     )
@@ -56,6 +58,7 @@ class Context:
         self.heap = Heap(memory)
         self.network = network
         self.globals: Any = None
+        self.run_block: Callable[[Any], None] = _no_body
         self._system = memory.system.cells
         self.violation: Violation | None = None
         self.traffic = Traffic()
@@ -124,3 +127,7 @@ class Context:
         self._libraries.clear()
         self.heap.reset()
         self.violation = None
+
+
+def _no_body(block: object) -> None:
+    raise NotImplementedError(f"{type(block).__name__} has no execute method.")

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class FunctionBlock(DataBlock):
-    """Base of all function blocks written in Python.
+    """Base of all function blocks in Python.
 
     A subclass declares its inputs, outputs and internals with `var_input`, `var_output` and `var`,
     and implements `execute`.
@@ -33,8 +33,15 @@ class FunctionBlock(DataBlock):
     __slots__ = ()
 
     def execute(self) -> None:
-        """Run the block once on its data block."""
-        raise NotImplementedError(f"{type(self).__name__} has no execute method.")
+        """Run the block once on its data block.
+
+        A body in Python is this method; without it the one that the block's library has in another
+        language runs.
+
+        Raises:
+            NotImplementedError: nothing knows of another one.
+        """
+        self.context.run_block(self)
 
     def __call__(self, **inputs: object) -> None:
         """Assign ``inputs`` by name, then run the block once.

@@ -6,16 +6,20 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.library.executable import CompiledExecutable
+from st_types.types.derived import ArrayType, DataBlockType, StructType, resolve_alias
+from st_types.types.views import address_of, type_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from plcsim.core.context import Context
     from plcsim.core.memory import Memory
     from plcsim.core.tag import Tag
     from plcsim.library.catalogue import Catalogue
     from plcsim.machine import Machine
-    from st_types.types.derived import StructType
+    from st_types.types.elementary import DataType
+    from st_types.types.views import Struct
 
 
 class Site:
@@ -48,6 +52,7 @@ class Site:
         self._bound: dict[StructType[Any], Callable[[int], None]] = {}
         self._counts_instructions = counts_instructions
         context.give_settings(self)
+        context.run_block = self._run_block
 
     @staticmethod
     def of(context: Context) -> Site:
@@ -89,6 +94,36 @@ class Site:
                 raise ConfigurationError(no_body(data_type))
             self._bound[data_type] = executable.bind(self.context)
         return self._bound[data_type]
+
+    def prepare(self, data_type: DataType[Any]) -> None:
+        """Bind the compiled blocks in a variable, which else their first call would wait for.
+
+        Raises:
+            ConfigurationError: the body of a block cannot be loaded.
+        """
+        for block in blocks_in(data_type):
+            if isinstance(self.catalogue.executable(block), CompiledExecutable):
+                self.block(block)
+
+    def _run_block(self, block: Struct) -> None:
+        self.block(type_of(block))(address_of(block))  # type: ignore[arg-type]  # a data block
+
+
+def blocks_in(data_type: DataType[Any]) -> Iterator[DataBlockType[Any]]:
+    """Iterate over the types of the data blocks in a variable, those inside others first."""
+    return _blocks_in(data_type, set())
+
+
+def _blocks_in(data_type: DataType[Any], seen: set[int]) -> Iterator[DataBlockType[Any]]:
+    found = resolve_alias(data_type)
+    if isinstance(found, ArrayType):
+        yield from _blocks_in(found.element, seen)
+    elif isinstance(found, StructType) and id(found) not in seen:
+        seen.add(id(found))
+        for member in found.members:
+            yield from _blocks_in(member.data_type, seen)
+        if isinstance(found, DataBlockType):
+            yield found
 
 
 def no_body(data_type: StructType[Any]) -> str:

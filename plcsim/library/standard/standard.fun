@@ -1,6 +1,6 @@
 (* Library standard: the standard function blocks of IEC 61131-3, clause 6.6.3.5 of edition 3,
    with the member names, types and order that B&R gives them. This file is the source of their
-   interface; the Python classes beside it are compared with it by a test. *)
+   interface; their bodies are in plcsim/ansi_c/libc/src/iec_blocks.c. *)
 
 FUNCTION_BLOCK TON (*on-delay timer*)
 	VAR_INPUT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.module import CModule
 from plcsim.core.errors import ConfigurationError
@@ -11,19 +11,17 @@ from plcsim.program.c.names import NAME
 from plcsim.program.c.sources import compile_library
 from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
 from plcsim.program.compiled import CompiledPrograms
-from plcsim.program.site import Site
-from plcsim.program.structured_text.calling import callable_of, extern_of, interface_of
+from plcsim.program.compiled_body import CompiledBody
+from plcsim.program.structured_text.calling import interface_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.core.context import Context
     from plcsim.library.executable import Executable
     from plcsim.library.library import Library
-    from plcsim.machine import Extern
     from plcsim.machine.shared_module import SharedModule
-    from plcsim.program.structured_text.calling import Interface
+    from plcsim.program.site import Site
 
 
 def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
@@ -35,7 +33,7 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     whole = CLibraryCode(library, compile_library(library, files).module)
     known = set(whole.module.functions)
     found: dict[str, Executable] = {
-        block.name: CBody(whole, block.name)
+        block.name: CompiledBody(whole, block.name)
         for block in library.scope.function_blocks
         if block.name in known
     }
@@ -47,7 +45,7 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
                     f"{function.file.location(function.node)}: error: {function.name} gives "
                     f"{interface.large.name}, which a function in C cannot give"
                 )
-            found[function.name] = CBody(whole, function.name, interface)
+            found[function.name] = CompiledBody(whole, function.name, interface)
     return found
 
 
@@ -65,6 +63,8 @@ class CLibraryCode:
     def __init__(self, library: Library, module: SharedModule) -> None:
         self._library = library
         self.module = module
+
+    language: Final = NAME
 
     def on(self, site: Site) -> CModule | None:
         """Return the module on a controller; None while it is being placed."""
@@ -99,50 +99,3 @@ class _Modules:
 
     def __init__(self) -> None:
         self.placed: dict[CLibraryCode, CModule | None] = {}
-
-
-class CBody(NamedTuple):
-    """The body of a FUNCTION_BLOCK or of a FUNCTION.
-
-    It is a `plcsim.library.executable.CompiledExecutable`.
-
-    Attributes:
-        library: that it belongs to.
-        name: of the function in C.
-        interface: of a FUNCTION; None for a block.
-    """
-
-    library: CLibraryCode
-    name: str
-    interface: Interface | None = None
-
-    @property
-    def language(self) -> str:
-        """ANSI C."""
-        return NAME
-
-    def bind(self, context: Context) -> Callable[..., Any]:
-        """Return what runs it on a controller, for Python."""
-        site = Site.of(context)
-        module = self.library.on(site)
-        if module is None:  # two libraries call each other
-
-            def call(*arguments: Any) -> Any:
-                return self.bind(context)(*arguments)
-
-            return call
-        if self.interface is None:
-            return site.machine.unit(module.function(self.name, "I"))
-        return site.machine.unit(
-            callable_of(site.memory, module.instance, self.name, self.interface)
-        )
-
-    def extern(self, context: Context) -> Extern:
-        """Return it for other modules to import."""
-        site = Site.of(context)
-        module = self.library.on(site)
-        if module is not None:
-            return module.extern(self.name)
-        if self.interface is None:
-            return site.machine.host_function(self.bind(context), "I")
-        return extern_of(site.machine, site.memory, self.interface, self.bind(context))

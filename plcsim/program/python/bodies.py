@@ -17,6 +17,7 @@ from plcsim.library.face import names_of
 from plcsim.library.installed import installed
 from plcsim.program.python.method_check import check_methods
 from plcsim.program.python.modules import body_modules, own_names
+from plcsim.program.site import Site
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,6 +46,9 @@ class PythonBlock(NamedTuple):
 
     def bind(self, context: Context) -> Callable[[int], None]:
         """Return what runs the block on the data block at an address."""
+        site = context.settings(Site)
+        if site is not None:
+            site.prepare(self.view._plc_type)
         views: dict[int, FunctionBlock] = {}
         access, view = context.memory.access, self.view
 
@@ -114,6 +118,8 @@ def _block(library: Library, view: type[FunctionBlock]) -> tuple[str, Executable
     name, scope = view._plc_type.name, library.scope
     if name not in scope.index.names("types") or scope.find_type(name) is not view._plc_type:
         return "", None
+    if view.execute is FunctionBlock.execute:
+        raise ConfigurationError(f"{library.folder}: class {name} has no method execute")
     if installed().get(library.package) is not library:
         check_methods(view, FunctionBlock)
     return name, PythonBlock(view)

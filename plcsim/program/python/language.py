@@ -60,6 +60,7 @@ class PythonCode:
     def task(self, name: str, site: Site) -> Task:
         """Return a task that runs the methods of a new view of the class."""
         variables, constants = self._variables.allocate(site.memory, name)
+        site.prepare(variables.data_type)
         view = site.memory.access(self.program, variables.address, site.context)
         units = {Unit.INIT: view.init, Unit.CYCLIC: view.cyclic, Unit.EXIT: view.exit}
         return Task(

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Final
 
-from plcsim.program.site import Site
-from plcsim.program.structured_text.calling import callable_of, extern_of, interface_of
+from plcsim.program.compiled_body import CompiledBody
+from plcsim.program.structured_text.calling import interface_of
 from plcsim.program.structured_text.code import checked
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
@@ -17,14 +16,13 @@ from plcsim.program.structured_text.names import NAME
 from plcsim.program.structured_text.sources import check_syntax, read_files
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
     from pathlib import Path
 
-    from plcsim.core.context import Context
     from plcsim.library.executable import Executable
     from plcsim.library.library import Library
-    from plcsim.machine import Extern, Instance
-    from plcsim.program.structured_text.calling import Interface
+    from plcsim.machine import Instance
+    from plcsim.program.site import Site
     from plcsim.program.structured_text.check.typed import CheckedProgram
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from st_types.resolve.scope import Scope
@@ -67,7 +65,9 @@ class CompiledLibrary:
         self._scope = scope
         self._codes: dict[object, ObjectCode] = {}
 
-    def instance(self, site: Site) -> Instance | None:
+    language: Final = NAME
+
+    def on(self, site: Site) -> Instance | None:
         """Return the module on a controller; None while it is being linked."""
         linkage = Linkage.of(site)
         return linkage.library(self, lambda: linkage.link(self._code(site), self._scope, {}))
@@ -80,49 +80,3 @@ class CompiledLibrary:
             self._codes[shared] = generate(lower(self._program, layout.areas), MEASURING.options)
             keep_possible(self._codes[shared].profile, self._texts)
         return self._codes[shared]
-
-
-class CompiledBody(NamedTuple):
-    """The body of a FUNCTION_BLOCK or of a FUNCTION.
-
-    It is a `plcsim.library.executable.CompiledExecutable`.
-
-    Attributes:
-        library: that it belongs to.
-        name: of the compiled function.
-        interface: of a FUNCTION; None for a block.
-    """
-
-    library: CompiledLibrary
-    name: str
-    interface: Interface | None = None
-
-    @property
-    def language(self) -> str:
-        """Structured Text."""
-        return NAME
-
-    def bind(self, context: Context) -> Callable[..., Any]:
-        """Return what runs it on a controller, for Python."""
-        site = Site.of(context)
-        instance = self.library.instance(site)
-        if instance is None:  # two libraries call each other
-            return partial(self._call, context)
-        if self.interface is None:
-            return site.machine.unit(instance.function(self.name, "I"))
-        call = callable_of(site.memory, instance, self.name, self.interface)
-        return site.machine.unit(call)
-
-    def _call(self, context: Context, *arguments: Any) -> Any:
-        return self.bind(context)(*arguments)
-
-    def extern(self, context: Context) -> Extern:
-        """Return it for other modules to import."""
-        site = Site.of(context)
-        instance = self.library.instance(site)
-        if instance is not None:
-            return instance.extern(self.name)
-        call = self.bind(context)
-        if self.interface is None:
-            return site.machine.host_function(call, "I")
-        return extern_of(site.machine, site.memory, self.interface, call)

@@ -81,12 +81,23 @@ def test_a_block_outside_a_controller_says_so():
         Adder(enable=True)()
 
 
-def test_a_block_without_execute_says_so():
+def test_a_block_without_execute_says_so(context):
     class Lazy(FunctionBlock):
         enable = var_input(BOOL)
 
     with pytest.raises(NotImplementedError, match=r"Lazy has no execute method\."):
-        Lazy()()
+        context.memory.new(Lazy, context)()
+
+
+def test_who_knows_libraries_runs_a_block_without_execute(context):
+    class Lazy(FunctionBlock):
+        enable = var_input(BOOL)
+
+    ran = []
+    context.run_block = ran.append
+    block = context.memory.new(Lazy, context)
+    block(enable=True)
+    assert ran == [block]
 
 
 @pytest.mark.parametrize("name", ["context", "execute"])

@@ -1,19 +1,31 @@
-"""Blocks in a controller of their own, and timing diagrams as text.
+"""Blocks in a controller, and timing diagrams as text.
 
 A diagram has one row a member and one column a call, 1 ms apart. ``_`` and ``#`` are FALSE and
 TRUE, a digit is a number. Rows of inputs are played, rows of outputs are compared.
 """
 
+from functools import cache
+
 from plcsim.core.context import Context
 from plcsim.core.memory import PAGE, Memory
+from plcsim.program.loader import installed_catalogue
+from plcsim.program.site import Site
 from st_types.types.derived import Section
 from st_types.types.views import type_of
 
 MS = 1_000_000
 
 
+@cache
+def controller():
+    """What all blocks of these tests lie in, as the machine takes its time to make."""
+    context = Context(Memory(200 * PAGE), network=None)
+    Site(context, installed_catalogue())
+    return context
+
+
 def new_block(block_class, release_ns=0):
-    context = Context(Memory(2 * PAGE), network=None)
+    context = controller()
     context.release_ns = release_ns
     return context.memory.new(block_class, context)
 

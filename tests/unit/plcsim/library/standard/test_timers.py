@@ -385,13 +385,13 @@ TICK = 10 * MS
     start=st.integers(0, 2**33),
 )
 def test_timers_in_ticks_do_what_those_in_milliseconds_do(ticks, millis, pt, levels, start):
-    coarse, fine = new_block(ticks, start * TICK), new_block(millis, start * MS)
-    for level in levels:
+    coarse, fine = new_block(ticks), new_block(millis)
+    for number, level in enumerate(levels, start):
+        coarse.context.release_ns = number * TICK
         coarse(IN=level, PT=pt)
+        fine.context.release_ns = number * MS
         fine(IN=level, PT=pt)
         assert outputs(coarse) == outputs(fine)
-        coarse.context.release_ns += TICK
-        fine.context.release_ns += MS
 
 
 def test_a_tick_is_10_ms():

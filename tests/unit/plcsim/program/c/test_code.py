@@ -155,18 +155,19 @@ def test_two_tasks_of_one_program_share_nothing(controller):
 
 
 def test_an_exception_in_a_block_leads_to_the_call_in_c(controller, monkeypatch):
-    from plcsim.library.standard import TON
+    from plcsim.library.brsystem import RTInfo
 
     def execute(_self):
         raise KeyError("in Python")
 
-    monkeypatch.setattr(TON, "execute", execute)
-    plc = controller(FILES)
+    monkeypatch.setattr(RTInfo, "execute", execute)
+    include = "#include <bur/plctypes.h>\n#include <AsDefault.h>\n"
+    text = f"{include}void _CYCLIC run(void)\n{{\n  RTInfo(&info);\n}}\n"
+    plc = controller({"Main.c": text, "Variables.var": "VAR info : RTInfo; END_VAR"})
     plc.boot()
     plc.run(cycles=1)
     assert plc.fault.reason == "KeyError: 'in Python'"
-    line = MAIN.splitlines().index("\tTON(&timer);") + 1
-    assert plc.fault.calls[0].endswith(f"Main.c:{line} in ProgramCyclic")
+    assert plc.fault.calls[0].endswith("Main.c:5 in run")
 
 
 def test_an_endless_loop_is_ended_on_the_virtual_clock(controller, monkeypatch):

@@ -1,9 +1,9 @@
-"""Every function that a library names as its body is in the C library, with its signature."""
+"""Every function that a library names as a body is in the C library, with its signature."""
 
 import pytest
 
 from plcsim.library.installed import installed
-from plcsim.program.c.exports import ExportedBody
+from plcsim.program.compiled_body import CompiledBody
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
@@ -26,8 +26,9 @@ def context():
 @pytest.mark.parametrize("library", LIBRARIES, ids=str)
 def test_exports_are_there(library, context):
     bodies = installed_catalogue().bodies(library)
-    found = {name: body for name, body in bodies.items() if isinstance(body, ExportedBody)}
-    assert set(found) == {function.name for function in library.scope.functions}
+    found = {name: body for name, body in bodies.items() if isinstance(body, CompiledBody)}
+    declared = [*library.scope.functions, *library.scope.function_blocks]
+    assert set(found) == {each.name for each in declared}
     for body in found.values():
         assert callable(body.bind(context))
         assert body.extern(context) is not None
