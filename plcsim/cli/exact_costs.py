@@ -1,7 +1,8 @@
 """What compiled programs cost more or less between two reports, in instructions and by line.
 
-The counts are exact, so one run of each is enough. Lines are compared by their text: what moved
-because something was put in above it has not changed.
+The counts are exact, so one run of each is enough. Reports have lines where they were asked for
+(``--plc-lines``). They are compared by their text: what moved because something was put in above it
+has not changed.
 """
 
 from __future__ import annotations
@@ -79,16 +80,22 @@ def costs_of(tests: Sequence[Mapping[str, Any]]) -> dict[Key, Cost]:
     """Return the costs of all compiled programs of a report, from the first repeat of each test."""
     found: dict[Key, Cost] = {}
     for test in tests:
-        lines = {
-            str(file): [(int(line), int(cost), str(text)) for line, cost, text in rows]
-            for file, rows in test.get("lines", {}).items()
-        }
+        common = _lines(test)
         for program in test["programs"]:
             counted = program.get("instructions")
             if counted and test["outcome"] != "skipped":
+                lines = common | _lines(program)
                 cost = Cost(program["cycles"], counted["total"], counted["maximum"], lines)
                 found.setdefault((test["group"], program["name"]), cost)
     return found
+
+
+def _lines(entry: Mapping[str, Any]) -> dict[str, list[tuple[int, int, str]]]:
+    """Return the lines of a program, or those of the libraries in a test."""
+    return {
+        str(file): [(int(line), int(cost), str(text)) for line, cost, text in rows]
+        for file, rows in entry.get("lines", {}).items()
+    }
 
 
 def differences(
@@ -111,6 +118,9 @@ def differences(
 
 
 def _ranges(before: Cost, after: Cost) -> list[Range]:
+    """Return where costs have changed, where both runs know their lines."""
+    if not before.lines or not after.lines:
+        return []
     found = [
         Range(file, first, last, change)
         for file in sorted({*before.lines, *after.lines})

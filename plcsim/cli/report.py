@@ -79,6 +79,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "machines may differ in speed.",
         examples=(
             ("pytest --plc-report before --plc-repeat 30", "on the old commit; after on the new"),
+            (
+                "pytest --plc-report before --plc-lines",
+                "which lines cost more, exactly",
+            ),
             ("plcsim report compare before after", ""),
         ),
         epilog=epilog(
@@ -122,6 +126,8 @@ def compare(options: argparse.Namespace) -> int:
     console = CommandConsole()
     for one in changed:
         console.print(_sentence(one))
+    if changed and not any(one.ranges for one in changed):
+        console.print("where: pytest --plc-report DIR --plc-lines tells the lines, too")
     if found:
         console.print(_table(found))
     slower = sum(one.worse for one in changed) + sum(one.worse for one in found)

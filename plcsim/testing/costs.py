@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.core.clock import VirtualClock
 from plcsim.testing.errors import PlcTestError
+from plcsim.testing.line_costs import line_costs_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -31,6 +32,7 @@ class Costs:
     Attributes:
         measured_ns: CPU time of each CYCLIC, one list a program, in the order of cycles.
         instructions: of each CYCLIC, likewise, of programs in which they are counted.
+        lines: instructions by line, of programs that are compiled with counters.
         total_ns: sum of all of them.
     """
 
@@ -39,6 +41,7 @@ class Costs:
         self.instructions: dict[str, list[int]] = {
             task.name: [] for task in controller.tasks if task.instructions
         }
+        self.lines = line_costs_of(controller)
         self.total_ns = 0
         self._clock = controller.clock
         self._count = dict.fromkeys(self.measured_ns, 0)

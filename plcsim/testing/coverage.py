@@ -24,12 +24,12 @@ def coverage_init(registry: Any, _options: dict[str, str]) -> None:
     base = import_module("coverage").CoveragePlugin
     plugin = type("StructuredText", (base,), {"file_reporter": _reporter})
     registry.add_file_tracer(plugin())
-    MEASURING.is_on = True
+    MEASURING.is_on = MEASURING.is_collected = True
 
 
 def collect() -> None:
     """Hand over what has run since the last call."""
-    if not MEASURING.is_on:
+    if not MEASURING.is_collected:
         return
     current = import_module("coverage").Coverage.current()
     found = {p: seen for p, seen in MEASURING.collect().items() if Path(p).is_file()}  # no helpers

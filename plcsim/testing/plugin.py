@@ -45,6 +45,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--plc-report", metavar="DIR", help="write a report of all PLC tests: index.html and JSON"
     )
     group.addoption(
+        "--plc-lines",
+        action="store_true",
+        help="with --plc-report: count the instructions of each line of compiled programs, so that "
+        "`plcsim report compare` tells where a program got slower; they run half as fast",
+    )
+    group.addoption(
         "--plc-repeat",
         type=int,
         default=1,
@@ -86,7 +92,7 @@ def pytest_configure(config: pytest.Config) -> None:
     for marker in MARKERS:
         config.addinivalue_line("markers", marker)
     seed = config.getoption("--plc-seed")
-    if seed != "0" or config.getoption("--plc-report"):
+    if seed != "0" or config.getoption("--plc-report") or config.getoption("--plc-lines"):
         _session().configure(config)
 
 

@@ -66,10 +66,14 @@ def result_of(
         "task_classes": [class_report(c) for c in plc.controller.classes],
         "programs": [
             _program(name, costs_ns, own_ns, loop_ns)
-            | {"instructions": _instructions(plc.costs.instructions.get(name))}
+            | {
+                "instructions": _instructions(plc.costs.instructions.get(name)),
+                "lines": plc.costs.lines.of_task(name),
+            }
             for name, costs_ns in plc.costs.measured_ns.items()
             if costs_ns
         ],
+        "lines": plc.costs.lines.of_libraries(),
         "violations": [violation_report(v) for v in plc.controller.violations],
         "traces": [
             {"tags": [t.path for t in trace.tags], "svg": trace.to_svg()}

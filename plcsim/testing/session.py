@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from contextlib import contextmanager
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from random import SystemRandom
 from typing import TYPE_CHECKING, Any
@@ -57,9 +58,21 @@ def configure(config: pytest.Config) -> None:
     if config.getoption("--plc-seed") == "random":
         config.option.plc_seed = str(SystemRandom().randrange(1 << 31))
     seed_of(config)
+    if config.getoption("--plc-lines"):
+        _count_lines(config)
     folder = config.getoption("--plc-report")
     if folder and not hasattr(config, "workerinput"):
         config.pluginmanager.register(ReportWriter(Path(folder), seed_of(config)), "plcsim-report")
+
+
+def _count_lines(config: pytest.Config) -> None:
+    """Compile programs with counters for the lines, until the run ends."""
+    if not config.getoption("--plc-report"):
+        raise pytest.UsageError("--plc-lines: goes with --plc-report DIR, which tells them")
+    measuring = import_module("plcsim.program.structured_text.coverage").MEASURING
+    was_on = measuring.is_on
+    measuring.is_on = True
+    config.add_cleanup(lambda: setattr(measuring, "is_on", was_on))
 
 
 def seed_of(config: pytest.Config) -> int:

@@ -183,7 +183,7 @@ class StructuredTextCode:
         variables, constants = self._variables.allocate(site.memory, name)
         linkage = Linkage.of(site)
         own = addresses(OWN, (variables, constants))
-        instance = linkage.link(self._code, self._scope, own)
+        instance = linkage.link(self._code, self._scope, own, name)
         units = {unit: _unit(instance, unit, site.machine) for unit in Unit}
         return Task(
             name,

@@ -9,19 +9,21 @@ from __future__ import annotations
 
 import hashlib
 import marshal
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.generate import COUNTER
+from plcsim.program.structured_text.codegen.instrument import OVERHEAD
 from plcsim.program.structured_text.codegen.options import CodegenOptions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from plcsim.machine import Instance
-    from plcsim.program.structured_text.codegen.profile import Profile
+    from plcsim.program.structured_text.codegen.profile import Counts, Profile
 
 Way = tuple[int, int]
 
@@ -44,29 +46,64 @@ class Seen(NamedTuple):
         self.ways.update(other.ways)
 
 
+class CountedModule:
+    """A module with counters on a controller.
+
+    Args:
+        task: whose module it is, "" for that of a library.
+        profile: what its counters mean.
+        instance: the module.
+
+    Attributes:
+        task: as above.
+        profile: likewise.
+        overhead: tells the instructions that counting has taken so far.
+    """
+
+    def __init__(self, task: str, profile: Profile, instance: Instance) -> None:
+        self.task = task
+        self.profile = profile
+        self._instance = instance
+        self.overhead = instance.variable(COUNTER.format(OVERHEAD))
+
+    @cached_property
+    def _counters(self) -> list[Callable[[], int]]:
+        numbers = range(OVERHEAD + 1, OVERHEAD + 1 + self.profile.counters)
+        return [self._instance.variable(COUNTER.format(number)) for number in numbers]
+
+    def counts(self) -> Counts:
+        """Return the values of all counters."""
+        return np.array([counter() for counter in self._counters], np.int64)
+
+
 class Measuring:
-    """Whether programs are measured, and those that are linked since they were collected."""
+    """Whether programs are compiled with counters, and the modules with them, for coverage.
+
+    Attributes:
+        is_on: programs are compiled with counters from now on.
+        is_collected: somebody collects what has run.
+    """
 
     def __init__(self) -> None:
         self.is_on = False
-        self._linked: list[tuple[Profile, Instance]] = []
+        self.is_collected = False
+        self._linked: list[CountedModule] = []
 
     @property
     def options(self) -> CodegenOptions:
         """How programs are compiled."""
         return CodegenOptions(counters=self.is_on)
 
-    def link(self, profile: Profile | None, instance: Instance) -> None:
+    def link(self, module: CountedModule) -> None:
         """Note a module that was linked."""
-        if self.is_on and profile is not None:
-            self._linked.append((profile, instance))
+        if self.is_collected:
+            self._linked.append(module)
 
     def collect(self) -> dict[str, Seen]:
         """Return what has run, by file, and forget the modules."""
         found: dict[str, Seen] = {}
-        for profile, instance in self._linked:
-            numbers = range(1, profile.counters + 1)
-            counts = np.array([instance.value(COUNTER.format(n)) for n in numbers], np.int64)
+        for module in self._linked:
+            profile, counts = module.profile, module.counts()
             for number, path in enumerate(profile.files):
                 seen = Seen(profile.lines_run(number, counts), profile.ways_gone(number, counts))
                 if profile.lines(number):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from plcsim.program.compiled import CompiledPrograms, no_function_body
 from plcsim.program.site import no_body
 from plcsim.program.structured_text.codegen.link import Linker
-from plcsim.program.structured_text.coverage import MEASURING
+from plcsim.program.structured_text.coverage import MEASURING, CountedModule
 from plcsim.program.structured_text.fault import locator
 from plcsim.program.structured_text.layout import SHARED, addresses
 
@@ -27,9 +27,14 @@ if TYPE_CHECKING:
 
 
 class Linkage:
-    """The modules of one controller; see `of`."""
+    """The modules of one controller; see `of`.
+
+    Attributes:
+        counted: those that were compiled with counters.
+    """
 
     def __init__(self, site: Site) -> None:
+        self.counted: list[CountedModule] = []
         self._site = site
         self._linker = Linker(site.machine)
         self._libraries: dict[object, Instance | None] = {}
@@ -45,13 +50,16 @@ class Linkage:
             site.context.give_settings(found)
         return found
 
-    def link(self, code: ObjectCode, scope: Scope, own: Mapping[str, int]) -> Instance:
+    def link(
+        self, code: ObjectCode, scope: Scope, own: Mapping[str, int], task: str = ""
+    ) -> Instance:
         """Return a module that is ready to run.
 
         Args:
             code: the module.
             scope: in which its names were looked up.
             own: addresses of the segments of its variables.
+            task: whose module it is, "" for that of a library.
 
         Raises:
             ConfigurationError: the memory is full, or something that it calls has no body.
@@ -62,7 +70,11 @@ class Linkage:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
         self._compiled.locate_by(code.name, locator(code.lines))
         instance = self._linker.link(code, places, partial(self._provide, scope))
-        MEASURING.link(code.profile, instance)
+        if code.profile is not None:
+            module = CountedModule(task, code.profile, instance)
+            self.counted.append(module)
+            self._site.machine.deduct(module.overhead)
+            MEASURING.link(module)
         return instance
 
     def library(self, key: object, link: Callable[[], Instance]) -> Instance | None:

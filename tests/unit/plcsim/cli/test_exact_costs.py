@@ -86,7 +86,8 @@ def test_a_range_in_words():
 
 
 def test_costs_of_a_report():
-    program = {"name": "p", "cycles": 5, "instructions": {"total": 50, "maximum": 11}}
+    counted = {"total": 50, "maximum": 11}
+    program = {"name": "p", "cycles": 5, "instructions": counted, "lines": {"P": [[2, 9, "b;"]]}}
     other = {"name": "q", "cycles": 5, "instructions": None}
     test = {
         "group": "t",
@@ -98,4 +99,12 @@ def test_costs_of_a_report():
     skipped = {**test, "group": "s", "outcome": "skipped"}
     without = {"group": "w", "outcome": "passed", "programs": [{"name": "p", "cycles": 5}]}
     found = costs_of([test, again, skipped, without])
-    assert found == {("t", "p"): Cost(5, 50, 11, {"M": [(1, 50, "a;")]})}
+    lines = {"M": [(1, 50, "a;")], "P": [(2, 9, "b;")]}
+    assert found == {("t", "p"): Cost(5, 50, 11, lines)}
+
+
+def test_without_lines_of_both_runs_nobody_says_where():
+    before, after = {("t", "p"): Cost(1, 5, 5, {})}, {("t", "p"): cost(1, 9, a=9)}
+    for one, other in (before, after), (after, before):
+        (found,) = differences(one, other, 0.1)
+        assert found.ranges == []

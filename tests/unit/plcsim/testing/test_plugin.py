@@ -1,11 +1,15 @@
 """The plugin in a pytest of its own: what a person sees."""
 
+import json
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+import plcsim.program.structured_text.library  # inner runs would import parts of it again  # noqa: F401
+from plcsim.program.structured_text.coverage import MEASURING
 
 pytest_plugins = ["pytester"]
 
@@ -277,3 +281,36 @@ def test_a_run_without_plc_tests_imports_nothing_of_plcsim():
         " 'plcsim.testing.plugin'], loaded\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+COUNTING = "PROGRAM _CYCLIC\n\tcount := count + 1;\nEND_PROGRAM\n"
+
+
+@pytest.fixture
+def compiled_suite(pytester):
+    """A project with a program in Structured Text, and one test; returns the run's result."""
+    pytester.makefile(".toml", plc='[task_class.1]\ncycle = "10ms"\nprograms = ["main"]\n')
+    folder = pytester.mkdir("main")
+    (folder / "Main.st").write_text(COUNTING)
+    (folder / "Main.var").write_text("VAR count : UDINT; END_VAR\n")
+    pytester.makepyfile("def test_count(plc):\n    plc.cycles(5)\n")
+    return lambda *arguments: pytester.runpytest_inprocess(*QUICK, *arguments)
+
+
+def test_the_report_tells_what_lines_cost(compiled_suite, pytester):
+    compiled_suite("--plc-report", "plain").assert_outcomes(passed=1)
+    compiled_suite("--plc-report", "lines", "--plc-lines").assert_outcomes(passed=1)
+    files = (pytester.path / folder / "report.json" for folder in ("plain", "lines"))
+    reports = [json.loads(file.read_text()) for file in files]
+    assert not MEASURING.is_on
+    plain, counted = (report["tests"][0]["programs"][0] for report in reports)
+    assert plain["instructions"] == counted["instructions"]
+    assert plain["lines"] == {}
+    (rows,) = counted["lines"].values()
+    assert [(line, text) for line, _, text in rows][1:] == [(2, "count := count + 1;")]
+    assert sum(cost for _, cost, _ in rows) == counted["instructions"]["total"]
+
+
+def test_lines_without_a_report_are_an_error_of_use(compiled_suite):
+    result = compiled_suite("--plc-lines")
+    result.stderr.fnmatch_lines(["*--plc-lines: goes with --plc-report DIR*"])

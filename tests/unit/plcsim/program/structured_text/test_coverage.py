@@ -31,7 +31,7 @@ FILES = {
 def measuring(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     found = coverage.Measuring()
-    found.is_on = True
+    found.is_on = found.is_collected = True
     for module in ("code", "library", "linkage"):
         monkeypatch.setattr(f"plcsim.program.structured_text.{module}.MEASURING", found)
     return found
