@@ -1,20 +1,28 @@
 """Reads the messages of a ROS 1 bag chunk by chunk, several times as quick as by its index.
 
-It goes where no chunk begins before the one before it ends, as in every bag that was recorded and
-not put together: what is in a chunk is sorted by time, and no more than one chunk is in memory.
+In a bag as it was recorded no chunk begins before the one before it ends: then one chunk is in
+memory, sorted by time. Of chunks that overlap only the places of their messages are kept, 40 bytes
+each, and the messages read one by one.
 """
 
 from __future__ import annotations
 
+import os
 import struct
-from itertools import pairwise, permutations
+from collections import Counter
+from functools import lru_cache
+from itertools import permutations
 from operator import attrgetter, itemgetter
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+import numpy as np
+from rosbags.rosbag1 import Reader
+from rosbags.rosbag1.reader import decompressors
 
 from plcsim.recorder.errors import RecordingError
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Callable, Collection, Iterator, Sequence
 
 _FIELDS: Final = {b"op=": "4s", b"conn=": "5sI", b"time=": "5sII"}
 _SIZES: Final = {b"op=": 4, b"conn=": 9, b"time=": 13}
@@ -26,6 +34,9 @@ _MESSAGE: Final = b"op=\x02"
 _SECOND_NS: Final = 1_000_000_000
 
 _WHEN = itemgetter(0)
+
+CACHED: Final = 64
+"""Compressed chunks that are kept unpacked, of chunks that overlap."""
 
 
 class _Layout(NamedTuple):
@@ -68,39 +79,105 @@ _LAYOUTS: Final = tuple(map(_layout, permutations(_FIELDS)))
 """roscpp, rospy and rosbags each have another order."""
 
 
-def is_in_order(reader: Any) -> bool:
-    """Whether no chunk of a bag begins before the one before it ends.
+class ChunkReader(Reader):
+    """A reader that leaves the places of single messages alone: 300 bytes of memory for each."""
 
-    Args:
-        reader: `rosbags.rosbag1.Reader`, open.
-    """
-    chunks = sorted(_filled(reader), key=attrgetter("start_time"))
-    return all(one.end_time - 1 <= other.start_time for one, other in pairwise(chunks))
+    def read_index_data(self, pos: int, indexes: dict[int, list[Any]]) -> None:
+        """Read nothing; `messages` finds them in the chunks."""
+
+    def open(self) -> None:
+        """Open the bag; connections know their messages by what the chunks say of them."""
+        super().open()
+        counts = Counter[int]()
+        for info in self.chunk_infos:
+            counts.update(info.connection_counts)
+        self.connections = [each._replace(msgcount=counts[each.id]) for each in self.connections]
 
 
-def messages(reader: Any, connections: Collection[int]) -> Iterator[tuple[int, int, bytes]]:
+def messages(reader: ChunkReader, connections: Collection[int]) -> Iterator[tuple[int, int, bytes]]:
     """Return connection, time in nanoseconds and bytes of each message, by time.
 
     Args:
-        reader: `rosbags.rosbag1.Reader`, open, whose bag `is_in_order`.
+        reader: open.
         connections: numbers of those that count.
 
     Raises:
         RecordingError: a chunk is damaged.
     """
     wanted = frozenset(connections)
+    for group in _groups(reader):
+        chosen = [info for info in group if not wanted.isdisjoint(info.connection_counts)]
+        if len(chosen) == 1:
+            data = _content(reader, chosen[0])
+            for time_ns, connection, start, end in _places(data):
+                if connection in wanted:
+                    yield connection, time_ns, data[start:end]
+        elif chosen:
+            yield from _merged(reader, chosen, wanted)
+
+
+def _groups(reader: ChunkReader) -> Iterator[list[Any]]:
+    """Return chunks that overlap, together, by their times."""
+    group: list[Any] = []
+    end_ns = 0
     for info in sorted(_filled(reader), key=attrgetter("start_time", "pos")):
-        if wanted.isdisjoint(info.connection_counts):
-            continue
-        chunk = reader.chunks[info.pos]
-        reader.bio.seek(chunk.datapos)
-        data = chunk.decompressor(reader.bio.read(chunk.datasize))
-        for time_ns, connection, start, end in _places(data):
-            if connection in wanted:
-                yield connection, time_ns, data[start:end]
+        if group and info.start_time >= end_ns - 1:  # rosbags counts the end one up
+            yield group
+            group = []
+        group.append(info)
+        end_ns = max(end_ns, info.end_time)
+    if group:
+        yield group
 
 
-def _filled(reader: Any) -> list[Any]:
+def _content(reader: ChunkReader, info: Any) -> bytes:
+    chunk = reader.chunks[info.pos]
+    data = os.pread(_fd(reader), chunk.datasize, chunk.datapos)
+    return bytes(chunk.decompressor(data))
+
+
+def _fd(reader: ChunkReader) -> int:
+    assert reader.bio is not None
+    return reader.bio.fileno()
+
+
+def _merged(
+    reader: ChunkReader, group: Sequence[Any], wanted: frozenset[int]
+) -> Iterator[tuple[int, int, bytes]]:
+    """Return the messages of chunks that overlap, by time."""
+    parts = []
+    for number, info in enumerate(group):
+        places = np.array(_places(_content(reader, info)), dtype=np.int64).reshape(-1, 4)
+        parts.append(np.column_stack([places, np.full(len(places), number)]))
+    table = np.concatenate(parts)
+    del parts
+    order = np.argsort(table[:, 0], kind="stable")
+    read = _reads(reader, group)
+    for each in order:
+        time_ns, connection, start, end, number = table[each].tolist()
+        if connection in wanted:
+            yield connection, time_ns, read(number, start, end)
+
+
+def _reads(reader: ChunkReader, group: Sequence[Any]) -> Callable[[int, int, int], bytes]:
+    """Return what reads a message: of a chunk that is not compressed, nothing but its bytes."""
+    fd = _fd(reader)
+    chunks = [reader.chunks[info.pos] for info in group]
+
+    @lru_cache(CACHED)
+    def unpacked(number: int) -> bytes:
+        return _content(reader, group[number])
+
+    def read(number: int, start: int, end: int) -> bytes:
+        chunk = chunks[number]
+        if chunk.decompressor is decompressors["none"]:
+            return os.pread(fd, end - start, chunk.datapos + start)
+        return unpacked(number)[start:end]
+
+    return read
+
+
+def _filled(reader: ChunkReader) -> list[Any]:
     return [each for each in reader.chunk_infos if each.connection_counts]
 
 

@@ -7,7 +7,6 @@ import struct
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from plcsim.recorder.bag import chunks
 from plcsim.recorder.bag.changes import changed
 from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
@@ -102,9 +101,11 @@ class BagReader:
         if not chosen:
             return
         with _told(self.path):
-            if not self._is_cdr and chunks.is_in_order(self._reader):
+            if not self._is_cdr:
                 named = {c.id: (c.topic, c.msgtype) for c in chosen}
-                for number, time_ns, data in chunks.messages(self._reader, named):
+                from plcsim.recorder.bag.chunks import messages  # noqa: PLC0415  # as below
+
+                for number, time_ns, data in messages(self._reader, named):
                     yield BagMessage(*named[number], time_ns, data, is_cdr=False)
                 return
             for connection, time_ns, data in self._reader.messages(connections=chosen):
@@ -175,7 +176,9 @@ def open_bag(path: Path) -> Iterator[BagReader]:
         RecordingError: it is none, it is damaged, or it was not closed.
     """
     typestore()
-    from rosbags import rosbag1, rosbag2  # noqa: PLC0415
+    from rosbags import rosbag2  # noqa: PLC0415
+
+    from plcsim.recorder.bag.chunks import ChunkReader  # noqa: PLC0415  # needs rosbags
 
     if not path.exists():
         left = active(path)
@@ -183,7 +186,7 @@ def open_bag(path: Path) -> Iterator[BagReader]:
         raise RecordingError(f"{path}: there is no such file{hint}")
     is_ros2 = path.is_dir() or path.suffix in (".mcap", ".db3")
     with _told(path):
-        reader: Any = rosbag2.Reader(path) if is_ros2 else rosbag1.Reader(path)
+        reader: Any = rosbag2.Reader(path) if is_ros2 else ChunkReader(path)
         reader.open()
     try:
         yield BagReader(path, reader, is_cdr=is_ros2)

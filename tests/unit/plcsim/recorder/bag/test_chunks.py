@@ -1,5 +1,6 @@
 """Messages chunk by chunk are those that rosbags finds by the index."""
 
+import random
 import struct
 from itertools import permutations
 from pathlib import Path
@@ -7,11 +8,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from rosbags.rosbag1 import Reader, Writer
 
 from plcsim.recorder.bag import chunks
 from plcsim.recorder.bag.files import Ros1Bag
 from plcsim.recorder.bag.reading import open_bag
-from plcsim.recorder.bag.types import text_message
+from plcsim.recorder.bag.types import text_message, typestore
 from plcsim.recorder.errors import RecordingError
 
 TEXT = "std_msgs/msg/String"
@@ -30,31 +32,47 @@ def write(path: Path, parts: list[list[tuple[int, int]]]) -> None:
 
 
 @settings(max_examples=30)
-@given(st.lists(st.lists(st.tuples(st.integers(0, 2), st.integers(1, 50)), max_size=5), max_size=3))
+@given(
+    st.lists(st.lists(st.tuples(st.integers(0, 2), st.integers(1, 50)), max_size=5), max_size=3),
+    st.sampled_from([0, 25, 49, 100]),
+)
 def test_they_are_those_of_the_index(
-    tmp_path_factory: pytest.TempPathFactory, parts: list[list[tuple[int, int]]]
+    tmp_path_factory: pytest.TempPathFactory, parts: list[list[tuple[int, int]]], step: int
 ) -> None:
     path = tmp_path_factory.getbasetemp() / "chunks.bag"
-    write(path, [[(topic, 100 * n + t) for topic, t in part] for n, part in enumerate(parts)])
+    write(path, [[(topic, step * n + t) for topic, t in part] for n, part in enumerate(parts)])
 
     with open_bag(path) as bag:
         reader = bag._reader
-        assert chunks.is_in_order(reader)
+        ours = [c.msgcount for c in reader.connections]
         found = [
             (time_ns, connection, data)
             for connection, time_ns, data in chunks.messages(reader, {0, 1, 2})
         ]
-        theirs = [(time_ns, c.id, data) for c, time_ns, data in reader.messages()]
+    with Reader(path) as by_index:
+        theirs = [(time_ns, c.id, data) for c, time_ns, data in by_index.messages()]
+        counts = [c.msgcount for c in by_index.connections]
     assert sorted(found) == sorted(theirs)
+    assert ours == counts
     assert [time_ns for time_ns, _, _ in found] == [time_ns for time_ns, _, _ in theirs]
 
 
-def test_chunks_that_overlap_are_read_by_the_index(tmp_path: Path) -> None:
-    write(tmp_path / "a.bag", [[(0, 10), (0, 30)], [(1, 20), (1, 40)]])
+@pytest.mark.parametrize("compression", ["", "BZ2", "LZ4"])
+def test_messages_of_chunks_that_overlap_are_merged(tmp_path: Path, compression: str) -> None:
+    writer = Writer(tmp_path / "a.bag")
+    if compression:
+        writer.set_compression(Writer.CompressionFormat[compression])
+    writer.chunk_threshold = 1000
+    times = random.Random(1).sample(range(1, 10_000), 1000)
+    with writer:
+        topics = [writer.add_connection(f"/{n}", TEXT, typestore=typestore()) for n in range(3)]
+        for time_ns in times:
+            writer.write(topics[time_ns % 3], time_ns, text_message(str(time_ns)))
 
     with open_bag(tmp_path / "a.bag") as bag:
-        assert not chunks.is_in_order(bag._reader)
-        assert [each.time_ns for each in bag.messages()] == [10, 20, 30, 40]
+        found = [(each.time_ns, each.topic, each.data) for each in bag.messages(["/0", "/2"])]
+        assert len(bag._reader.chunk_infos) > 10
+    assert found == [(t, f"/{t % 3}", text_message(str(t))) for t in sorted(times) if t % 3 != 1]
 
 
 @pytest.mark.parametrize("more", [b"", b"more=x"])
