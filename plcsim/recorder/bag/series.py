@@ -62,6 +62,15 @@ def series_of(
     return made
 
 
+def columns_of(head: Head, paths: Sequence[str]) -> list[Tag]:
+    """Return the tags of `rows_of`; STRUCTs and ARRAYs are as many columns as they have leaves.
+
+    Raises:
+        RecordingError: there is no such tag.
+    """
+    return [leaf for path in paths for leaf in leaves(_find(head, path))]
+
+
 def rows_of(
     head: Head, records: Iterable[tuple[int, JournalRecord]], paths: Sequence[str]
 ) -> Iterator[list[object]]:
@@ -70,7 +79,7 @@ def rows_of(
     Args:
         head: of the recording.
         records: of the recording.
-        paths: of the tags; STRUCTs and ARRAYs are as many columns as they have leaves.
+        paths: of the tags, see `columns_of`.
 
     Yields:
         the names of the columns first.
@@ -78,7 +87,7 @@ def rows_of(
     Raises:
         RecordingError: there is no such tag, or the variables were not recorded.
     """
-    found = [leaf for path in paths for leaf in leaves(_find(head, path))]
+    found = columns_of(head, paths)
     places = [(leaf, _start(head, leaf)) for leaf in found]
     yield ["time_s", "task_class", "cycle", *(leaf.path for leaf in found)]
     first_ns: int | None = None

@@ -14,10 +14,11 @@ from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration
 from plcsim.recorder.bag.difference import difference
 from plcsim.recorder.bag.files import ACTIVE
+from plcsim.recorder.bag.parquet import write_parquet
 from plcsim.recorder.bag.plot import draw, page
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.bag.reindex import reindex as recover
-from plcsim.recorder.bag.series import rows_of, series_of
+from plcsim.recorder.bag.series import columns_of, rows_of, series_of
 from plcsim.recorder.bag.types import CYCLES, HEAD
 from plcsim.recorder.errors import RecordingError
 
@@ -77,9 +78,15 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def export(options: argparse.Namespace) -> int:
-    """Write tags of every cycle as CSV."""
+    """Write tags of every cycle as CSV or Parquet."""
     if options.output is not None:
         check_output("--output", options.output)
+        if options.output.suffix == ".parquet":
+            with open_bag(options.bag) as bag:
+                head = bag.head()
+                rows = rows_of(head, bag.records(), options.tags)
+                write_parquet(options.output, columns_of(head, options.tags), rows)
+            return ExitCode.DONE
     text = io.StringIO()
     with open_bag(options.bag) as bag:
         csv.writer(text, lineterminator="\n").writerows(

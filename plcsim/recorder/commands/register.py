@@ -154,14 +154,23 @@ def _add_plot(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
 def _add_export(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(
         "export",
-        help="write tags of every cycle as CSV",
+        help="write tags of every cycle as CSV or Parquet",
         description="Write tags of a recording as a table, a row for every cycle.",
-        examples=(("plcsim bag export run.bag tank.level tank.valve -o level.csv", ""),),
+        examples=(
+            ("plcsim bag export run.bag tank.level tank.valve -o level.csv", ""),
+            ("plcsim bag export run.bag tank -o tank.parquet", "for pandas and other notebooks"),
+        ),
         epilog=epilog(DONE="", FAILED="the bag is wrong, or has no such tag"),
     )
     parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
     parser.add_argument("tags", nargs="+", metavar="TAG", help="such as tank.level")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="instead of stdout")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="a .parquet file, or CSV; otherwise CSV on stdout",
+    )
     parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "export"))
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
+from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
 from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
@@ -45,7 +46,9 @@ def serve(service: Service) -> None:
         Recorder(service, writing).run()
     except OSError as err:
         writing.abandon()
-        raise RecordingError(f"{file}: cannot be written: {err}") from None
+        left = active(writing.files[-1])
+        hint = f"; plcsim bag reindex {left} makes readable what is there" if left.is_file() else ""
+        raise RecordingError(f"{file}: cannot be written: {err}{hint}") from None
 
 
 class Recorder:

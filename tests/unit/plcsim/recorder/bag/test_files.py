@@ -1,10 +1,14 @@
 import hashlib
+import resource
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 from plcsim.recorder.bag.files import ACTIVE, Ros1Bag, create
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.reindex import reindex
 from plcsim.recorder.bag.types import text_message
 from plcsim.recorder.errors import RecordingError
 
@@ -92,3 +96,37 @@ def test_a_file_that_is_there_is_not_written_over(tmp_path: Path) -> None:
 def test_other_endings_are_refused(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match=r"ends in \.bag"):
         create(tmp_path / "a.txt")
+
+
+@pytest.mark.parametrize("name", ["a.bag", "a.mcap"])
+def test_what_is_in_a_bag_stays_readable_when_the_disk_is_full(tmp_path: Path, name: str) -> None:
+    bag = create(tmp_path / name)
+    chatter = bag.add("/chatter", TEXT)
+
+    def fill() -> None:
+        for number in range(1000):
+            for _ in range(10):
+                bag.write(chatter, number + 1, text_message("hello " * 100))
+            bag.flush()
+
+    with full_disk(60_000), pytest.raises(OSError, match="too large"):
+        fill()
+    bag.abandon()
+
+    (left,) = tmp_path.iterdir()
+    assert left.name == f"{name}{ACTIVE}"
+    if name == "a.bag":
+        found = reindex(left, tmp_path / "b.bag")
+        assert found.messages >= 60
+        assert found.messages % 10 == 0
+
+
+@contextmanager
+def full_disk(size: int) -> Iterator[None]:
+    """Let no file be longer than ``size`` bytes."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
