@@ -88,6 +88,7 @@ class RecordExtension(Extension):
             "file": str(settings.file),
             "head": head.to_json(),
             "limits": asdict(settings.settings.limits),
+            "live": settings.settings.live,
         }
         return Attachment(given, (), settings.settings.buffer, sender.connect)
 

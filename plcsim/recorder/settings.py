@@ -25,6 +25,7 @@ class RecordSettings:
         duration_ns: time after which the next file begins, 0 for one file.
         files: the oldest is deleted when there are more, 0 keeps all.
         buffer: bytes between the scan and the recorder, which is late at times.
+        live: port of the live view for Foxglove, 0 for none; on this host only.
     """
 
     file: str = "recordings/run.bag"
@@ -33,6 +34,7 @@ class RecordSettings:
     duration_ns: Annotated[int, Duration()] = 0
     files: Annotated[int, Whole(0, 100_000)] = 0
     buffer: Annotated[int, Size(65_536, 1 << 30)] = 16 * 1024 * 1024
+    live: Annotated[int, Whole(0, 65_535)] = 0
 
     @property
     def limits(self) -> Limits:

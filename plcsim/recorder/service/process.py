@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.control import Step
 from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
-from plcsim.recorder.bag.writing import Limits, Writing
+from plcsim.recorder.bag.writing import Limits, Writing, tag_messages
 from plcsim.recorder.errors import RecordingError
-from plcsim.recorder.journal.record import record_of
+from plcsim.recorder.journal.record import CYCLE, record_of
+from plcsim.recorder.service.live import HOST, Live
 from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.process.service_main import Service
+    from plcsim.recorder.bag.head import Head
     from plcsim.shared_image.stream import StreamRecord
 
 POLL_S: Final = 0.01
@@ -41,14 +43,28 @@ def serve(service: Service) -> None:
     file = Path(service.given["file"])
     head = head_from(service.given["head"])
     writing = Writing(file, head, Limits(**service.given["limits"]), beside_others=True)
-    service.serving(f"recording into {writing.files[-1]}")
+    live = _live(service, head)
+    where = f", live view at ws://{HOST}:{live.port}" if live else ""
+    service.serving(f"recording into {writing.files[-1]}{where}")
     try:
-        Recorder(service, writing).run()
+        Recorder(service, writing, live).run()
     except OSError as err:
         writing.abandon()
         left = active(writing.files[-1])
         hint = f"; plcsim bag reindex {left} makes readable what is there" if left.is_file() else ""
         raise RecordingError(f"{file}: cannot be written: {err}{hint}") from None
+
+
+def _live(service: Service, head: Head) -> Live | None:
+    """Return the live view, None where none is wanted; that it cannot be had ends no recording."""
+    port = service.given["live"]
+    if not port:
+        return None
+    try:
+        return Live(head, port, tag_messages(head), service.image.send)
+    except RecordingError as err:
+        sys.stderr.write(f"plcsim: {err}\n")
+        return None
 
 
 class Recorder:
@@ -57,10 +73,12 @@ class Recorder:
     Args:
         service: whose image it is.
         writing: the bag.
+        live: the live view, None for none.
     """
 
-    def __init__(self, service: Service, writing: Writing) -> None:
+    def __init__(self, service: Service, writing: Writing, live: Live | None = None) -> None:
         self._service = service
+        self._live = live
         self._writing = writing
         self._records = service.image.samples(from_oldest=True)
         self._logbook = service.image.logbook()
@@ -99,6 +117,8 @@ class Recorder:
         if streamed.kind != EventKind.RECORD.value or self._is_closed:
             return
         record = record_of(streamed.data)
+        if self._live is not None and record.step == CYCLE:
+            self._live.show(record.time_ns, record.variables)
         self._writing.record(streamed.number, record, with_tags=with_tags)
         if record.step == Step.CLOSE.value:
             self._close()
