@@ -20,6 +20,7 @@ from plcsim.program.structured_text.check.typed import (
     Assign,
     CallBlock,
     Constant,
+    Evaluate,
     SetAddress,
     Target,
     Unary,
@@ -71,6 +72,8 @@ class BlockChecker(CallChecker):
 
     def bare_call(self, node: Expression, line: int) -> Statement | None:
         """Check an instance as a statement, which is its call; None if it is none."""
+        if type(node) is syntax.MemberAccess and self.method_of(node) is not None:
+            return Evaluate(line, self.called(syntax.Call(node.at, node, ())))
         instance = self._instance(node)
         if instance is None:
             return None

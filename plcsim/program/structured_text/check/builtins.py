@@ -285,7 +285,7 @@ RULES: Final[dict[str, Rule]] = {
 """Built-in functions by name in capitals, but for conversions and those of a place in memory."""
 
 EDGES: Final = frozenset(["EDGEPOS", "EDGENEG", "EDGE"])
-PLACE_FUNCTIONS: Final = frozenset(["ADR", "SIZEOF", "REF"])
+PLACE_FUNCTIONS: Final = frozenset(["ADR", "SIZEOF", "REF", "__ISVALIDREF"])
 """Functions whose argument is a place, not a value."""
 
 _CONVERSION = Rule(1, 1, converted, ("IN",))

@@ -24,6 +24,7 @@ from plcsim.program.structured_text.check.typed import (
     Address,
     Bit,
     Call,
+    Compare,
     Constant,
     Dispatch,
     Edge,
@@ -129,12 +130,14 @@ class CallChecker(ExpressionChecker):
         found = self.method_of(name)
         if found is not None:
             return self._by(found, lambda method: self._arguments_of(node, method.function))
-        if type(name) is syntax.MemberAccess and self._is_namespace(name.base):
+        if type(name) is syntax.MemberAccess and self.is_namespace(name.base):
             name = syntax.Name(name.at, name.name)
             node = syntax.Call(node.at, name, node.arguments)
         if type(name) is not syntax.Name:
             return self._not_callable(node)
         upper = name.name.upper()
+        if upper == "TIME" and not node.arguments:
+            name = syntax.Name(name.at, "clock_ms")  # of CODESYS: time since the start
         if upper in builtins.PLACE_FUNCTIONS:
             return self._place_function(node, upper)
         if upper in builtins.EDGES:
@@ -144,7 +147,8 @@ class CallChecker(ExpressionChecker):
             return self._builtin(node, upper, rule)
         return self._declared(node, name)
 
-    def _is_namespace(self, node: Expression) -> bool:
+    def is_namespace(self, node: Expression) -> bool:
+        """Return whether an expression is the name of a namespace."""
         if type(node) is not syntax.Name or self.names.value(node) is not None:
             return False
         return self.names.is_namespace(node.name)
@@ -294,7 +298,19 @@ class CallChecker(ExpressionChecker):
             self.error(node, FindingCode.WRONG_ARGUMENTS, f"{name} takes 1 argument")
             return NOTHING
         argument = node.arguments[0].value
+        if name == "__ISVALIDREF":
+            return self._leads_somewhere(argument)
         return self._size(argument) if name == "SIZEOF" else self.address(argument)
+
+    def _leads_somewhere(self, node: Expression) -> Value:
+        """Check ``__ISVALIDREF(reference)`` of CODESYS."""
+        value = self.value(node)
+        pointer = value.pointer if isinstance(value, Target) else value
+        if not isinstance(pointer.type, ReferenceType):
+            if value.type is not VOID:
+                self.error(node, FindingCode.NO_REFERENCE, f"{value.type} is no reference")
+            return NOTHING
+        return Compare(BOOL, "<>", UDINT, pointer, Constant(UDINT, 0))
 
     def _size(self, node: Expression) -> Value:
         if type(node) is syntax.Name and self.names.value(node) is None:

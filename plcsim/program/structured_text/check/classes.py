@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping, Sequence
 
     from plcsim.program.structured_text.syntax.tree import (
+        ActionUnit,
         FunctionBlockUnit,
         InterfaceUnit,
         StructuredTextFile,
@@ -179,6 +180,12 @@ def key_of_method(unit: MethodUnit, name: str) -> str:
     if "PROPERTY" not in unit.words:
         return name
     return name + next((f".{word}" for word in ("GET", "SET") if word in unit.words), "")
+
+
+def action_as_method(unit: ActionUnit) -> MethodUnit:
+    """Return an action of a function block as the method that calls from outside mean."""
+    declaration = FunctionDeclaration(unit.at, unit.name, None, [])
+    return MethodUnit(unit.at, declaration, unit.body)
 
 
 def body_as_method(unit: FunctionBlockUnit) -> MethodUnit:

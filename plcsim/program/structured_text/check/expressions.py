@@ -11,6 +11,7 @@ from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     ANY_REAL,
     BOOL,
+    DINT,
     UDINT,
     VOID,
     Fit,
@@ -23,6 +24,7 @@ from plcsim.program.structured_text.check.names import NOTHING, followed, keep_a
 from plcsim.program.structured_text.check.standard_names import standard_name
 from plcsim.program.structured_text.check.typed import (
     PLACES,
+    Address,
     Binary,
     Bit,
     Constant,
@@ -45,7 +47,7 @@ from st_types.types.derived import (
 from st_types.types.elementary import BYTE, DWORD, ELEMENTARY, WORD
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from plcsim.program.structured_text.check.classes import Class
     from plcsim.program.structured_text.check.findings import FileFindings
@@ -275,6 +277,9 @@ class ExpressionChecker:
         array = value.type
         indices = [self._index_value(index) for index in node.indices]
         if not isinstance(array, ArrayType):
+            found = self._indexed_address(value, indices)
+            if found is not None:
+                return found
             if array is not VOID:
                 message = f"{array} cannot be indexed; it is no ARRAY"
                 self.error(node, FindingCode.NO_ARRAY, message, _pointer_hint(array))
@@ -293,6 +298,23 @@ class ExpressionChecker:
                 message = f"index {index.value} is outside {low}..{high}"
                 self.error(each, FindingCode.INDEX_OUTSIDE, message)
         return followed(Element(plain(array.element), value, array, indices))
+
+    def _indexed_address(self, value: Value, indices: Sequence[Value]) -> Value | None:
+        """Return ``p[i]`` of a pointer or a byte of a string, as CODESYS has them, else None."""
+        if len(indices) != 1 or self.names.scope.dialect.case_sensitive:
+            return None
+        data_type = value.type
+        lying: Type = BYTE
+        address: Value = value
+        if isinstance(data_type, ReferenceType) and data_type.target is not None:
+            lying = plain(data_type.target)
+        elif isinstance(data_type, StringType) and isinstance(value, PLACES):
+            keep_address(value)
+            address = Address(UDINT, value)
+        else:
+            return None
+        size = Constant(ANY_INT, lying.size)
+        return Target(lying, Binary(UDINT, "+", address, Binary(DINT, "*", indices[0], size)))
 
     def _index_value(self, node: Expression) -> Value:
         index = self.value(node)

@@ -13,6 +13,7 @@ from plcsim.program.structured_text.check.classes import (
     SET,
     Class,
     Interface,
+    action_as_method,
     body_as_method,
     interface_type,
     key_of_method,
@@ -179,6 +180,8 @@ class _ProgramChecker:
         self._taken: set[tuple[str, str]] = set()
         self._owners: dict[Class, _Owner] = {}
         self._methods: set[str] = set()
+        self._programs: dict[str, _Owner] = {}
+        self._named_actions: list[tuple[ActionUnit, StructuredTextFile]] = []
 
     def add(self, file: StructuredTextFile) -> None:
         """Take the units of a file."""
@@ -209,6 +212,7 @@ class _ProgramChecker:
             scope.check()
             self.symbols.storages[scope] = "program"
             self._owner = owner = _Owner(scope, actions=owner.actions)
+        self._programs[self._scope.dialect.key(unit.name)] = owner
         self._parts(unit.parts, owner)
         if self._is_new(unit, "unit", name):
             self._jobs.append(_Job(name, "unit", unit, unit.body, self._file, owner))
@@ -224,14 +228,36 @@ class _ProgramChecker:
 
     def _action(self, unit: ActionUnit) -> None:
         """Take an action: behind a unit with variables of its own it belongs to that."""
-        self._add_action(unit, self._owner)
+        if "." in unit.name:
+            self._named_actions.append((unit, self._file))
+        else:
+            self._add_action(unit, self._owner)
+
+    def _take_named_actions(self) -> None:
+        """Take the actions whose names begin with that of their owner."""
+        key_of = self._scope.dialect.key
+        owners = {key_of(each.block.name): each for each in self._owners.values() if each.block}
+        owners |= self._programs
+        for unit, file in self._named_actions:
+            self._file = file
+            self._findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
+            owner_name, _, name = unit.name.rpartition(".")
+            owner = owners.get(key_of(owner_name))
+            if owner is not None:
+                self._add_action(replace(unit, name=name), owner)
+            elif not self._only:
+                message = f"no PROGRAM or FUNCTION_BLOCK is called {owner_name}"
+                self._findings.error(unit, FindingCode.UNKNOWN_NAME, message)
 
     def _add_action(self, unit: ActionUnit, owner: _Owner) -> None:
         block = "" if owner.block is None else f"{owner.block.name}."
         if self._is_new(unit, "action", block + unit.name):
+            key = self._scope.dialect.key(unit.name)
             job = _Job(unit.name, "action", unit, unit.body, self._file, owner, is_needed=False)
-            owner.actions[unit.name] = job
+            owner.actions[key] = job
             self._jobs.append(job)
+            if owner.this is not None:
+                owner.this.methods.setdefault(key, action_as_method(unit))
 
     def _function(self, unit: FunctionUnit) -> None:
         name = unit.declaration.name
@@ -330,6 +356,7 @@ class _ProgramChecker:
     def bodies(self) -> list[typed.CheckedBody]:
         """Check what is needed: actions as soon as something calls them."""
         found: list[typed.CheckedBody] = []
+        self._take_named_actions()
         for each in self.symbols.classes.values():
             base = self._scope.find_function_block(each.block.node.base)
             if each.block.node.base and base is not None and base.data_type is not None:
@@ -338,13 +365,18 @@ class _ProgramChecker:
         while waiting:
             waiting += self._check(waiting.pop(), found)
         for job in self._jobs:
-            if not job.is_needed:
+            if not job.is_needed and not self._is_called_outside(job):
                 findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
                 message = f"nothing calls the action {job.name}; it is not compiled"
                 findings.warning(job.unit, FindingCode.NEVER_CALLED, message)
         self._check_recursion()
         self._check_used()
         return found
+
+    def _is_called_outside(self, job: _Job) -> bool:
+        """Return whether an action of a function block is called by an instance of it."""
+        this, key = job.owner.this, self._scope.dialect.key(job.name)
+        return this is not None and f"{this.block.name}.{key}" in self._methods
 
     def _check_used(self) -> None:
         """Tell which variables of the program, of functions and of blocks nothing names.
@@ -380,7 +412,9 @@ class _ProgramChecker:
         names = ScopeNames(owner.scope, self.symbols, findings)
         names.values = self._values.setdefault(owner.scope, {})
         result = self._result(job, names)
-        checker = StatementChecker(names, findings, self._callable(owner))
+        checker = StatementChecker(
+            names, findings, {key: each.name for key, each in self._callable(owner).items()}
+        )
         checker.this, checker.maker = owner.this, job.maker or owner.this
         line = findings.line(job.unit)
         statements = checker.statements(job.nodes)

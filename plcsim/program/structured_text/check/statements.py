@@ -17,7 +17,7 @@ from st_types.syntax import expressions as syntax
 from st_types.types.derived import ReferenceType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.names import ScopeNames
@@ -33,13 +33,15 @@ class StatementChecker(BlockChecker):
     Args:
         names: what names mean in it.
         findings: take what is wrong.
-        actions: names of the actions that it can call.
+        actions: the actions that it can call: their names by how names are compared.
 
     Attributes:
         called_actions: names of the actions that it calls.
     """
 
-    def __init__(self, names: ScopeNames, findings: FileFindings, actions: Collection[str]) -> None:
+    def __init__(
+        self, names: ScopeNames, findings: FileFindings, actions: Mapping[str, str]
+    ) -> None:
         super().__init__(names, findings)
         self.called_actions: set[str] = set()
         self._actions = actions
@@ -154,8 +156,10 @@ class StatementChecker(BlockChecker):
         expression = node.expression
         found: Statement | None = None
         name = expression.function if type(expression) is syntax.Call else expression
-        if type(name) is syntax.Name and name.name in self._actions:
-            found = self._action(expression, name.name, line)
+        if type(name) is syntax.MemberAccess and self.is_namespace(name.base):
+            name = syntax.Name(name.at, name.name)
+        if type(name) is syntax.Name and self._key(name.name) in self._actions:
+            found = self._action(expression, self._key(name.name), line)
         elif type(expression) is syntax.Call:
             found = self.block_call(expression, line)
         else:
@@ -168,7 +172,7 @@ class StatementChecker(BlockChecker):
                 node, FindingCode.WRONG_ARGUMENTS, f"{name} is an action and takes no arguments"
             )
         self.called_actions.add(name)
-        return typed.CallAction(line, name)
+        return typed.CallAction(line, self._actions[name])
 
     def _evaluated(self, node: Expression, line: int) -> Statement:
         value = self.called(node) if type(node) is syntax.Call else self.value(node)

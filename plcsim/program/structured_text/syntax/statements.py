@@ -55,6 +55,7 @@ if TYPE_CHECKING:
 _STOPS = STATEMENT_ENDS | UNIT_ENDS | UNIT_STARTS | {""}
 _OPENED_BY = {"ELSIF": ("END_IF",), "ELSE": ("END_IF", "END_CASE"), "UNTIL": ("END_REPEAT",)}
 _AFTER_STATEMENT_WORDS = frozenset([":=", ".", "[", "^", "ACCESS"])
+_NO_LABELS = STATEMENT_STARTS | {";"}
 _LABEL_SIGNS = frozenset([":", ",", ".."])
 _LABEL_SCAN_ENDS = frozenset([":", ",", "..", ":=", ";", "(", "[", "ACCESS", "", "^"])
 MISSPELT: Final = {
@@ -441,7 +442,7 @@ class StatementParser(DeclarationParser):
         """Return True where a label of a CASE begins, not a statement."""
         if key == "literal" or key in ("-", "+"):
             return True
-        if key in STATEMENT_STARTS or (key in _STOPS and not self._is_name(key)):
+        if key in _NO_LABELS or (key in _STOPS and not self._is_name(key)):
             return False
         keys = self.keys
         place = self.index + 1

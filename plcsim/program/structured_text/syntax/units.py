@@ -90,12 +90,26 @@ class UnitParser(StatementParser):
         word = self.keyword
         if word == "USING":
             self._skip_line_of_names()
+        elif word == "ACTIONS" and self.keys[self.index + 1] == NAME:
+            self._actions_of(into)
         elif word in _MODIFIERS and self.keys[self.index + 1] in UNIT_STARTS:
             self.index += 1
             self._unit(into)
         else:
             hint = "a pragma ends with '}'" if word == "{" else _LOST_UNIT
             self.fail("expected a unit", hint)
+
+    def _actions_of(self, into: list[Unit]) -> None:
+        """Parse ``ACTIONS owner ACTION ... END_ACTION END_ACTIONS``."""
+        self.index += 1
+        owner = self._name("after ACTIONS")
+        while self.keys[self.index] == "ACTION":
+            action = self._action()
+            action.name = f"{owner}.{action.name}"
+            into.append(action)
+            self.accept(";")
+        if not self.accept("END_ACTIONS"):
+            self.fail("expected END_ACTIONS")
 
     def _skip_line_of_names(self) -> None:
         while self.keys[self.index] not in (";", ""):

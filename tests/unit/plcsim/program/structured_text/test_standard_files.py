@@ -11,6 +11,7 @@ from .running import Running, checked
 FILES = sorted((FOLDER / "standard").iterdir())
 
 RESULTS = {
+    "actions.st": {"n": 15, "f.o": 15, "m": 10},
     "codesys.exp": {"wState": 167, "filters[1].fOut": 0.001500000013038516, "Index": 2},
     "matiec.st": {
         "total": 7 + 5 * 12340,
