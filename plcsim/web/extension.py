@@ -6,6 +6,7 @@ import os
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.access.users import Users, users_file
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.extension import Attachment, Extension
 from plcsim.web.settings import read_settings
@@ -38,8 +39,7 @@ class WebExtension(Extension):
 
     def endpoint(self, settings: WebProject) -> str:
         """Return the address of the pages."""
-        host, port = settings.settings.host, settings.settings.port
-        return f"http://{f'[{host}]' if ':' in host else host}:{port or '(any free port)'}"
+        return settings.settings.url
 
     def attach(self, settings: WebProject, controller: Controller) -> Attachment:
         """Return what does not change while the controller runs."""
@@ -52,8 +52,14 @@ class WebExtension(Extension):
         return Attachment(given, (), STREAM_SIZE)
 
     def check(self, settings: WebProject, controller: Controller) -> Sequence[str]:
-        """Check that the pages can be served."""
+        """Check that the pages can be served, and that somebody could log in."""
         _require_packages()
+        # not at the top: the scan process has no use for ssl
+        from plcsim.web.service.listener import check_users, tls_context  # noqa: PLC0415
+
+        check_users(settings.settings, Users(users_file(settings.folder)))
+        if settings.settings.tls is not None:
+            tls_context(settings.settings.tls)
         return ()
 
 

@@ -6,7 +6,8 @@ import ipaddress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple
 
-from plcsim.settings import Converted, Whole, settings
+from plcsim.settings import Converted, SettingKind, Whole, settings
+from plcsim.settings.kinds import PathTo
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,6 +25,27 @@ def _address(text: str) -> str:
         raise ValueError(f"{text!r} is not an IP address") from None
 
 
+class _PemFile(SettingKind):
+    """A file that must be there, as text: settings go to the service as JSON."""
+
+    def convert(self, value: object, folder: Path) -> str:
+        """Return the path."""
+        return str(PathTo("file").convert(value, folder.resolve()))
+
+
+@settings
+class WebTlsSettings:
+    """The pages over HTTPS.
+
+    Attributes:
+        certificate: file of the server's certificate, PEM.
+        key: file of its key, PEM, without a password.
+    """
+
+    certificate: Annotated[str, _PemFile()]
+    key: Annotated[str, _PemFile()]
+
+
 @settings
 class WebSettings:
     """What [web] says.
@@ -33,17 +55,25 @@ class WebSettings:
         port: of TCP, 0 for any free one.
         names: host names, beside the address, by which browsers may ask for the pages.
         connections: at once.
+        tls: None for plain HTTP.
     """
 
     host: Annotated[str, Converted(_address)] = "127.0.0.1"
     port: Annotated[int, Whole(0, 65535)] = WEB_PORT
     names: tuple[str, ...] = ()
     connections: Annotated[int, Whole(1, 10_000)] = 64
+    tls: WebTlsSettings | None = None
 
     @property
     def is_loopback(self) -> bool:
         """Nobody reaches the pages but from this machine."""
         return ipaddress.ip_address(self.host).is_loopback
+
+    @property
+    def url(self) -> str:
+        """Where the pages are, as far as that is known before they are served."""
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"http{'s' if self.tls else ''}://{host}:{self.port or '(any free port)'}"
 
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON's types."""
@@ -59,7 +89,8 @@ class WebProject(NamedTuple):
 
 def settings_from(values: Mapping[str, Any]) -> WebSettings:
     """Return the settings of `WebSettings.to_json`."""
-    return WebSettings(**{**values, "names": tuple(values["names"])})
+    tls = WebTlsSettings(**values["tls"]) if values["tls"] else None
+    return WebSettings(**{**values, "names": tuple(values["names"]), "tls": tls})
 
 
 def read_settings(table: Table) -> WebProject:

@@ -96,7 +96,9 @@ def make_app(hub: Hub, door: Door) -> ASGIApp:
 
 async def _told(_request: Request, error: Exception) -> Response:
     status = error.status if isinstance(error, RefusedError) else HTTPStatus.BAD_REQUEST
-    return JSONResponse({"error": str(error)}, status)
+    # a body that is too long is not read to its end
+    headers = {"connection": "close"} if status == HTTPStatus.REQUEST_ENTITY_TOO_LARGE else None
+    return JSONResponse({"error": str(error)}, status, headers)
 
 
 class _Guard:

@@ -33,10 +33,12 @@ def processes(supervisor: int, names: dict[int, str]) -> list[dict[str, Any]]:
 
 
 def _children(pid: int) -> list[int]:
-    try:
-        return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
-    except (OSError, ValueError):
-        return []
+    """Return the processes that one has started, by whichever of its threads."""
+    found: list[int] = []
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        with contextlib.suppress(OSError, ValueError):
+            found += map(int, task.read_text().split())
+    return found
 
 
 def _process(pid: int, name: str) -> dict[str, Any] | None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from plcsim.core.errors import PlcError
 from plcsim.core.tag import locate
-from plcsim.project.plc_toml import read_project
 from st_types.types.derived import ArrayType, StructType
 
 if TYPE_CHECKING:
@@ -124,6 +123,9 @@ def _located(path: str, areas: Sequence[Tag]) -> Tag | None:
 
 
 def _programs(folder: Path) -> dict[str, ProgramFiles]:
+    # not at the top: half of the time that the service takes to start
+    from plcsim.project.plc_toml import read_project  # noqa: PLC0415
+
     project = read_project(folder)
     found = {}
     for entry in project.programs:

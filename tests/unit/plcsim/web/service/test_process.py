@@ -1,0 +1,218 @@
+"""The pages as a process beside a real scan: peers that mean no good, kill -9, TLS."""
+
+import json
+import os
+import signal
+import socket
+import ssl
+import subprocess
+import threading
+import time
+import urllib.error
+import urllib.request
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.plc_toml import read_project
+
+PROGRAM = """
+from plcsim import Program
+from st_types import REAL, UDINT, var
+
+class Echo(Program):
+    wanted = var(REAL)
+    seen = var(REAL)
+    cycles = var(UDINT)
+
+    def cyclic(self):
+        self.seen = self.wanted
+        self.cycles += 1
+"""
+
+
+def free_port():
+    with socket.create_server(("127.0.0.1", 0)) as probe:
+        return probe.getsockname()[1]
+
+
+class Site:
+    """A project that runs under its supervisor in a thread."""
+
+    def __init__(self, folder, web=""):
+        self.port = free_port()
+        (folder / "echo").mkdir()
+        (folder / "echo" / "main.py").write_text(PROGRAM)
+        (folder / "plc.toml").write_text(
+            f'[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
+            f'programs = ["echo"]\n[web]\nport = {self.port}\nconnections = 20\n{web}'
+        )
+        self.folder = folder
+        self.supervisor = Supervisor(read_project(folder), quiet=True)
+        self._thread = threading.Thread(target=self.supervisor.wait)
+        self._thread.start()
+
+    def stop(self):
+        self.supervisor.stop()
+        self._thread.join(10)
+
+    def ask(self, act, **values):
+        asked = urllib.request.Request(
+            f"http://127.0.0.1:{self.port}/api/{act}",
+            json.dumps(values).encode(),
+            {"Content-Type": "application/json"},
+        )
+        with urllib.request.urlopen(asked, timeout=5) as answer:
+            return json.load(answer)
+
+    def await_pages(self):
+        """Ask until there is an answer; a service takes a moment to start."""
+        deadline = time.monotonic() + 30
+        while True:
+            try:
+                return self.ask("read", tags=["echo.cycles"])["values"][0]
+            except (OSError, urllib.error.URLError):
+                assert time.monotonic() < deadline
+                time.sleep(0.02)
+
+    def live(self):
+        url = f"ws://127.0.0.1:{self.port}/live"
+        return connect(url, origin=f"http://127.0.0.1:{self.port}", close_timeout=0.2)
+
+    @property
+    def process(self):
+        return self.supervisor.services._services[0]._process
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    made = Site(tmp_path_factory.mktemp("site"))
+    with made.supervisor:
+        made.await_pages()
+        yield made
+        made.stop()
+
+
+def test_a_write_goes_through_the_program_and_back(site):
+    assert site.ask("write", tag="echo.wanted", value="2.5")["before"] == "0.0"
+    assert site.ask("read", tags=["echo.wanted"])["values"] == [2.5]
+    while site.ask("read", tags=["echo.seen"])["values"] != [2.5]:
+        pass
+    names = [process["name"] for process in _system(site)["processes"]]
+    assert {"supervisor", "scan", "web"} <= set(names)
+
+
+def _system(site):
+    with site.live() as socket_:
+        socket_.send(json.dumps({"id": 1, "do": "follow", "topics": ["system"]}))
+        while True:
+            told = json.loads(socket_.recv(timeout=5))
+            if told.get("push") == "system":
+                return told
+
+
+def test_a_message_that_is_too_long_ends_its_connection_and_nothing_else(site):
+    with site.live() as socket_:
+        with pytest.raises(ConnectionClosed):
+            socket_.send(iter(["x" * (1 << 20)] * 100))
+        assert socket_.close_code == 1009
+    assert site.await_pages()
+
+
+def test_a_body_of_100_mb_is_refused_before_it_has_come(site):
+    with socket.create_connection(("127.0.0.1", site.port), 5) as client:
+        head = "POST /api/read HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        client.sendall(f"{head}Content-Length: 100000000\r\n\r\n".encode())
+        sent = 0
+        try:
+            for _ in range(100):
+                sent += client.send(b" " * (1 << 20))
+        except OSError:
+            pass
+        assert sent < 20_000_000
+    assert site.await_pages()
+
+
+def test_more_connections_than_allowed_are_told_so(site):
+    with ExitStack() as stack:
+        clients = [
+            stack.enter_context(socket.create_connection(("127.0.0.1", site.port), 5))
+            for _ in range(200)
+        ]
+        answers = []
+        for client in clients[100:]:
+            client.settimeout(5)
+            answers.append(client.recv(100))
+        assert all(b"503" in answer for answer in answers)
+        rss = _rss(site.process.pid)
+    assert site.await_pages()
+    assert _rss(site.process.pid) - rss < 20_000_000
+
+
+def _rss(pid):
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_what_is_no_http_is_refused(site):
+    for data in (b"\x16\x03\x01\0\0", b"GET / HTTP/9\r\n\r\n", b"\r\n\r\n" + b"A" * 100_000):
+        with socket.create_connection(("127.0.0.1", site.port), 5) as client:
+            client.sendall(data)
+            client.settimeout(5)
+            try:
+                while client.recv(1000):
+                    pass
+            except OSError:
+                pass
+    assert site.await_pages()
+
+
+def test_a_browser_that_reads_nothing_does_not_hold_up_others(site):
+    with site.live() as slow:
+        slow.send(json.dumps({"id": 1, "do": "watch", "tags": ["echo.cycles"]}))
+        for number in range(300):
+            slow.send(json.dumps({"id": number, "do": "children", "path": "echo"}))
+        first = site.await_pages()
+        assert site.await_pages() > first
+
+
+def test_a_service_that_is_killed_comes_back_and_the_scan_goes_on(site):
+    before = site.await_pages()
+    site.ask("force", tag="echo.wanted", value="8.0")
+    os.kill(site.process.pid, signal.SIGKILL)
+    assert site.await_pages() > before
+    (force,) = site.ask("status")["forces"]
+    assert force == {"path": "echo.wanted", "value": "8.0", "by": "web: local"}
+    site.ask("release", tag="")
+    assert site.ask("status")["cycles"]["1"]["by_program"] == 0
+
+
+def test_pages_over_tls(tmp_path):
+    command = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt",
+               "ec_paramgen_curve:prime256v1", "-nodes", "-days", "1", "-subj", "/CN=localhost",
+               "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1",
+               "-keyout", tmp_path / "key.pem", "-out", tmp_path / "cert.pem"]  # fmt: skip
+    subprocess.run(command, check=True, capture_output=True)
+    site = Site(tmp_path, '[web.tls]\ncertificate = "cert.pem"\nkey = "key.pem"\n')
+    with site.supervisor:
+        context = ssl.create_default_context(cafile=tmp_path / "cert.pem")
+        deadline = time.monotonic() + 30
+        while True:
+            try:
+                url = f"https://localhost:{site.port}/"
+                with urllib.request.urlopen(url, timeout=5, context=context) as answer:
+                    assert b"plcsim" in answer.read()
+                break
+            except (OSError, urllib.error.URLError):
+                assert time.monotonic() < deadline
+                time.sleep(0.02)
+        with connect(
+            f"wss://localhost:{site.port}/live",
+            origin=f"https://localhost:{site.port}",
+            ssl=context,
+        ) as live:
+            assert json.loads(live.recv(timeout=5))["push"] == "hello"
+        site.stop()
