@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from plcsim.library.asiodiag import interface
 from plcsim.library.asiodiag.interface import (
@@ -13,26 +13,10 @@ from plcsim.library.asiodiag.interface import (
     asdiagPLUGGED,
 )
 from plcsim.library.block import SynchronousBlock
-from plcsim.library.executable import function
 from plcsim.library.runtime import ERR_OK
-
-if TYPE_CHECKING:
-    from plcsim.core.context import Context
 
 EMPTY_LIST: Final = 1
 """Ident of every list of modules: none has an entry."""
-
-
-@function("DiagCpuIsSimulated")
-def is_simulated(_context: Context) -> bool:
-    """Return that the controller is simulated."""
-    return True
-
-
-@function("DiagCpuIsARsim")
-def is_simulated_on_a_pc(_context: Context) -> bool:
-    """Return that the controller is simulated on a PC."""
-    return True
 
 
 class DiagCreateInfo(interface.DiagCreateInfo, SynchronousBlock):

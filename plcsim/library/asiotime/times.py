@@ -18,12 +18,6 @@ def _as_dint(number: int) -> int:
     return number - (number >> 31 << 32)
 
 
-@function("AsIOTimeCyclicStart")
-def cyclic_start(context: Context) -> int:
-    """Return when the cycle of the running task class was released; it wraps after 2^32 us."""
-    return _as_dint(context.release_ns // NS_PER_US)
-
-
 @function("AsIOTimeStamp")
 def time_stamp(context: Context) -> int:
     """Return the time now, which goes on within a cycle on the real clock."""

@@ -56,7 +56,7 @@ class TcpOpen(interface.TcpOpen, AsTcpBlock):
         outcome, made = network_of(self.context).open(ip, self.port, reuse_address=reuse_address)
         if made is None:
             return _STATUSES.get(outcome, tcpERR_SYSTEM)
-        self.ident = idents.add(made)
+        self.ident = idents.give(made)
         return ERR_OK
 
 

@@ -6,9 +6,9 @@ it is the same in every run (``start_date`` in [plc], 2000-01-01 by default). Lo
 """
 
 from plcsim.library.astime.clock import DTExSetTime as DTExSetTime
-from plcsim.library.astime.clock import DTGetTime as DTGetTime
 from plcsim.library.astime.clock import DTSetTime as DTSetTime
 from plcsim.library.astime.clock import DTStructureGetTime as DTStructureGetTime
 from plcsim.library.astime.clock import DTStructureSetTime as DTStructureSetTime
 from plcsim.library.astime.clock import UtcDTGetTime as UtcDTGetTime
 from plcsim.library.astime.interface import *  # noqa: F403  # its types and constants
+from plcsim.library.astime.interface import DTGetTime as DTGetTime

@@ -18,18 +18,9 @@ from plcsim.library.astime.interface import (
 from plcsim.library.astime.settings import AsTimeSettings
 from plcsim.library.astime.structures import NS_PER_SECOND, date_of, read_date, write_date
 from plcsim.library.block import AsynchronousBlock, SynchronousBlock
-from plcsim.library.executable import function
 from plcsim.library.runtime import ERR_OK
 
-NS_PER_MS: Final = 1_000_000
 _LAST_SECOND: Final = interface.DATE_AND_TIME_MAX
-
-
-@function("clock_ms")
-def clock_ms(context: Context) -> int:
-    """Return milliseconds on the controller's clock as a TIME, which wraps after 2^32 ms."""
-    milliseconds = context.release_ns // NS_PER_MS & 0xFFFF_FFFF
-    return milliseconds - (milliseconds >> 31 << 32)
 
 
 def _offset_ns(context: Context) -> int:
@@ -74,15 +65,6 @@ class _Setter(SynchronousBlock):
         if not 0 <= date_ns // NS_PER_SECOND <= _LAST_SECOND:
             return timERR_INVALID_PARAMETER
         _set_date(self.context, date_ns, option)
-        return ERR_OK
-
-
-class DTGetTime(interface.DTGetTime, SynchronousBlock):
-    """The date and time now. Input: enable. Outputs: status, DT1."""
-
-    def step(self) -> int:
-        """Read the clock."""
-        self.DT1 = self.context.date_ns // NS_PER_SECOND
         return ERR_OK
 
 

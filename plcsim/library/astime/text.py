@@ -1,4 +1,4 @@
-"""Dates and durations as text, and differences of them."""
+"""Dates and durations as text."""
 
 from __future__ import annotations
 
@@ -72,15 +72,3 @@ def time_structure_as_text(context: Context, address: int, text: int, size: int)
     if not address:
         return 0
     return store(context, _time_text(put_time_together(context, address)), text, size)
-
-
-@function("DiffT")
-def milliseconds_between(_context: Context, later: int, earlier: int) -> int:
-    """Return TIME2 - TIME1 as a UDINT, which wraps below 0."""
-    return (later - earlier) & 0xFFFF_FFFF
-
-
-@function("DiffDT")
-def seconds_between(_context: Context, later: int, earlier: int) -> int:
-    """Return DT2 - DT1 as a UDINT, which wraps below 0."""
-    return (later - earlier) & 0xFFFF_FFFF

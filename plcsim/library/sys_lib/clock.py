@@ -1,4 +1,4 @@
-"""The real-time clock as an RTCtime_typ, and its ticks."""
+"""The real-time clock as an RTCtime_typ."""
 
 from __future__ import annotations
 
@@ -12,9 +12,6 @@ from plcsim.library.sys_lib.interface import ERR_BUR_ILLDATE, ERR_BUR_ILLPTR, ER
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
-
-NS_PER_TICK: Final = 10_000_000
-TICKS_PER_SECOND: Final = 100
 
 _EPOCH: Final = datetime(1970, 1, 1, tzinfo=UTC)
 _FIRST_YEAR, _LAST_YEAR = 1970, 2099
@@ -65,15 +62,3 @@ def read_software_clock(context: Context, address: int) -> int:
 def set_software_clock(context: Context, address: int) -> int:
     """Set the date and time: there is one clock."""
     return set_clock(context, address)
-
-
-@function("TIM_ticks")
-def ticks(context: Context, _dummy: int = 0) -> int:
-    """Return the ticks of 10 ms in the current second."""
-    return context.date_ns // NS_PER_TICK % TICKS_PER_SECOND
-
-
-@function("TIM_musec")
-def microseconds(context: Context, _dummy: int = 0) -> int:
-    """Return the microseconds in the current tick."""
-    return context.date_ns % NS_PER_TICK // 1000

@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.library.astime.clock import DstGetInfo, DTGetTime, DTStructureGetTime
+from plcsim.library.astime.clock import DstGetInfo, DTStructureGetTime, UtcDTGetTime
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE, ERR_OK
 
 
@@ -16,7 +16,7 @@ def statuses(block, enables):
 
 def test_a_synchronous_block_is_done_in_the_call(plc):
     wanted = [ERR_OK, ERR_FUB_ENABLE_FALSE, ERR_OK]
-    assert statuses(plc.new(DTGetTime), [True, False, True]) == wanted
+    assert statuses(plc.new(UtcDTGetTime), [True, False, True]) == wanted
 
 
 def test_an_asynchronous_block_is_busy_first_and_starts_anew_when_done(plc):

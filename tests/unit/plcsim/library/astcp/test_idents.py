@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.library.astcp.idents import LAST_IDENT, IdentTable
+from plcsim.library.astcp.idents import IdentTable
+from plcsim.library.idents import LAST_IDENT
 
 from .plc import Plc, World
 
@@ -23,7 +24,7 @@ def test_an_ident_is_never_nil_and_never_given_twice(world: World) -> None:
     plc = world.server
     given = []
     for _ in range(5):
-        given.append(plc.idents.add(a_socket(plc)))
+        given.append(plc.idents.give(a_socket(plc)))
         plc.idents.remove(given[-1])
     assert 0 not in given
     assert len(set(given)) == 5
@@ -31,16 +32,16 @@ def test_an_ident_is_never_nil_and_never_given_twice(world: World) -> None:
 
 def test_counting_goes_round_and_steps_over_what_is_in_use(world: World) -> None:
     plc = world.server
-    first = plc.idents.add(a_socket(plc))
+    first = plc.idents.give(a_socket(plc))
     plc.idents._last = LAST_IDENT - 1
-    assert plc.idents.add(a_socket(plc)) == LAST_IDENT
-    assert plc.idents.add(a_socket(plc)) == first + 1
+    assert plc.idents.give(a_socket(plc)) == LAST_IDENT
+    assert plc.idents.give(a_socket(plc)) == first + 1
 
 
 def test_removing_closes_the_socket(world: World) -> None:
     plc = world.server
     made = a_socket(plc)
-    plc.idents.remove(plc.idents.add(made))
+    plc.idents.remove(plc.idents.give(made))
     assert made.local.port == 0
 
 
@@ -48,7 +49,7 @@ def test_closing_the_table_closes_all(world: World) -> None:
     plc = world.server
     made = [a_socket(plc) for _ in range(3)]
     for each in made:
-        plc.idents.add(each)
+        plc.idents.give(each)
     plc.context.restart()
     assert [each.local.port for each in made] == [0, 0, 0]
     assert plc.idents.in_use() == ()
@@ -61,7 +62,7 @@ def test_the_table_is_full_exactly_at_its_size(adds: list[bool]) -> None:
         in_use = plc.idents.in_use()
         assert plc.idents.full is (len(in_use) == 4)
         if add and not plc.idents.full:
-            plc.idents.add(a_socket(plc))
+            plc.idents.give(a_socket(plc))
         elif in_use:
             plc.idents.remove(in_use[0])
     assert isinstance(plc.idents, IdentTable)

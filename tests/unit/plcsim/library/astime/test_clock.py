@@ -2,7 +2,7 @@
 
 import pytest
 
-from plcsim.library.astime import DTStructure, clock, timERR_INVALID_DTSTRUCTURE
+from plcsim.library.astime import DTGetTime, DTStructure, clock, timERR_INVALID_DTSTRUCTURE
 from plcsim.library.astime.interface import DATE_AND_TIME_MAX, timERR_INVALID_PARAMETER, timNO_DST
 from plcsim.library.astime.settings import AsTimeSettings
 from plcsim.library.runtime import ERR_FUB_ENABLE_FALSE, ERR_OK
@@ -15,11 +15,11 @@ S = 1_000_000_000
 
 
 def date_at(plc):
-    return plc.call(clock.DTGetTime).DT1
+    return plc.call(DTGetTime).DT1
 
 
 def test_the_virtual_clock_starts_in_2000(plc):
-    found = plc.call(clock.DTGetTime)
+    found = plc.call(DTGetTime)
     assert (found.status, found.DT1) == (ERR_OK, NEW_YEAR_2000)
     plc.pass_ms(1500)
     found()
