@@ -11,14 +11,17 @@ import json
 import os
 import re
 import subprocess
+import sys
 import tempfile
+from collections import deque
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.ansi_c.inline_assembly import HINT, overlay_without_rdtsc
-from plcsim.ansi_c.symbols import chosen, without_weak
+from plcsim.ansi_c.inline_assembly import overlay_without_rdtsc
+from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
+from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -62,6 +65,9 @@ _CPP_OPTIONS = (
     *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
 )
 _LINK_OPTIONS = ("--shared", "--experimental-pic", "--import-memory", "--import-undefined")
+
+MANY = 8
+"""Files to compile of which the user is told, as they take their time."""
 
 _FINDING = re.compile(r"^(.+?):(\d+):(\d+): (?:fatal )?(error|warning): (.*)$", re.MULTILINE)
 _LINKER = re.compile(r"^\S*wasm-ld\S*: (?:error|warning): (.*(?:\n>>> .*)*)$", re.MULTILINE)
@@ -112,10 +118,31 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
         used = [*order.libraries, *toolchain.libraries]
         sources = [s for each in used if each.is_used(read) for s in each.sources]
         offered = _compiled(sources, order, toolchain, cache, Path(folder, "others"))
+        _check_initial_values(order, objects)
         taken = chosen([o.content for o in objects], [o.content for o in offered])
         objects += [offered[number] for number in taken]
         wasm = _link(order, objects, toolchain, cache, Path(folder))
     return Built(wasm, [warning for o in objects for warning in o.warnings])
+
+
+def _check_initial_values(order: BuildOrder, objects: Sequence[_Object]) -> None:
+    """Refuse a variable of the controller that is given initial values in two files of C.
+
+    One in a header that both include is the same.
+    """
+    places: dict[str, list[str]] = {}
+    for each in objects:
+        if each.source.suffix.lower() == ".c":
+            for name in symbols_of(each.content).valued:
+                if (place := place_of(name, each.source)) != str(each.source):
+                    places.setdefault(name, []).append(place)
+    findings = [
+        f"{order.name}: {name} has an initial value at {' and at '.join(found)}"
+        for name, found in sorted(places.items())
+        if len(found) > 1
+    ]
+    if findings:
+        raise ConfigurationError(*findings)
 
 
 def _compiled(
@@ -131,7 +158,10 @@ def _compiled(
         _Object(source, work / f"{number}", order, toolchain)
         for number, source in enumerate(sources)
     ]
-    _compile([o for o in objects if not o.load(cache)])
+    unknown = [o for o in objects if not o.load(cache)]
+    if len(unknown) >= MANY:
+        sys.stderr.write(f"plcsim: {order.name}: compiling {len(unknown)} files\n")
+    _compile(unknown)
     findings = [finding for o in objects for finding in o.errors]
     if findings:
         raise ConfigurationError(*findings)
@@ -157,6 +187,7 @@ class _Object:
         self.files: frozenset[str] = frozenset()
         self.toolchain = toolchain
         self._work = target.parent
+        self._folders = order.folders
         self._dependencies = target.with_suffix(".d")
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
@@ -191,16 +222,13 @@ class _Object:
 
     def finish(self, code: int, told: str) -> None:
         """Take what the compiler has made and told."""
-        found = [
-            (m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}" + (f" ({HINT})" if " in asm" in m[5] else ""))
-            for m in _FINDING.finditer(told)
-        ]
+        found = [(m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}") for m in _FINDING.finditer(told)]
         self.warnings = [text for kind, text in found if kind == "warning"]
         if code == 0:
             self.content = self.file.read_bytes()
             self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
             return
-        self.errors = [text for kind, text in found if kind == "error"]
+        self.errors = [explained(text, self._folders) for kind, text in found if kind == "error"]
         if not self.errors:
             self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
 
@@ -221,14 +249,19 @@ class _Object:
 def _compile(objects: Sequence[_Object]) -> None:
     """Compile files, as many at a time as there are processors."""
     at_once = max(1, len(os.sched_getaffinity(0)))
-    for start in range(0, len(objects), at_once):
-        with ExitStack() as stack:
-            running = [
-                (o, stack.enter_context(_started(o))) for o in objects[start : start + at_once]
-            ]
-            for compiled, process in running:
-                told, _ = process.communicate()
-                compiled.finish(process.returncode, told)
+    running: deque[tuple[_Object, subprocess.Popen[str]]] = deque()
+    with ExitStack() as stack:
+        for each in objects:
+            if len(running) == at_once:
+                _finish(*running.popleft())
+            running.append((each, stack.enter_context(_started(each))))
+        while running:
+            _finish(*running.popleft())
+
+
+def _finish(compiled: _Object, process: subprocess.Popen[str]) -> None:
+    told, _ = process.communicate()
+    compiled.finish(process.returncode, told)
 
 
 def _started(compiled: _Object) -> subprocess.Popen[str]:
@@ -286,7 +319,7 @@ def _linker_findings(order: BuildOrder, objects: Sequence[_Object], told: str) -
     for compiled in objects:
         told = told.replace(str(compiled.file), str(compiled.source))
     texts = [m[1].replace("\n>>>", ",") for m in _LINKER.finditer(told)]
-    found = [f"{order.name}: {text}" for text in texts]
+    found = [f"{order.name}: {defined_twice(text)}" for text in texts]
     return found or [f"{order.name}: cannot be linked: {told.strip()}"]
 
 

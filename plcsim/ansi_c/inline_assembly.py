@@ -28,8 +28,6 @@ _PARTS = {
     b"A": b"%s = plc_ticks;",
 }
 
-HINT = "this is assembler of the controller's processor; plcsim compiles for another machine"
-
 
 def without_rdtsc(text: bytes) -> bytes:
     """Return a source with the same lines, in which rdtsc reads the clock of the controller."""

@@ -13,7 +13,7 @@ from plcsim.machine.reader import CUSTOM, FUNCTION, GLOBAL, IMPORTS, Reader, imp
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-_SYMBOL_TABLE = 8
+_SEGMENTS, _SYMBOL_TABLE = 5, 8
 _OF_FUNCTION, _OF_DATA, _OF_GLOBAL, _OF_SECTION, _OF_TAG, _OF_TABLE = range(6)
 _WEAK, _LOCAL, _UNDEFINED, _EXPLICIT_NAME = 1, 2, 0x10, 0x40
 _KIND_OF_IMPORT: Final = {_OF_FUNCTION: FUNCTION, _OF_GLOBAL: GLOBAL}
@@ -27,11 +27,20 @@ class Symbols(NamedTuple):
         needed: what it uses and does not hold.
         weak: functions among what it holds for which another definition would be taken, with the
             places of their flags in the object.
+        weak_data: variables likewise, with the numbers of their segments.
+        segments: names of the segments.
     """
 
     defined: set[str]
     needed: set[str]
     weak: dict[str, int]
+    weak_data: dict[str, int]
+    segments: list[str]
+
+    @property
+    def valued(self) -> list[str]:
+        """Weak variables, those that are marked _GLOBAL or _LOCAL, with an initial value."""
+        return [n for n, s in self.weak_data.items() if not self.segments[s].startswith(".bss")]
 
 
 def symbols_of(wasm: bytes) -> Symbols:
@@ -41,7 +50,7 @@ def symbols_of(wasm: bytes) -> Symbols:
         MachineError: it is none.
     """
     imported: dict[int, list[str]] = {FUNCTION: [], GLOBAL: []}
-    found = Symbols(set(), set(), {})
+    found = Symbols(set(), set(), {}, {}, [])
     for section in sections(wasm):
         if section.number == IMPORTS:
             for each in imports(wasm, section):
@@ -53,7 +62,11 @@ def symbols_of(wasm: bytes) -> Symbols:
             while reader.more:
                 kind, size = reader.byte(), reader.uleb()
                 end = reader.offset + size
-                if kind == _SYMBOL_TABLE:
+                if kind == _SEGMENTS:
+                    for _ in range(reader.uleb()):
+                        found.segments.append(reader.name())
+                        reader.uleb(), reader.uleb()
+                elif kind == _SYMBOL_TABLE:
                     for _ in range(reader.uleb()):
                         _read(reader, imported, found)
                 reader.offset = end
@@ -68,7 +81,10 @@ def _read(reader: Reader, imported: dict[int, list[str]], found: Symbols) -> Non
     if kind == _OF_DATA:
         name = reader.name()
         if not flags & _UNDEFINED:
-            reader.uleb(), reader.uleb(), reader.uleb()
+            segment = reader.uleb()
+            reader.uleb(), reader.uleb()
+            if flags & _WEAK:
+                found.weak_data[name] = segment
     else:
         index = reader.uleb()
         if kind != _OF_SECTION and (flags & _EXPLICIT_NAME or not flags & _UNDEFINED):

@@ -27,7 +27,10 @@ if TYPE_CHECKING:
     from st_types.resolve.index import NameSpace
     from st_types.syntax.tree import DeclarationFile, Item
 
-NESTED: Final = (".st", ".c", ".cpp", ".cc", ".cxx")
+SUFFIXES_OF_C: Final = (".c", ".cpp", ".cc", ".cxx")
+"""Of files in C and C++ that are compiled."""
+
+NESTED: Final = (".st", *SUFFIXES_OF_C)
 """Suffixes of the files that belong to a program or a library from folders inside its own."""
 
 DEEPEST: Final = 8

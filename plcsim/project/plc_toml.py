@@ -55,7 +55,7 @@ AUTOMATION_STUDIO_MEMORY: Final = 128 << 20
 takes costs the host nothing."""
 
 COMPILING_NS: Final = 300_000_000_000
-"""Loading an Automation Studio project may take so long at least, on a slow host too."""
+"""Loading an Automation Studio project, or C, may take so long at least, on a slow host too."""
 
 _OWN_TABLES: Final = (
     *("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate", "c"),
@@ -114,7 +114,8 @@ class Project:
     def load_timeout_ns(self) -> int:
         """How long loading may take; what is compiled takes longer than Python, and always ends."""
         timeout_ns = self.plc.init_timeout_ns
-        return timeout_ns if self.automation_studio is None else max(timeout_ns, COMPILING_NS)
+        is_compiled = self.automation_studio is not None or self.layout.holds_c
+        return max(timeout_ns, COMPILING_NS) if is_compiled else timeout_ns
 
     @property
     def programs(self) -> tuple[ProgramEntry, ...]:

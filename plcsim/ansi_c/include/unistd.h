@@ -23,6 +23,7 @@ pid_t getpid(void);
 pid_t getppid(void);
 int isatty(int file);
 int gethostname(char *name, size_t size);
+char *getcwd(char *path, size_t size); /* "", the first device */
 
 /* Faults: what waits is written as states that go on in the next cycle. */
 unsigned sleep(unsigned seconds);

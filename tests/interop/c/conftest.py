@@ -33,7 +33,7 @@ class _CLibraryAlone:
 
 @pytest.fixture(params=[zig, system_clang], ids=["zig", "clang"])
 def unit_results(request, tmp_path):
-    """``unit_results(text, count)``: what ``fill(unsigned *)`` of a unit writes, by each compiler."""
+    """``unit_results(text, count)``: what ``fill(unsigned *)`` writes, by each compiler."""
     toolchain = request.param()
     if toolchain is None:
         pytest.skip("this compiler for units is not installed")

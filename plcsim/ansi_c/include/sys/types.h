@@ -11,6 +11,16 @@
 extern "C" {
 #endif
 
+#define FD_SETSIZE 64
+#define FD_ZERO(set) ((set)->bits[0] = (set)->bits[1] = 0)
+#define FD_SET(number, set) ((set)->bits[(number) / 32 & 1] |= 1u << ((number) & 31))
+#define FD_CLR(number, set) ((set)->bits[(number) / 32 & 1] &= ~(1u << ((number) & 31)))
+#define FD_ISSET(number, set) ((set)->bits[(number) / 32 & 1] >> ((number) & 31) & 1)
+
+typedef struct fd_set {
+	uint32_t bits[FD_SETSIZE / 32];
+} fd_set; /* numbers; there is no select() */
+
 typedef long ssize_t;
 typedef long off_t;
 typedef int pid_t;

@@ -45,15 +45,14 @@ def test_every_error_of_every_file_is_told_with_its_place(each_toolchain, source
     first, second, third = caught.value.findings
     assert first.startswith(f"{files[0]}:3:10: use of undeclared identifier 'undeclared'")
     assert second.startswith(f"{files[0]}:5:23: expected ';'")
-    assert third == f"{files[1]}:1:10: 'nowhere.h' file not found"
+    assert third.startswith(f"{files[1]}:1:10: 'nowhere.h' file not found")
 
 
 def test_two_definitions_of_a_function_are_told_with_their_files(each_toolchain, source):
     files = [source("a.c", "int f(void) { return 1; }"), source("b.c", "int f(void) { return 2; }")]
     with pytest.raises(ConfigurationError) as caught:
         build(BuildOrder("program main", files, []), each_toolchain, CodeCache(None))
-    assert "duplicate symbol: f" in str(caught.value)
-    assert str(files[1]) in str(caught.value)
+    assert f"f is defined at {files[0]}:1 and at {files[1]}:1" in str(caught.value)
 
 
 @pytest.mark.parametrize(

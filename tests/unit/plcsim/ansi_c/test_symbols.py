@@ -1,6 +1,9 @@
+import pytest
+
 from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.static_library import StaticLibrary
+from plcsim.core.errors import ConfigurationError
 from plcsim.machine import CodeCache
 from plcsim.machine.shared_module import read_shared
 
@@ -52,3 +55,17 @@ def test_a_strong_function_is_taken_before_a_weak_one(source, toolchain, tmp_pat
     ]
     order = BuildOrder("program", files, [INCLUDE])
     assert read_shared(build(order, toolchain, CodeCache(None)).wasm).called == []
+
+
+def test_a_variable_with_two_initial_values_is_refused_with_both_places(source, each_toolchain):
+    head = "#include <bur/plctypes.h>\n"
+    files = [
+        source("a.c", f"{head}_GLOBAL UDINT speed = 1;\n"),
+        source("b.c", f"{head}\n_GLOBAL UDINT speed = 2;\n"),
+        source("c.c", f"{head}_GLOBAL UDINT speed;\nvoid _CYCLIC run(void) {{ speed++; }}\n"),
+    ]
+    with pytest.raises(ConfigurationError) as refused:
+        build(BuildOrder("program", files, [INCLUDE]), each_toolchain, CodeCache(None))
+    (finding,) = refused.value.args
+    assert f"speed has an initial value at {files[0]}:2 and at {files[1]}:3" in finding
+    build(BuildOrder("program", files[1:], [INCLUDE]), each_toolchain, CodeCache(None))

@@ -1,0 +1,95 @@
+"""What compiler and linker say, in words that help."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from plcsim.ansi_c.case_blind import SUFFIXES
+from plcsim.core.suggestion import did_you_mean
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+_NO_HEADER = re.compile(r"'([^']+)' file not found$")
+_DUPLICATE = re.compile(r"duplicate symbol: (.+?), defined in (.+?), defined in (.+)$")
+_DEEPEST = 5
+_MOST_HEADERS = 5_000
+_ASSEMBLER = "this is assembler of the controller's processor; plcsim compiles for another machine"
+_SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
+_ELSEWHERE = {
+    **dict.fromkeys(("sys/socket.h", "netinet/in.h", "netinet/tcp.h", "arpa/inet.h"), _SOCKETS),
+    **dict.fromkeys(("netdb.h", "sys/ioctl.h", "poll.h"), _SOCKETS),
+    "pthread.h": "a controller has no threads: a program's units run in its task class",
+    "setjmp.h": "setjmp and longjmp are not there",
+    "dirent.h": "folders are read by the library FileIO (FileIO.h)",
+}
+
+
+def explained(finding: str, folders: Sequence[Path]) -> str:
+    """Return what the compiler said, and a hint where there is one.
+
+    Args:
+        finding: "file:line:column: text".
+        folders: where headers are looked for.
+    """
+    missing = _NO_HEADER.search(finding)
+    if missing:
+        return finding + _about_header(missing[1], folders)
+    return f"{finding} ({_ASSEMBLER})" if " in asm" in finding else finding
+
+
+def _about_header(name: str, folders: Sequence[Path]) -> str:
+    if name in _ELSEWHERE:
+        return f"; {_ELSEWHERE[name]}"
+    known: dict[str, str] = {}
+    for path in _headers(folders):
+        known.setdefault(os.path.basename(path), path)  # noqa: PTH119  # thousands of them
+        if len(known) > _MOST_HEADERS:
+            break
+    found = known.get(os.path.basename(name))  # noqa: PTH119  # as above
+    if found is not None:
+        return f"; it is {found}: name its folder in [c] include of plc.toml"
+    return did_you_mean(name, known, 2)
+
+
+def _headers(folders: Iterable[Path]) -> Iterator[str]:
+    for folder in folders:
+        yield from _below(os.fspath(folder), _DEEPEST)
+
+
+def _below(folder: str, depth: int) -> Iterator[str]:
+    try:
+        with os.scandir(folder) as found:
+            entries = sorted(found, key=lambda entry: entry.name)
+    except OSError:
+        return
+    for entry in entries:
+        if entry.name.lower().endswith(SUFFIXES):
+            yield entry.path
+        elif depth and entry.name[0] not in "._" and entry.is_dir(follow_symlinks=False):
+            yield from _below(entry.path, depth - 1)
+
+
+def defined_twice(text: str) -> str:
+    """Return what the linker says of two definitions, with their places."""
+    found = _DUPLICATE.search(text)
+    if found is None:
+        return text
+    name, *files = found.groups()
+    first, second = (place_of(name, Path(file)) for file in files)
+    return f"{name} is defined at {first} and at {second}; one of them goes, or is static or extern"
+
+
+def place_of(name: str, source: Path) -> str:
+    """Return "file:line" of a definition, the file alone where it is not seen."""
+    plain = re.escape(name.partition("(")[0].rpartition("::")[2])
+    definition = re.compile(rf"^(?!\s*(?:extern|return|#|//|\*))\w[^;={{}}]*\b{plain}\b")
+    try:
+        lines = source.read_text("utf-8", "replace").splitlines()
+    except OSError:
+        return str(source)
+    number = next((n for n, line in enumerate(lines, 1) if definition.match(line)), None)
+    return str(source) if number is None else f"{source}:{number}"
