@@ -46,6 +46,7 @@ class Nodes:
         self.index = 0
         self.codecs: dict[ua.NodeId, VariableCodec] = {}
         self._enumerations: dict[str, ua.NodeId] = {}
+        self._items: dict[ua.NodeId, ua.AddNodesItem] = {}
 
     async def make(self, branches: Iterable[Branch]) -> None:
         """Make all nodes, below one object with the project's name."""
@@ -61,7 +62,7 @@ class Nodes:
         attributes.DisplayName = ua.LocalizedText(branch.name)
         attributes.Description = ua.LocalizedText(branch.type_name or branch.name)
         item.NodeAttributes = attributes
-        await self._add(item)
+        self._add(item)
         for child in branch.children:
             if isinstance(child, Branch):
                 await self._object(item.RequestedNewNodeId, child)
@@ -90,17 +91,17 @@ class Nodes:
         attributes.MinimumSamplingInterval = 0.0
         attributes.Value = codec.variant(bytes(leaf.tag.data_type.size))
         item.NodeAttributes = attributes
-        await self._add(item)
+        self._add(item)
         self.codecs[item.RequestedNewNodeId] = codec
         if is_analog:
-            await self._properties(item.RequestedNewNodeId, leaf)
+            self._properties(item.RequestedNewNodeId, leaf)
 
-    async def _properties(self, parent: ua.NodeId, leaf: Leaf) -> None:
+    def _properties(self, parent: ua.NodeId, leaf: Leaf) -> None:
         """Give unit and range of the tag map (OPC 10000-8, 5.3.2.3)."""
         note = leaf.note
         if note.minimum is not None and note.maximum is not None:
             value: Any = ua.Range(note.minimum, note.maximum)
-            await self._property(parent, leaf, "EURange", value, ua.ObjectIds.Range)
+            self._property(parent, leaf, "EURange", value, ua.ObjectIds.Range)
         if note.unit:
             value = ua.EUInformation(
                 NamespaceUri=_UNIT_NAMESPACE,
@@ -108,11 +109,9 @@ class Nodes:
                 DisplayName=ua.LocalizedText(note.unit),
                 Description=ua.LocalizedText(note.unit),
             )
-            await self._property(
-                parent, leaf, "EngineeringUnits", value, ua.ObjectIds.EUInformation
-            )
+            self._property(parent, leaf, "EngineeringUnits", value, ua.ObjectIds.EUInformation)
 
-    async def _property(
+    def _property(
         self, parent: ua.NodeId, leaf: Leaf, name: str, value: Any, data_type: int
     ) -> None:
         item = ua.AddNodesItem()
@@ -129,7 +128,7 @@ class Nodes:
         attributes.AccessLevel = attributes.UserAccessLevel = ua.AccessLevel.CurrentRead.mask
         attributes.Value = ua.Variant(value)
         item.NodeAttributes = attributes
-        await self._add(item)
+        self._add(item)
 
     async def _data_type(self, codec: VariableCodec) -> ua.NodeId:
         element = codec.leaf.element
@@ -158,6 +157,39 @@ class Nodes:
         item.ReferenceTypeId = _COMPONENT
         return item
 
-    async def _add(self, item: ua.AddNodesItem) -> None:
-        (result,) = await self._server.iserver.isession.add_nodes([item])
-        result.StatusCode.check()
+    def _add(self, item: ua.AddNodesItem) -> None:
+        """Add a node, and tie it to its parent.
+
+        asyncua itself compares each child with all before it: seconds where there are thousands.
+        """
+        parent, item.ParentNodeId = item.ParentNodeId, ua.NodeId()
+        service = self._server.iserver.node_mgt_service
+        for refused in service.try_add_nodes([item], check=False):
+            raise ValueError(f"node {refused.RequestedNewNodeId} cannot be added")
+        space = self._server.iserver.aspace
+        space[parent].references.append(_reference(item, item, is_forward=True))
+        if parent in self._items:
+            upwards = _reference(self._items[parent], item, is_forward=False)
+            space[item.RequestedNewNodeId].references.append(upwards)
+        self._items[item.RequestedNewNodeId] = item
+
+
+def _reference(
+    target: ua.AddNodesItem, child: ua.AddNodesItem, *, is_forward: bool
+) -> ua.ReferenceDescription:
+    """Return how one end of a reference is described at the other.
+
+    Args:
+        target: the node at the end that is described.
+        child: the node of the two that is below; it says what kind of reference it is.
+        is_forward: the target is the child.
+    """
+    return ua.ReferenceDescription(
+        ReferenceTypeId=child.ReferenceTypeId,
+        IsForward=is_forward,
+        NodeId=target.RequestedNewNodeId,
+        BrowseName=target.BrowseName,
+        DisplayName=target.NodeAttributes.DisplayName,
+        NodeClass=target.NodeClass,
+        TypeDefinition=target.TypeDefinition,
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import time
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
     from plcsim.opcua.service.values import VariableCodec
     from plcsim.shared_image import ImageReader
+
+AT_ONCE: Final = 50
+"""Changes that are handed over before the connections have their turn."""
 
 _CODES: Final = ua.StatusCodes
 _VALUE: Final = ua.AttributeIds.Value
@@ -110,14 +114,20 @@ class Readings:
         except ImageError:
             return
         status, now = self.status(), datetime.now(UTC)
+        told = 0
         for node, before in list(self._monitored.items()):
             start, end = self._spans[node]
             seen = (status, data[start - low : end - low])
             if seen != before:
                 self._monitored[node] = seen
-                await space.write_attribute_value(
-                    node, _VALUE, self._value(node, seen[1], status, now)
-                )
+                value = self._value(node, seen[1], status, now)
+                for handle, tell in list(
+                    space[node].attributes[_VALUE].datachange_callbacks.items()
+                ):
+                    await tell(handle, value)
+                told += 1
+                if told % AT_ONCE == 0:
+                    await asyncio.sleep(0)
 
     def _drop_unwatched(self, space: AddressSpace) -> None:
         for node in list(self._monitored):
