@@ -71,10 +71,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect tests in Structured Text: ``test_*.st``."""
-    if file_path.suffix.lower() != ".st" or not file_path.name.lower().startswith("test_"):
+    """Collect tests in Structured Text (``test_*.st``), and those of Automation Studio projects."""
+    suffix, name = file_path.suffix.lower(), file_path.name.lower()
+    if suffix == ".st" and name.startswith("test_"):
+        collector = import_module("plcsim.testing.st_collector").StructuredTextTests
+    elif suffix == ".apj":
+        collector = import_module("plcsim.testing.unit_test_collector").UnitTests
+    else:
         return None
-    collector = import_module("plcsim.testing.st_collector").StructuredTextTests
     found: pytest.Collector = collector.from_parent(parent, path=file_path)
     return found
 
