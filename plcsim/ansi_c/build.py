@@ -36,6 +36,7 @@ _OPTIONS = (
     # what programs for the controller take for granted of its compiler
     *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
     # or a malloc that nobody uses is left out and cannot fail
+    *("-fno-builtin-printf", "-fno-builtin-fprintf", "-fno-builtin-sprintf"),  # or iprintf ...
     *("-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-realloc", "-fno-builtin-free"),
     *("-fno-math-errno", "-ffp-contract=off", "-fgnuc-version=11.3.0"),
     # long double is double: the one of 128 bits that WebAssembly has would be computed in software
