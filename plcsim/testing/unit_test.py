@@ -140,9 +140,11 @@ def run_tests(folder: Path, place: ProgramUnderTest) -> Mapping[tuple[str, str],
     """
     project = read_project(folder, {"as": {"config": place.configuration}})
     others = {entry.source for entry in project.programs if entry.source != place.source}
-    project = replace(project.without(others, ()), extensions={})
+    project = replace(project.without(others, ()), extensions={}, keep_going=True)
     application = load(project)
     try:
+        if application.left_out:  # what is wrong elsewhere does not matter
+            raise ConfigurationError(*application.left_out[place.source])
         clock = VirtualClock()
         network = VirtualNetwork(clock.now_ns).host(VIRTUAL_IP)
         return _verdicts(_reported(assemble(application, clock=clock, network=network), place))
