@@ -30,7 +30,7 @@ from st_types.types.derived import (
     UnionType,
     WStringType,
 )
-from st_types.types.elementary import ELEMENTARY, UDINT, DataType, ElementaryType
+from st_types.types.elementary import ALL_ELEMENTARY, UDINT, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -164,7 +164,7 @@ def type_from(text: Any) -> DataType[Any]:
     """Return the type that `describe_type` described."""
     match text:
         case str(name):
-            return ELEMENTARY[name]
+            return ALL_ELEMENTARY[name]
         case {"subrange": name, "of": base, "bounds": [low, high]}:
             return SubrangeType(name, _integer(base), low, high)
         case {"string": length}:
@@ -185,7 +185,7 @@ def type_from(text: Any) -> DataType[Any]:
 
 
 def _integer(name: str) -> Any:
-    return ELEMENTARY[name]
+    return ALL_ELEMENTARY[name]
 
 
 def _members(members: list[Any]) -> list[Member]:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from st_types.types.derived import StringType, WStringType
-from st_types.types.elementary import ELEMENTARY
+from st_types.types.elementary import ALL_ELEMENTARY, ELEMENTARY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,7 +41,7 @@ class Dialect:
     def simple_types(self) -> Mapping[str, DataType[Any]]:
         """The types that are keywords, in capitals and in small letters."""
         types: dict[str, DataType[Any]] = {
-            **ELEMENTARY,
+            **(ELEMENTARY if self.case_sensitive else ALL_ELEMENTARY),
             "STRING": StringType(self.string_length),
             "WSTRING": WStringType(self.string_length),
         }

@@ -52,7 +52,7 @@ _LEXEME = rf"""
       | [;()+,\[\]]
       | :=?
       | [0-9]+ (?! [\w.\#] )
-      | (?i:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD) \# \d [\d:._-]*
+      | (?i:L?(?:DATE_AND_TIME|DATE|DT|D|TIME_OF_DAY|TOD)) \# \d [\d:._-]*
       | [A-Za-z_] \w*
         (?: \# (?: {_STRINGS}
                  | [+-]? \d+ \# \w+

@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from st_types.errors import ValueRangeError
-from st_types.types.elementary import ELEMENTARY, TIME, UNSUPPORTED_TYPES
+from st_types.types.elementary import ALL_ELEMENTARY, TIME, UNSUPPORTED_TYPES
 
 MAX_DIGITS = 400
 """Longest number that is read; the largest LREAL has 309 digits before its point."""
@@ -38,10 +38,19 @@ class LiteralError(ValueError):
     """The text is not a literal; the message says why."""
 
 
-_SHORT_NAMES = {"T": "TIME", "D": "DATE", "DT": "DATE_AND_TIME", "TOD": "TIME_OF_DAY"}
+_SHORT_NAMES = {
+    "T": "TIME",
+    "D": "DATE",
+    "DT": "DATE_AND_TIME",
+    "TOD": "TIME_OF_DAY",
+    "LT": "LTIME",
+    "LD": "LDATE",
+    "LDT": "LDATE_AND_TIME",
+    "LTOD": "LTIME_OF_DAY",
+}
 _REALS = ("REAL", "LREAL")
 _STRINGS = ("STRING", "WSTRING")
-TYPED_PREFIXES = frozenset([*ELEMENTARY, "T", "D", *_STRINGS])
+TYPED_PREFIXES = frozenset([*ALL_ELEMENTARY, "T", "D", "LT", "LD", *_STRINGS])
 """What may stand before ``#`` in a literal, in capitals; anything else names an enumeration."""
 
 _BOOLS = {"TRUE": True, "FALSE": False, "1": True, "0": False}
@@ -148,6 +157,8 @@ def _escape(character: str, quote: str) -> str:
     return f"${ord(character):02X}" if quote == "'" else f"${ord(character):04X}"
 
 
+_NS_PER_MS = 1_000_000
+_NS_PER_S = 1_000_000_000
 _MS_BY_UNIT = {
     "d": Fraction(86_400_000),
     "h": Fraction(3_600_000),
@@ -162,13 +173,22 @@ _DURATION = re.compile(rf"([+-]?)((?:{_PART.pattern})+|0+)", re.IGNORECASE)
 
 
 def _duration_ms(body: str) -> int:
+    return _duration(body, 1)
+
+
+def _duration_ns(body: str) -> int:
+    return _duration(body, _NS_PER_MS)
+
+
+def _duration(body: str, units_per_ms: int) -> int:
     match = _DURATION.fullmatch(body.replace("_", ""))
     if match is None or len(body) > MAX_DIGITS:
         raise LiteralError(
             f"T#{body[:40]} is no duration; one such as T#1h30m or T#1.5s was expected"
         )
     parts = _PART.findall(match.group(2))
-    total = int(sum(Fraction(number) * _MS_BY_UNIT[unit.lower()] for number, unit in parts))
+    ms = sum(Fraction(number) * _MS_BY_UNIT[unit.lower()] for number, unit in parts)
+    total = int(ms * units_per_ms)
     return -total if match.group(1) == "-" else total
 
 
@@ -211,20 +231,31 @@ def _date_s(body: str) -> int:
 
 
 def _time_of_day_ms(body: str) -> int:
+    return _time_of_day_ns(body) // _NS_PER_MS
+
+
+def _time_of_day_ns(body: str) -> int:
     match = _CLOCK.fullmatch(body)
     if match is None:
         raise LiteralError(f"{body[:40]} is no time of day; one such as 23:59:59 was expected")
     hour, minute, second = (int(part or 0) for part in match.groups()[:3])
     if hour > 23 or minute > 59 or second > 59:
         raise LiteralError(f"{body} is no time of day; the last is 23:59:59.999")
-    return ((hour * 60 + minute) * 60 + second) * 1000 + int(
-        Fraction("0" + (match.group(4) or ".0")) * 1000
-    )
+    seconds = (hour * 60 + minute) * 60 + second
+    return seconds * _NS_PER_S + int(Fraction("0" + (match.group(4) or ".0")) * _NS_PER_S)
+
+
+def _date_ns(body: str) -> int:
+    return _date_s(body) * _NS_PER_S
 
 
 def _date_and_time_s(body: str) -> int:
+    return _date_and_time_ns(body) // _NS_PER_S
+
+
+def _date_and_time_ns(body: str) -> int:
     day, _, clock = body.rpartition("-") if body.count("-") == 3 else (body, "", "")
-    return _date_s(day) + (_time_of_day_ms(clock) // 1000 if clock else 0)
+    return _date_ns(day) + (_time_of_day_ns(clock) if clock else 0)
 
 
 _PARSERS = {
@@ -232,4 +263,8 @@ _PARSERS = {
     "DATE": _date_s,
     "TIME_OF_DAY": _time_of_day_ms,
     "DATE_AND_TIME": _date_and_time_s,
+    "LTIME": _duration_ns,
+    "LDATE": _date_ns,
+    "LTIME_OF_DAY": _time_of_day_ns,
+    "LDATE_AND_TIME": _date_and_time_ns,
 }

@@ -119,10 +119,23 @@ ELEMENTARY: Final[dict[str, ElementaryType[bool] | ElementaryType[int] | Element
 }
 """All elementary types by keyword, short forms included."""
 
-UNSUPPORTED_TYPES: Final = frozenset(
-    [
-        *("LTIME", "LT", "LDATE", "LD", "LTIME_OF_DAY", "LTOD", "LDATE_AND_TIME", "LDT"),
-        *("CHAR", "WCHAR"),
-    ]
-)
+LTIME: Final[ElementaryType[int]] = ElementaryType("LTIME", 8, "q", Kind.DURATION)
+LDATE: Final[ElementaryType[int]] = ElementaryType("LDATE", 8, "q", Kind.DATE)
+LTIME_OF_DAY: Final[ElementaryType[int]] = ElementaryType("LTIME_OF_DAY", 8, "q", Kind.DATE)
+LDATE_AND_TIME: Final[ElementaryType[int]] = ElementaryType("LDATE_AND_TIME", 8, "q", Kind.DATE)
+
+LONG_TIMES: Final[dict[str, ElementaryType[int]]] = {
+    **{t.name: t for t in (LTIME, LDATE, LTIME_OF_DAY, LDATE_AND_TIME)},
+    "LTOD": LTIME_OF_DAY,
+    "LDT": LDATE_AND_TIME,
+}
+"""Times of IEC 61131-3 edition 3, which Automation Studio does not have, by keyword.
+
+All count nanoseconds, dates from 1970-01-01 on.
+"""
+
+ALL_ELEMENTARY: Final = {**ELEMENTARY, **LONG_TIMES}
+"""The elementary types of all dialects."""
+
+UNSUPPORTED_TYPES: Final = frozenset(["CHAR", "WCHAR"])
 """Elementary types of IEC 61131-3 edition 3 that Automation Studio does not have, nor do we."""

@@ -32,7 +32,7 @@ from st_types.types.derived import (
     is_digital,
     resolve_alias,
 )
-from st_types.types.elementary import DataType, ElementaryType
+from st_types.types.elementary import LONG_TIMES, DataType, ElementaryType
 from st_types.types.paths import inner_types
 from st_types.writers.plan import is_generic, lacks_types, parameters_of
 
@@ -62,6 +62,7 @@ C_TYPES = {
     "DATE": "plcdate",
     "TIME_OF_DAY": "plctod",
     "DATE_AND_TIME": "plcdt",
+    **dict.fromkeys((t.name for t in LONG_TIMES.values()), "signed long long"),
 }
 """C type of each elementary type."""
 

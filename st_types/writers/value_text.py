@@ -20,7 +20,17 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import DATE, DATE_AND_TIME, TIME, TIME_OF_DAY
+from st_types.types.elementary import (
+    DATE,
+    DATE_AND_TIME,
+    LDATE,
+    LDATE_AND_TIME,
+    LONG_TIMES,
+    LTIME,
+    LTIME_OF_DAY,
+    TIME,
+    TIME_OF_DAY,
+)
 
 if TYPE_CHECKING:
     from st_types.types.elementary import DataType
@@ -74,10 +84,12 @@ def _real_text(value: float, size: int) -> str:
     return text if "." in text or "e" in text else f"{text}.0"
 
 
-_TIMES = (TIME, DATE, TIME_OF_DAY, DATE_AND_TIME)
+_TIMES = (TIME, DATE, TIME_OF_DAY, DATE_AND_TIME, *LONG_TIMES.values())
 
 
 def _time_text(data_type: DataType[Any], value: int) -> str:
+    if data_type.size > TIME.size:
+        return _long_time_text(data_type, value)
     if data_type is TIME:
         return duration_text(value)
     if data_type is TIME_OF_DAY:
@@ -88,6 +100,29 @@ def _time_text(data_type: DataType[Any], value: int) -> str:
     if data_type is DATE:
         return f"D#{moment:%Y-%m-%d}"
     return f"DT#{moment:%Y-%m-%d-%H:%M:%S}"
+
+
+_SHORTENED: dict[DataType[Any], DataType[Any]] = {
+    LTIME_OF_DAY: TIME_OF_DAY,
+    LDATE: DATE,
+    LDATE_AND_TIME: DATE_AND_TIME,
+}
+
+
+def _long_time_text(data_type: DataType[Any], value: int) -> str:
+    """Return the text of a count of nanoseconds: that of the short type, and what is below."""
+    if data_type is LTIME:
+        ms, rest = divmod(abs(value), 1_000_000)
+        us, ns = divmod(rest, 1000)
+        below = (f"{us}us" if us else "") + (f"{ns}ns" if ns else "")
+        text = duration_text(ms)[2:] if ms or not below else ""
+        return f"LTIME#{'-' if value < 0 else ''}{text}{below}"
+    seconds, rest = divmod(value, 1_000_000_000)
+    short = _SHORTENED[data_type]
+    unit = 1000 if short is TIME_OF_DAY else 1
+    text = _time_text(short, seconds * unit)
+    fraction = f".{rest:09}".rstrip("0") if rest and short is not DATE else ""
+    return f"L{text}{fraction}"
 
 
 def duration_text(milliseconds: int) -> str:

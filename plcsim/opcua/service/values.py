@@ -21,7 +21,7 @@ from st_types.types.derived import (
     SubrangeType,
     WStringType,
 )
-from st_types.types.elementary import ElementaryType
+from st_types.types.elementary import LONG_TIMES, ElementaryType
 from st_types.types.values import decode, encode
 
 if TYPE_CHECKING:
@@ -50,6 +50,7 @@ _ELEMENTARY: Final = {
     "DATE": _VARIANT.DateTime,
     "TIME_OF_DAY": _VARIANT.DateTime,
     "DATE_AND_TIME": _VARIANT.DateTime,
+    **dict.fromkeys(LONG_TIMES, _VARIANT.Int64),
 }
 
 _EPOCH: Final = datetime(1970, 1, 1, tzinfo=UTC)

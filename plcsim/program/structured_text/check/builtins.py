@@ -22,7 +22,7 @@ from plcsim.program.structured_text.check.kinds import (
 )
 from plcsim.program.structured_text.check.typed import Builtin, Convert
 from st_types.types.derived import StringType, WStringType
-from st_types.types.elementary import ELEMENTARY, LREAL, REAL
+from st_types.types.elementary import ALL_ELEMENTARY, ELEMENTARY, LREAL, REAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -35,7 +35,7 @@ STRING_80: Final = StringType(80)
 WSTRING_80: Final = WStringType(80)
 
 _TEXT_TYPES: Final[dict[str, Type]] = {"STRING": STRING_80, "WSTRING": WSTRING_80}
-_CONVERTED: Final[dict[str, Type]] = {**ELEMENTARY, **_TEXT_TYPES}
+_CONVERTED: Final[dict[str, Type]] = {**ALL_ELEMENTARY, **_TEXT_TYPES}
 
 
 class Rule(NamedTuple):

@@ -44,7 +44,7 @@ from st_types.types.derived import (
     StructType,
     WStringType,
 )
-from st_types.types.elementary import BYTE, DWORD, ELEMENTARY, WORD
+from st_types.types.elementary import ALL_ELEMENTARY, BYTE, DWORD, WORD
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -58,7 +58,11 @@ if TYPE_CHECKING:
 
 _PARTS: Final[dict[str, Type]] = {"B": BYTE, "W": WORD, "D": DWORD}
 _LEAST, _BEYOND = -(1 << 63), 1 << 64
-_LITERAL_TYPES: Final[dict[str, Type]] = {**ELEMENTARY, "ANY_INT": ANY_INT, "ANY_REAL": ANY_REAL}
+_LITERAL_TYPES: Final[dict[str, Type]] = {
+    **ALL_ELEMENTARY,
+    "ANY_INT": ANY_INT,
+    "ANY_REAL": ANY_REAL,
+}
 
 
 class ExpressionChecker:
@@ -452,7 +456,7 @@ def _pointer_hint(data_type: Type) -> str:
 
 def _conversion_hint(source: Type, target: Type) -> str:
     names = [t.name.partition("[")[0] for t in (source, target)]
-    known = {*ELEMENTARY, "STRING", "WSTRING"}
+    known = {*ALL_ELEMENTARY, "STRING", "WSTRING"}
     return f"use {'_TO_'.join(names)}" if known.issuperset(names) else ""
 
 

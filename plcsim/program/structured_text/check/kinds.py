@@ -22,14 +22,18 @@ from st_types.types.derived import (
     WStringType,
 )
 from st_types.types.elementary import (
+    ALL_ELEMENTARY,
     BOOL,
     DATE,
     DATE_AND_TIME,
     DINT,
-    ELEMENTARY,
     INT,
+    LDATE,
+    LDATE_AND_TIME,
     LINT,
     LREAL,
+    LTIME,
+    LTIME_OF_DAY,
     REAL,
     SINT,
     TIME,
@@ -88,7 +92,7 @@ _KINDS_OF_MEANING = {
 }
 _ELEMENTARY_KINDS: Final[Mapping[Type, TypeKind]] = {
     data_type: _KINDS_OF_MEANING[data_type.kind]
-    for data_type in (*ELEMENTARY.values(), ANY_INT, ANY_REAL)
+    for data_type in (*ALL_ELEMENTARY.values(), ANY_INT, ANY_REAL)
 }
 _KINDS_OF_CLASS: Final[tuple[tuple[type, TypeKind], ...]] = (
     (EnumerationType, TypeKind.INTEGER),
@@ -235,7 +239,7 @@ def _as_number(data_type: Type) -> Type:
     return DINT if isinstance(data_type, EnumerationType) else data_type
 
 
-DATES: Final = frozenset([DATE, TIME_OF_DAY, DATE_AND_TIME])
+DATES: Final = frozenset([DATE, TIME_OF_DAY, DATE_AND_TIME, LDATE, LTIME_OF_DAY, LDATE_AND_TIME])
 
 __all__ = [
     "ANY_INT",
@@ -244,6 +248,8 @@ __all__ = [
     "COUNTS",
     "DATES",
     "DINT",
+    "LINT",
+    "LTIME",
     "NUMBERS",
     "TIME",
     "UDINT",

@@ -11,6 +11,8 @@ from plcsim.program.structured_text.check.kinds import (
     COUNTS,
     DATES,
     DINT,
+    LINT,
+    LTIME,
     NUMBERS,
     TIME,
     UDINT,
@@ -33,6 +35,7 @@ COMPARISONS: Final = frozenset(["=", "<>", "<", ">", "<=", ">="])
 CALCULABLE: Final = NUMBERS | {TypeKind.BOOL}
 """Kinds that calculations take; a BOOL counts as 0 or 1."""
 
+_TIMES: Final = frozenset([TypeKind.TIME, TypeKind.DATE])
 _SHORT = ("AND_THEN", "OR_ELSE")
 LOGIC: Final = frozenset(["AND", "OR", "XOR", "AND_THEN", "OR_ELSE"])
 
@@ -111,6 +114,8 @@ def compared_type(left: Value, right: Value) -> Type | None:
     """Return the type in which two values are compared, None if they cannot be."""
     a, b = left.type, right.type
     kind, other = kind_of(a), kind_of(b)
+    if kind in _TIMES and other in _TIMES and a.size != b.size:
+        return None  # they count in other units
     if kind is other and kind not in NUMBERS:
         return None if kind in (TypeKind.STRUCT, TypeKind.ARRAY, TypeKind.VOID) else a
     if kind in CALCULABLE and other in CALCULABLE:
@@ -169,17 +174,22 @@ def _power_type(base: Type, exponent: Type) -> Type:
 def _time_type(operator: str, a: Type, b: Type) -> Type | None:
     """Return the type of an operation with a TIME or a date: whole numbers, as in C."""
     kinds = kind_of(a), kind_of(b)
+    times = [t for t, kind in zip((a, b), kinds, strict=True) if kind in _TIMES]
+    is_long = times[0].size > TIME.size
+    if any(t.size != times[0].size for t in times):
+        return None  # they count in other units
+    duration = LTIME if is_long else TIME
     if any(kind not in (*COUNTS, TypeKind.REAL) for kind in kinds):
         return None
     if operator in ("*", "/", "MOD"):
         if kinds == (TypeKind.TIME, TypeKind.TIME):
-            return DINT if operator == "/" else TIME
-        return TIME if TypeKind.DATE not in kinds else None
+            return (LINT if is_long else DINT) if operator == "/" else duration
+        return duration if TypeKind.DATE not in kinds else None
     if operator not in ("+", "-") or TypeKind.REAL in kinds:
         return None
     if kinds == (TypeKind.DATE, TypeKind.DATE):
-        return TIME if operator == "-" and a is b else None
-    return next(t for t in (a, b) if t in DATES) if TypeKind.DATE in kinds else TIME
+        return duration if operator == "-" and a is b else None
+    return next(t for t in (a, b) if t in DATES) if TypeKind.DATE in kinds else duration
 
 
 def mixes_signs(value: Value) -> bool:

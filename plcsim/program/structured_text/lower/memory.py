@@ -14,6 +14,7 @@ from st_types.types.elementary import (
     BYTE,
     INT,
     LINT,
+    LONG_TIMES,
     LREAL,
     LWORD,
     REAL,
@@ -36,7 +37,7 @@ _WIDTHS: Final[Mapping[Type, ir.Width]] = {
     **dict.fromkeys((USINT, BYTE), "u8"),
     INT: "s16",
     **dict.fromkeys((UINT, WORD), "u16"),
-    **dict.fromkeys((LINT, ULINT, LWORD), "w64"),
+    **dict.fromkeys((LINT, ULINT, LWORD, *LONG_TIMES.values()), "w64"),
     REAL: "f32",
     **dict.fromkeys((LREAL, ANY_REAL), "f64"),
 }

@@ -22,7 +22,16 @@ from plcsim.program.structured_text.lower.memory import is_scalar, width_of
 from plcsim.program.structured_text.lower.nature import is_pure, is_unsigned_in_c
 from plcsim.program.structured_text.lower.values import ValueLowering, after
 from st_types.types.derived import StringType, WStringType
-from st_types.types.elementary import DATE, DATE_AND_TIME, TIME_OF_DAY
+from st_types.types.elementary import (
+    DATE,
+    DATE_AND_TIME,
+    LDATE,
+    LDATE_AND_TIME,
+    LONG_TIMES,
+    LTIME_OF_DAY,
+    TIME,
+    TIME_OF_DAY,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -83,11 +92,24 @@ class ScalarLowering(ValueLowering):
             value, ir.VALUE_TYPE[width_of(target)], unsigned=is_unsigned_in_c(source)
         )
         between_dates = (source.type, target)
+        scale = _scale(source.type, target)
+        if scale is not None:
+            return self._scaled(source, value, target, scale)
         if between_dates in _DATE_PARTS:
             return _DATE_PARTS[between_dates](self, converted)
         if converted.type != "i32" or self._is_clean(source, target):
             return converted
         return narrowed(converted, target)
+
+    def _scaled(
+        self, source: Value, value: ir.Expression, target: Type, scale: tuple[int, int]
+    ) -> ir.Expression:
+        """Return a time in the unit of another type."""
+        wide = to_type(value, "i64", unsigned=is_unsigned_in_c(source))
+        factor, divisor = scale
+        operator: ir.BinaryOperator = "mul" if factor > 1 else "div_s"
+        found = ir.Binary("i64", operator, wide, ir.Const("i64", factor * divisor))
+        return to_type(found, value_type_of(target), unsigned=True)
 
     def _time_of_day(self, value: ir.Expression) -> ir.Expression:
         second = ir.Binary("i32", "rem_u", value, ir.Const("i32", _SECONDS_OF_DAY))
@@ -97,6 +119,13 @@ class ScalarLowering(ValueLowering):
         before, kept = self.kept(value)
         second = ir.Binary("i32", "rem_u", kept, ir.Const("i32", _SECONDS_OF_DAY))
         return after(before, ir.Binary("i32", "sub", kept, second))
+
+    def _long_time_of_day(self, value: ir.Expression) -> ir.Expression:
+        return ir.Binary("i64", "rem_s", value, ir.Const("i64", _SECONDS_OF_DAY * 1_000_000_000))
+
+    def _long_day(self, value: ir.Expression) -> ir.Expression:
+        before, kept = self.kept(value)
+        return after(before, ir.Binary("i64", "sub", kept, self._long_time_of_day(kept)))
 
     @staticmethod
     def _is_clean(source: Value, target: Type) -> bool:
@@ -195,7 +224,25 @@ def _type_name(data_type: Type) -> str:
     return number_type(data_type).name if is_scalar(data_type) else data_type.name.partition("[")[0]
 
 
+_NANOSECONDS: Final[dict[Type, int]] = {
+    **dict.fromkeys((TIME, TIME_OF_DAY), 1_000_000),
+    **dict.fromkeys((DATE, DATE_AND_TIME), 1_000_000_000),
+    **dict.fromkeys(LONG_TIMES.values(), 1),
+}
+"""Nanoseconds of the units that times count in."""
+
+
+def _scale(source: Type, target: Type) -> tuple[int, int] | None:
+    """Return by what a time is multiplied and divided, None where both count alike."""
+    a, b = _NANOSECONDS.get(source), _NANOSECONDS.get(target)
+    if a is None or b is None or a == b or 1 not in (a, b):
+        return None
+    return (a, 1) if b == 1 else (1, b)
+
+
 _DATE_PARTS: dict[tuple[Type, Type], Callable[[ScalarLowering, ir.Expression], ir.Expression]] = {
     (DATE_AND_TIME, TIME_OF_DAY): ScalarLowering._time_of_day,
     (DATE_AND_TIME, DATE): ScalarLowering._day,
+    (LDATE_AND_TIME, LTIME_OF_DAY): ScalarLowering._long_time_of_day,
+    (LDATE_AND_TIME, LDATE): ScalarLowering._long_day,
 }

@@ -376,14 +376,12 @@ def test_case_does_not_matter_in_iec() -> None:
 
 
 def test_types_of_the_standard_that_are_not_here_are_refused_by_name() -> None:
-    text = (
-        "VAR a : LTIME; b : WChar := 'x'; END_VAR TYPE LDATE : INT; END_TYPE VAR c : LDATE; END_VAR"
-    )
+    text = "VAR a : CHAR; b : WChar := 'x'; END_VAR TYPE LD : INT; END_TYPE VAR c : LD; END_VAR"
     file = parse_text(text, "a")
     checked([file], dialect=IEC)
     assert [str(record) for record in file.diagnostics.records] == [
-        "a:1:9: error: LTIME is not supported",
-        "a:1:20: error: WCHAR is not supported",
+        "a:1:9: error: CHAR is not supported",
+        "a:1:19: error: WCHAR is not supported",
     ]
 
 

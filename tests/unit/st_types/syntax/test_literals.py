@@ -67,7 +67,7 @@ def test_values(text: str, type_name: str, value: object) -> None:
         ("INT#TRUE", "TRUE is not a number"),
         ("BOOL#7", "7 is not a BOOL"),
         ("T#5x", "no duration"),
-        ("LTIME#1s", "LTIME is not supported"),
+        ("CHAR#1", "CHAR is not supported"),
         ("WCHAR#'a'", "WCHAR is not supported"),
         ("T#", "no duration"),
         ("D#2023-02-29", "day is out of range|no date"),

@@ -10,7 +10,7 @@ from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations, parse_text
 from st_types.syntax.source import Source
 from st_types.types.derived import StructType
-from st_types.types.elementary import ELEMENTARY
+from st_types.types.elementary import ALL_ELEMENTARY
 from st_types.writers.c_header import C_TYPES, LOCAL, Header, c_header
 
 from ..checked import checked
@@ -236,7 +236,7 @@ def test_a_header_rests_on_those_it_includes() -> None:
 
 
 def test_every_elementary_type_has_a_c_type() -> None:
-    assert {t.name for t in ELEMENTARY.values()} == set(C_TYPES)
+    assert {t.name for t in ALL_ELEMENTARY.values()} == set(C_TYPES)
 
 
 kinds = st.sampled_from(
