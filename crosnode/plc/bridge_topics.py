@@ -192,7 +192,7 @@ class Incoming:
         self._tag = controller.tags.find(entry.tag)
         self._timeout_ns = entry.timeout_ns
         self._status = StatusTag(controller.tags, entry.status, BridgeStatus.NONE)
-        self._age = _age_tag(controller.tags, entry.age)
+        self._age = age_tag(controller.tags, entry.age)
         self._controller = controller
         self._since_ns = controller.context.release_ns
         self._received = BridgeStatus.NONE
@@ -252,7 +252,13 @@ class Incoming:
         return self._conversion.to_tag(message, self._tags.read(self._tag))
 
 
-def _age_tag(tags: TagTable, path: str | None) -> Tag | None:
+def age_tag(tags: TagTable, path: str | None) -> Tag | None:
+    """Return the tag that is told how old a value is, None where none is named.
+
+    Raises:
+        ConfigurationError: it is no TIME.
+        TagError: there is no such tag.
+    """
     if path is None:
         return None
     tag = tags.find(path)

@@ -50,11 +50,12 @@ class RosExtension(Extension):
             for topic, entry in topics.items():
                 if misfit := _misfit(types, entry.type_name):
                     findings.add(table.error(f"{key}.{topic}.type", misfit))
-        for name, service in keys.services.items():
-            try:
-                types.service(service.type_name)
-            except CrosnodeError as error:
-                findings.add(table.error(f"services.{name}.type", str(error)))
+        for key, services in (("services", keys.services), ("calls", keys.calls)):
+            for name, service in services.items():
+                try:
+                    types.service(service.type_name)
+                except CrosnodeError as error:
+                    findings.add(table.error(f"{key}.{name}.type", str(error)))
         findings.check()
         return settings
 
