@@ -14,9 +14,10 @@ from typing import Self
 SIZE = 0x1_0000
 """Bytes: a page of PLC memory."""
 
-BUDGET, RELEASE, DATE = range(3)
+BUDGET, RELEASE, DATE, WATCH = range(4)
 """Indices of 64-bit cells: the budget; the release time of the running task class in ns; the
-nanoseconds from 1970-01-01 (UTC) to time 0 of the clock that the release time is read from."""
+nanoseconds from 1970-01-01 (UTC) to time 0 of the clock that the release time is read from; 1 while
+compiled code tells of its stores (`plcsim.machine.watch`)."""
 
 UNLIMITED = 1 << 62
 """The budget of a program that nobody has asked to end.

@@ -21,10 +21,11 @@ from plcsim.machine.api import (
 from plcsim.machine.calls import WASM_CODES, host_callback, prepare
 from plcsim.machine.encoder import ModuleWriter, sleb
 from plcsim.machine.engine import MachineCode, Type, default_cache, engine_of, offered
-from plcsim.machine.errors import MachineError
+from plcsim.machine.errors import Frame, MachineError
 from plcsim.machine.opcodes import I32, I32_CONST
 from plcsim.machine.signals import keep_handlers
 from plcsim.machine.store import Store
+from plcsim.machine.watch import Watch
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -154,6 +155,8 @@ class Machine:
         fuel: count instructions, exactly and alike on every machine; about half as fast.
         cache: where compiled code is kept; the user's own by default.
         compare: see `plcsim.machine.engine.Engine`; None lets the limits of the process decide.
+        watch: called behind each instruction of compiled code that stores or calls, while the cell
+            `WATCH` of the system area is 1, with its place as a frame; None for nobody.
 
     Raises:
         MachineError: the host has no room for it.
@@ -166,8 +169,10 @@ class Machine:
         fuel: bool = False,
         cache: CodeCache | None = None,
         compare: bool | None = None,
+        watch: Callable[[Frame], None] | None = None,
     ) -> None:
         self.memory = memory
+        self._watch: Watch | None = None
         self._cache = cache or default_cache()
         self._engine = engine_of(fuel=fuel, compare=compare)
         keep_handlers()
@@ -187,6 +192,10 @@ class Machine:
         pointer = self._common[STACK_POINTER_NAME].structure.of.variable
         self._store.watch_stack(GlobalHandle.from_buffer_copy(pointer), SYSTEM_AREA)
         self._shared: dict[object, Any] = {}
+        if watch is not None:
+            entry = self.reserve_functions(1)
+            self._watch = Watch(watch, entry)
+            self.set_function(entry, self.host_function(self._watch.told, "q"))
 
     def close(self) -> None:
         """Give everything back at once; the instances must not be used any more."""
@@ -211,6 +220,9 @@ class Machine:
         Raises:
             MachineError: as for `compile`.
         """
+        if self._watch is not None:
+            wasm = identity = self._watch.instrument(make())
+            return self._engine.compile(identity, lambda: wasm, self._cache)
         return self._engine.compile(identity, make, self._cache)
 
     def instantiate(

@@ -99,6 +99,12 @@ class CompiledPrograms:
         call = executable.bind(site.context)
         return extern_of(site.machine, site.memory, interface_of(function), call)
 
+    def location_of(self, frame: Frame) -> str:
+        """Return "file:line" of a frame, "" for what no user has written."""
+        locate = self._locators.get(frame.module)
+        call = locate(frame) if locate else None
+        return call.location if call else ""
+
     def fault_of(self, error: BaseException) -> Fault:
         """Return what something that a unit raised means, with the chain of calls.
 

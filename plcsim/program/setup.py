@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Heartbeat
     from plcsim.core.task import Task
     from plcsim.library.catalogue import Catalogue
+    from plcsim.machine import Frame
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
     from plcsim.program.variables import DeclaredVariables
@@ -83,6 +84,7 @@ def make_controller(
     heartbeat: Heartbeat | None = None,
     idle: Callable[[int], None] = lambda _idle_ns: None,
     system_fd: int | None = None,
+    watch: Callable[[Frame], None] | None = None,
 ) -> Controller:
     """Return the controller of a setup, its variables allocated, not booted.
 
@@ -93,6 +95,7 @@ def make_controller(
         heartbeat: likewise.
         idle: likewise.
         system_fd: file of the system area, see `plcsim.core.memory.Memory`.
+        watch: told of the stores of compiled programs, see `plcsim.machine.Machine`.
 
     Raises:
         ConfigurationError: the variables do not fit into the memory.
@@ -104,6 +107,7 @@ def make_controller(
         setup.catalogue or installed_catalogue(),
         shared,
         counts_instructions=clock is not None and clock.is_virtual,
+        watch=watch,
     )
     classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
     exception = setup.exception_program

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from plcsim.core.memory import Memory
     from plcsim.core.tag import Tag
     from plcsim.library.catalogue import Catalogue
-    from plcsim.machine import Machine
+    from plcsim.machine import Frame, Machine
     from st_types.types.elementary import DataType
     from st_types.types.views import Struct
 
@@ -29,6 +29,7 @@ class Site:
         context: of the controller; its memory takes the programs' variables.
         catalogue: libraries of the project.
         shared: the global variables, and the global constants, as one tag each.
+        watch: told of the stores of compiled programs, see `plcsim.machine.Machine`.
         counts_instructions: those of compiled programs; for the virtual clock, where no other
             measure of time means anything, and nothing else ends an endless loop.
 
@@ -45,12 +46,14 @@ class Site:
         shared: Sequence[Tag] = (),
         *,
         counts_instructions: bool = False,
+        watch: Callable[[Frame], None] | None = None,
     ) -> None:
         self.context = context
         self.catalogue = catalogue
         self.shared = tuple(shared)
         self._bound: dict[StructType[Any], Callable[[int], None]] = {}
         self._counts_instructions = counts_instructions
+        self._watch = watch
         context.give_settings(self)
         context.run_block = self._run_block
 
@@ -80,7 +83,7 @@ class Site:
         """
         from plcsim.machine import Machine  # noqa: PLC0415  # 20 ms that not every project needs
 
-        return Machine(self.memory, fuel=self._counts_instructions)
+        return Machine(self.memory, fuel=self._counts_instructions, watch=self._watch)
 
     def block(self, data_type: StructType[Any]) -> Callable[[int], None]:
         """Return what runs a function block on the data block at an address.

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Controller, Heartbeat
     from plcsim.library.catalogue import Catalogue
+    from plcsim.machine import Frame
     from plcsim.network import Network
     from plcsim.program.language import ProgramCode
     from plcsim.project.plc_toml import Project
@@ -316,6 +317,7 @@ def assemble(
     heartbeat: Heartbeat | None = None,
     image: ImageFile | None = None,
     system_fd: int | None = None,
+    watch: Callable[[Frame], None] | None = None,
 ) -> Controller:
     """Return a controller with the extensions hooked in, ready for its boot.
 
@@ -326,6 +328,7 @@ def assemble(
         heartbeat: who watches it from outside.
         image: laid out for services and those who watch; None where nobody reads it.
         system_fd: see `plcsim.program.setup.make_controller`.
+        watch: likewise.
 
     Raises:
         ConfigurationError: the variables do not fit into the memory, or the settings of an
@@ -341,6 +344,7 @@ def assemble(
         heartbeat=heartbeat,
         idle=collect_while_idle,
         system_fd=system_fd,
+        watch=watch,
     )
     for note in (*application.notes, *connect(controller, application.maps)):
         controller.log(Severity.WARNING, "system", note)

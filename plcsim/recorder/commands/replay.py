@@ -125,7 +125,7 @@ def why(options: argparse.Namespace) -> int:
         head = bag.head()
         _tell_changes(head, options.project)
         found = writers(
-            lambda: Replay(load(project), head, bag.records()),
+            lambda watch: Replay(load(project), head, bag.records(), watch),
             options.tag,
             project.folder,
             options.task_class,

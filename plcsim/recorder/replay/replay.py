@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from plcsim.core.task import TaskClass
+    from plcsim.machine import Frame
     from plcsim.project.assembly import Application
     from plcsim.recorder.bag.head import Head
     from plcsim.recorder.journal.record import JournalRecord, JournalStore
@@ -62,6 +63,7 @@ class Replay:
         application: the project, loaded.
         head: of the recording.
         records: of the recording, with their numbers.
+        watch: told of the stores of compiled programs, see `plcsim.machine.Machine`.
 
     Attributes:
         controller: that runs again.
@@ -74,7 +76,11 @@ class Replay:
     """
 
     def __init__(
-        self, application: Application, head: Head, records: Iterable[tuple[int, JournalRecord]]
+        self,
+        application: Application,
+        head: Head,
+        records: Iterable[tuple[int, JournalRecord]],
+        watch: Callable[[Frame], None] | None = None,
     ) -> None:
         self._head = head
         self._feed = feed = Feed(_without_gaps(records))
@@ -86,7 +92,9 @@ class Replay:
             application = application.in_process(VIRTUAL_IP)
         clock = ReplayClock(feed, is_virtual=head.is_virtual)
         try:
-            self.controller = assemble(application, clock=clock, network=ReplayNetwork(feed))
+            self.controller = assemble(
+                application, clock=clock, network=ReplayNetwork(feed), watch=watch
+            )
         except (Diverged, EndOfRecord):
             raise RecordingError(
                 "the project is not the recorded one: before its first cycle it asks for more"

@@ -4,7 +4,9 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.controller import Controller
-from plcsim.project.assembly import Application
+from plcsim.core.errors import ConfigurationError
+from plcsim.project.assembly import Application, load
+from plcsim.project.plc_toml import read_project
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.replay.replay import Replay
@@ -32,7 +34,7 @@ class Fast(Program):
 def ask(bag: Path, application: Application, path: str, cycle: int = 0) -> list[Written]:
     with open_bag(bag) as reader:
         head, records = reader.head(), list(reader.records())
-    return writers(lambda: Replay(application, head, records), path, HERE, 0, cycle)
+    return writers(lambda watch: Replay(application, head, records, watch), path, HERE, 0, cycle)
 
 
 def line_of(text: str) -> int:
@@ -72,3 +74,61 @@ def test_a_tag_that_is_not_there_is_told(recordings: Recordings) -> None:
 
     with pytest.raises(RecordingError, match=r"Fast\.cuont"):
         ask(bag, application, "Fast.cuont")
+
+
+TANK = """\
+PROGRAM _CYCLIC
+    count := count + 1;
+    IF count MOD 3 = 0 THEN
+        level := 5;
+    ELSE
+        level := count;
+    END_IF
+END_PROGRAM
+"""
+
+PUMP = """\
+#include <bur/plctypes.h>
+_LOCAL UDINT count, level;
+
+static void put(UDINT *to, UDINT value)
+{
+    *to = value;
+}
+
+void _CYCLIC ProgramCyclic(void)
+{
+    put(&count, count + 1);
+    level = count % 3 ? count : 5;
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "lines"),
+    [("main.st", TANK, {"1": 6, "2": 6, "5": 4}), ("main.c", PUMP, dict.fromkeys("125", 12))],
+)
+def test_lines_of_compiled_programs_are_told(
+    recordings: Recordings, file: str, text: str, lines: dict[str, int]
+) -> None:
+    folder = recordings.folder / "cell"
+    (folder / "tank").mkdir(parents=True)
+    (folder / "tank" / file).write_text(text)
+    (folder / "tank" / "main.var").write_text("VAR\n    count, level : UDINT;\nEND_VAR\n")
+    (folder / "plc.toml").write_text('[task_class.1]\ncycle = "10ms"\nprograms = ["tank"]\n')
+    try:
+        application = load(read_project(folder))
+    except ConfigurationError as err:
+        if "compiler" in str(err):
+            pytest.skip("no compiler for C is installed")
+        raise
+    bag = recordings("a.bag", application)
+
+    with open_bag(bag) as reader:
+        head, records = reader.head(), list(reader.records())
+    found = writers(
+        lambda watch: Replay(application, head, records, watch), "tank.level", folder, 0, 3
+    )
+
+    written = [(each.value, each.location) for each in found if each.by == "tank"]
+    assert written == [(v, f"tank/{file}:{lines[v]}") for v in ("1", "2", "5")]
