@@ -7,8 +7,8 @@ cycle, at 1 ms on the real clock, with and without a recorder beside it; the rou
 another one each time. Of each run: CPU time of the scan in a cycle (the median of its cycles), grid
 points missed, records lost. The cost is the difference within a round; the median of the rounds is
 told, so that what else the machine does counts little. (b) With
-``--long SECONDS`` one run of 10,000 messages a second: memory of both processes at the start, half
-way and at the end. (c) A bag of 10 topics of 100 messages a second is played to a program on the
+``--long SECONDS`` one run of 10,000 messages a second: memory of both processes from its start to
+its end, records lost. (c) A bag of 10 topics of 100 messages a second is played to a program on the
 virtual clock: how many times as fast as real time, by the wall clock and by CPU time.
 """
 
@@ -37,6 +37,9 @@ from st_types import UDINT, var
 
 TAGS = 50
 TOPICS = 10
+LOOKS = 9
+"""At the memory in (b)."""
+
 WARMING_UP = 500
 """Cycles that do not count."""
 
@@ -151,21 +154,26 @@ def children(pid: int) -> dict[str, int]:
     return found
 
 
-def memory(folder: Path, seconds: float) -> list[dict[str, float]]:
-    """Return MiB of both processes of a long run, at its start, half way and at its end."""
+def memory(folder: Path, seconds: float) -> dict[str, Any]:
+    """Return MiB of both processes of a long run, `LOOKS` times, and what was recorded."""
     bag = folder.parent / "long.bag"
     words = ["run", folder, "--for", f"{seconds + 10}s", "--quiet", "--record", bag]
     process = subprocess.Popen(plcsim(*words), stdout=subprocess.DEVNULL)
     found = []
     time.sleep(8)
-    for part in (0, seconds / 2, seconds / 2):
-        time.sleep(part)
+    start_s = time.monotonic()
+    for look in range(LOOKS):
+        time.sleep(max(0.0, start_s + look * seconds / (LOOKS - 1) - time.monotonic()))
         sizes = {name: resident_mib(pid) for name, pid in children(process.pid).items()}
-        found.append({**sizes, "bag": sum(f.stat().st_size for f in bag.parent.glob("long*"))})
+        written = sum(f.stat().st_size for f in bag.parent.glob("long*"))
+        found.append({"s": time.monotonic() - start_s, **sizes, "bag": written})
     process.wait()
+    told = subprocess.run(plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True)
+    sent = sum(int(n) for n in re.findall(r"/busy/out_\d+ +std_msgs/Float64 +(\d+)", told.stdout))
+    lost = re.search(r"steps, (\S+) lost", told.stdout)
     for file in bag.parent.glob("long*"):
         file.unlink()
-    return found
+    return {"looks": found, "messages": sent, "lost": lost[1] if lost else "?"}
 
 
 class Hears(Program):
@@ -236,10 +244,13 @@ def main() -> None:
         print(f"recording costs {found['costs']['cost_us']:.1f} us of a cycle (median)")
         if options.long:
             found["memory"] = memory(folder, options.long)
-            print("(b) MiB: scan, recorder, bag")
-            for each in found["memory"]:
+            print("(b) MiB:        scan recorder      bag")
+            for each in found["memory"]["looks"]:
                 bag = each["bag"] / (1 << 20)
-                print(f"    {each.get('scan', 0):.1f} {each.get('recorder', 0):.1f} {bag:.1f}")
+                scan, recorder = each.get("scan", 0), each.get("recorder", 0)
+                print(f"{each['s']:7.0f} s {scan:8.1f} {recorder:8.1f} {bag:8.1f}")
+            per_s = found["memory"]["messages"] / (options.long + 10)
+            print(f"{per_s:.0f} messages a second; records lost: {found['memory']['lost']}")
         found["replay"] = replay(folder, 60)
         times = found["replay"]
         print(
