@@ -367,6 +367,8 @@ class ExpressionChecker:
 
     def _operation(self, node: syntax.Binary, left: Value, right: Value) -> Value:
         left, right = self._operand_of(left), self._operand_of(right)
+        if not self.names.scope.dialect.case_sensitive:
+            left, right = operations.widened(left, right)
         if node.operator == "/":
             right = self._checks.divisor(right)
         found = operations.operation(node.operator, left, right)

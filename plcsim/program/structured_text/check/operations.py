@@ -23,7 +23,7 @@ from plcsim.program.structured_text.check.kinds import (
     number_type,
 )
 from plcsim.program.structured_text.check.typed import Binary, Compare, Constant, Unary
-from st_types.types.elementary import LREAL, REAL
+from st_types.types.elementary import INT, LREAL, REAL, SINT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,6 +92,29 @@ def negation(value: Value) -> Value | None:
     if found is None and takes("NOT", value.type):
         return Unary(value.type, "NOT", value)
     return found
+
+
+def widened(left: Value, right: Value) -> tuple[Value, Value]:
+    """Return operands of which a number without a type has one where it does not fit the other's.
+
+    Standard files have it so, for there a result keeps the width of its type.
+    """
+    return _widened(left, right), _widened(right, left)
+
+
+def _widened(value: Value, other: Value) -> Value:
+    if not isinstance(value, Constant) or value.type is not ANY_INT or other.type is ANY_INT:
+        return value
+    if kind_of(other.type) is not TypeKind.INTEGER:
+        return value
+    number, data_type = int(value.value), number_type(other.type)
+    if data_type.minimum <= number <= data_type.maximum:
+        return value
+    found = next((t for t in _SIGNED if t.minimum <= number <= t.maximum), None)
+    return value if found is None else Constant(found, number)
+
+
+_SIGNED: Final = (SINT, INT, DINT, LINT)
 
 
 def operation(operator: str, left: Value, right: Value) -> Value | None:

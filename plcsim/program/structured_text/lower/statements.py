@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.check.kinds import UDINT, VOID
+from plcsim.program.structured_text.check.kinds import UDINT, VOID, common_number, is_unsigned
 from plcsim.program.structured_text.lower import conversions
 from plcsim.program.structured_text.lower.conversions import common_type, to_type
 from plcsim.program.structured_text.lower.functions import FunctionLowering
@@ -314,6 +314,9 @@ class StatementLowering(FunctionLowering):
     ) -> ir.Expression:
         """Return ``variable <= limit``, or ``>=`` where the step is negative."""
         is_plain = (is_unsigned_in_c(node.variable), is_unsigned_in_c(node.last))
+        if self.semantics.narrow_results:
+            unsigned = is_unsigned(common_number(node.variable.type, node.last.type))
+            is_plain = (unsigned, unsigned)
         assert variable.type is not None
         assert limit.type is not None
         wanted = common_type(variable.type, limit.type)

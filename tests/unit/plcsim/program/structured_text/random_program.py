@@ -15,6 +15,7 @@ BASE = 0x120000
 
 LOOPS = 40
 HEAD = """
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 static void string_assign(char *target, const char *source, int limit) {
@@ -95,8 +96,9 @@ class Block:
         inside: a block that it has an instance of, None for none.
     """
 
-    def __init__(self, chance, name, inside=None):
+    def __init__(self, chance, name, inside=None, *, is_standard=False):
         self.name = name
+        self._is_standard = is_standard
         inputs = [("x", "BOOL"), ("step", "INT"), ("factor", chance.choice(["REAL", "DINT"]))]
         outputs = [("n", "INT"), ("q", "BOOL"), ("total", "UDINT")]
         own = [("m", "INT"), ("seen", "BOOL"), ("last", "TIME"), ("shade", "Colour")]
@@ -119,6 +121,7 @@ class Block:
 
     def _body(self, chance, inside):
         body = Body(chance)
+        body.is_standard = self._is_standard
         body.can_return = True
         for path, offset, type_name in self.layout.parts:
             c = at(type_name, f"at+{offset}")
@@ -148,7 +151,7 @@ class Block:
 class Function:
     """A random function of values; ``functions`` are those that it may call."""
 
-    def __init__(self, chance, name, functions):
+    def __init__(self, chance, name, functions, *, is_standard=False):
         self.name = name
         self.result = chance.choice(INTEGERS)
         types = [*INTEGERS, "REAL", "BOOL", "TIME"]
@@ -156,6 +159,7 @@ class Function:
         locals_ = {each: f"v{n}" for n, each in enumerate(TYPES)}
         self._locals = [(member, each) for each, member in locals_.items()]
         body = Body(chance)
+        body.is_standard = is_standard
         body.can_return = True
         body.functions = [(each.name, each.result, each.parameters) for each in functions]
         for member, type_name in [*self.parameters, *self._locals]:
@@ -187,7 +191,7 @@ class Function:
 
 
 class Program:
-    """A random program.
+    """A random program; ``is_standard`` for the semantics of IEC 61131-3.
 
     Attributes:
         st: its text.
@@ -196,18 +200,22 @@ class Program:
         end: address behind the last one.
     """
 
-    def __init__(self, seed):
+    def __init__(self, seed, *, is_standard=False):
         self.name = f"p{seed}"
+        self.is_standard = is_standard
         self.random = random.Random(seed)
         self.variables = []
         self.end = BASE
         self._body = body = Body(self.random)
+        body.is_standard = is_standard
         self._functions = []
         for number in range(2):
             name = f"f{number}_{self.name}"
-            self._functions.append(Function(self.random, name, self._functions[:]))
-        pulse = Block(self.random, f"Pulse_{self.name}")
-        self._blocks = [pulse, Block(self.random, f"Machine_{self.name}", pulse)]
+            known = self._functions[:]
+            self._functions.append(Function(self.random, name, known, is_standard=is_standard))
+        pulse = Block(self.random, f"Pulse_{self.name}", is_standard=is_standard)
+        machine = Block(self.random, f"Machine_{self.name}", pulse, is_standard=is_standard)
+        self._blocks = [pulse, machine]
         body.functions = [(each.name, each.result, each.parameters) for each in self._functions]
         self._declare_values()
         self._declare_aggregates()

@@ -72,7 +72,11 @@ class Body:
         inside: whether a loop is around.
         edges: how many edges were written, None where none may be.
         can_return: whether RETURN may be written; C goes to ``out``.
+        is_standard: the translation is what IEC 61131-3 makes of it: results keep the width of
+            their type, AND and OR leave out what does not matter, a limit is evaluated once.
     """
+
+    is_standard = False
 
     def __init__(self, chance):
         self.random = chance
@@ -93,6 +97,12 @@ class Body:
 
     def pick(self, *choices):
         return self.random.choice(choices)
+
+    def cut(self, type_name, c):
+        """The C of a result in its type."""
+        if self.is_standard and SIZES[type_name] < 4:
+            return f"(({TYPES[type_name][0]})({c}))"
+        return c
 
     def place(self, type_name):
         """A variable, a member or an element."""
@@ -177,7 +187,18 @@ class Body:
         a, b = make(depth + 1), make(depth + 1)
         if a.type is None and b.type is None:
             a = self.place(self.random.choice(INTEGERS))
-        return a, b, common(a.type or b.type, b.type or a.type)
+        return a, b, self.common(a, b)
+
+    def common(self, a, b):
+        """The type of an operation: a number takes that of the other, or one that holds it."""
+        typed, bare = (a, b) if b.type is None else (b, a)
+        if bare.type is not None:
+            return common(a.type, b.type)
+        _, size, sign = TYPES[typed.type]
+        if not self.is_standard or int(bare.c) < 1 << 8 * size - (sign == "s"):
+            return typed.type
+        wider = next(each for each in SIGNED if int(bare.c) < 1 << 8 * SIZES[each] - 1)
+        return common(typed.type, wider)
 
     def arithmetic(self, depth):
         operator = self.pick("+", "-", "*", "/", "MOD", "AND", "OR", "XOR")
@@ -185,7 +206,8 @@ class Body:
             return self.division(depth, operator)
         a, b, type_name = self.numbers(depth, self.integer)
         sign = {"AND": "&", "OR": "|", "XOR": "^"}.get(operator, operator)
-        return Term(type_name, f"({a.st} {operator} {b.st})", f"({a.c}{sign}{b.c})")
+        c = self.cut(type_name, f"({a.c}{sign}{b.c})")
+        return Term(type_name, f"({a.st} {operator} {b.st})", c)
 
     def division(self, depth, operator):
         """Division by what is not 0, MOD by what may be; never the smallest DINT by -1."""
@@ -200,12 +222,14 @@ class Body:
                 b = Term("UINT", f"({b.st} MOD 9 + 1)", f"({b.c}%9+1)")
             elif b.type in SIGNED:
                 b = Term(b.type, f"ABS({b.st} / 2)", f"({b.c}/2<0?-({b.c}/2):{b.c}/2)")
-            type_name = common(a.type, b.type)
+            type_name = self.common(a, b)
+        elif self.is_standard:
+            type_name = self.common(a, b)
         cast = compared_as(type_name)
         sign = {"/": "/", "MOD": "%"}[operator]
         quotient = f"((({cast})({a.c})){sign}(({cast})({b.c})))"
         c = f"(({b.c})==0?0:{quotient})" if operator == "MOD" else quotient
-        return Term(type_name, f"({a.st} {operator} {b.st})", c)
+        return Term(type_name, f"({a.st} {operator} {b.st})", self.cut(type_name, c))
 
     def cast(self, _depth):
         target = self.random.choice(INTEGERS)
@@ -218,6 +242,8 @@ class Body:
         source = self.place(self.random.choice(REALS))
         x = f"({source.c})"
         text = f"(({TYPES[target][0]})({x}>=0.0?{x}+0.5:{x}-0.5))"
+        if self.is_standard:
+            text = f"(({TYPES[target][0]})(int32_t)rint({x}))"
         return Term(target, f"{source.type}_TO_{target}({source.st})", text)
 
     def absolute(self, _depth):
@@ -225,11 +251,11 @@ class Body:
         a = self.place(self.random.choice(SIGNED))
         if a.type == "DINT":
             a = Term("DINT", f"({a.st} / 2)", f"({a.c}/2)")
-        return Term(a.type, f"ABS({a.st})", f"(({a.c})<0?-({a.c}):({a.c}))")
+        return Term(a.type, f"ABS({a.st})", self.cut(a.type, f"(({a.c})<0?-({a.c}):({a.c}))"))
 
     def negative(self, _depth):
         a = self.place(self.random.choice(SIGNED))
-        return Term(a.type, f"(-{a.st})", f"(-{a.c})")
+        return Term(a.type, f"(-{a.st})", self.cut(a.type, f"(-{a.c})"))
 
     def selected(self, depth):
         type_name = self.random.choice(INTEGERS)
@@ -299,7 +325,9 @@ class Body:
         if kind < 0.55:
             number = self.pick("0.1", "1.5", "2.0", "1000.25")
             a, operator = self.place("REAL"), self.pick("+", "-", "*", "/")
-            return Term("REAL", f"({a.st} {operator} {number})", f"({a.c}{operator}{number})")
+            suffix = "f" if self.is_standard else ""
+            c = f"({a.c}{operator}{number}{suffix})"
+            return Term("REAL", f"({a.st} {operator} {number})", c)
         if kind < 0.65:
             return self.converted(wanted)
         a = self.place(self.random.choice(types))
@@ -334,6 +362,8 @@ class Body:
             return self.edge()
         a, b, operator = self.truth(depth + 1), self.truth(depth + 1), self.pick("AND", "OR", "XOR")
         sign = {"AND": "&", "OR": "|", "XOR": "^"}[operator]
+        if self.is_standard and sign != "^":
+            sign *= 2
         return Term("BOOL", f"({a.st} {operator} {b.st})", f"({a.c}{sign}{b.c})")
 
     def comparison(self, depth):
@@ -497,9 +527,18 @@ class Body:
         first, last = self.random.randint(-3, 3), self.random.randint(-3, 6)
         step = self.pick(1, 1, 2, -1)
         sign = "<=" if step > 0 else ">="
+        limit = Term("INT", str(last), str(last))
+        if step > 0 and self.random.random() < 0.3:
+            limit = self.place("USINT")
+            cast = "" if self.is_standard else "(uint32_t)"
+            limit = Term("INT", f"{limit.st} MOD 5", f"({cast}{limit.c}%{cast}5)")
         body = self._inside(depth)
-        st = f"FOR {name} := {first} TO {last} BY {step} DO {join(body, 0)} END_FOR"
-        return st, f"for({c}={first};{c}{sign}{last};{c}+={step}){{{join(body, 1)}}}"
+        st = f"FOR {name} := {first} TO {limit.st} BY {step} DO {join(body, 0)} END_FOR"
+        before, kept = ("", limit.c)
+        if self.is_standard:
+            before, kept = f"int32_t limit={limit.c};", "limit"
+        loop = f"for({c}={first};{c}{sign}{kept};{c}+={step}){{{join(body, 1)}}}"
+        return st, f"{{{before}{loop}}}"
 
     def repeat(self, depth):
         name, c = self.loops.pop()
@@ -508,7 +547,8 @@ class Body:
             f"{name} := 0; REPEAT {name} := {name} + 1; {join(body, 0)} "
             f"UNTIL {condition.st} OR {name} > 3 END_REPEAT"
         )
-        ends = f"({condition.c}|((int32_t){c}>(int32_t)3))"
+        sign = "||" if self.is_standard else "|"
+        ends = f"({condition.c}{sign}((int32_t){c}>(int32_t)3))"
         return st, f"{c}=0;do{{{c}={c}+1;{join(body, 1)}}}while(!{ends});"
 
     def while_(self, depth):
@@ -518,7 +558,8 @@ class Body:
             f"{name} := 0; WHILE {condition.st} AND {name} < 4 DO {name} := {name} + 1; "
             f"{join(body, 0)} END_WHILE"
         )
-        goes_on = f"({condition.c}&((int32_t){c}<(int32_t)4))"
+        sign = "&&" if self.is_standard else "&"
+        goes_on = f"({condition.c}{sign}((int32_t){c}<(int32_t)4))"
         return st, f"{c}=0;while({goes_on}){{{c}={c}+1;{join(body, 1)}}}"
 
     def _inside(self, depth):

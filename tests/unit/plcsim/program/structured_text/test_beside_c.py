@@ -13,13 +13,16 @@ from contextlib import contextmanager
 
 import pytest
 
+from plcsim.program.structured_text.lower.semantics import IEC
+from st_types.resolve import dialect as dialects
+
 from .random_program import BASE, Program, c_file
 from .random_st import REALS, TYPES
 from .running import Running
 
 BATCH = 25
 FIRST = int(os.environ.get("ST_FIRST", "0"))
-PROGRAMS = int(os.environ.get("ST_SOAK", "100"))
+PROGRAMS = int(os.environ.get("ST_SOAK", "50"))
 SCANS = 6
 SIZE = 1 << 16
 FLAGS = ["-m32", "-msse2", "-mfpmath=sse", "-O0", "-w", "-fwrapv", "-fno-strict-aliasing"]
@@ -60,7 +63,9 @@ class InC:
 def in_c(folder, programs):
     """Compile the translations and run them in a process."""
     (folder / "programs.c").write_text(c_file(programs))
-    subprocess.run(["gcc", *FLAGS, folder / "programs.c", "-o", folder / "programs"], check=True)
+    subprocess.run(
+        ["gcc", *FLAGS, folder / "programs.c", "-o", folder / "programs", "-lm"], check=True
+    )
     file = folder / "memory"
     file.write_bytes(bytes(SIZE))
     command = [folder / "programs", file, str(SIZE)]
@@ -90,7 +95,8 @@ def bytes_of(chance, type_name):
 def difference(number, program, beside):
     """Run a program on both sides; return what differs, None if nothing does."""
     chance = random.Random(program.name)
-    running = Running(program.st)
+    options = {"semantics": IEC, "dialect": dialects.IEC} if program.is_standard else {}
+    running = Running(program.st, **options)
     try:
         assert running.address(program.variables[0][0]) == BASE
         size = program.end - BASE
@@ -122,9 +128,11 @@ def _unlike(program, running, beside):
     return "\n".join(found)
 
 
+@pytest.mark.parametrize("is_standard", [False, True], ids=["vendor", "standard"])
 @pytest.mark.parametrize("first", range(FIRST, FIRST + PROGRAMS, BATCH))
-def test_memory_is_equal_after_every_scan(folder, first):
-    programs = [Program(seed) for seed in range(first, min(first + BATCH, FIRST + PROGRAMS))]
+def test_memory_is_equal_after_every_scan(folder, first, is_standard):
+    seeds = range(first, min(first + BATCH, FIRST + PROGRAMS))
+    programs = [Program(seed, is_standard=is_standard) for seed in seeds]
     with in_c(folder, programs) as beside:
         for number, program in enumerate(programs):
             found = difference(number, program, beside)
