@@ -63,9 +63,11 @@ def project_of_file(path: Path, cycle_ns: int | None = None) -> Project:
 
 
 def _of_automation_studio(path: Path, cycle_ns: int) -> Project:
-    """Return a project of the program in the folder of a file."""
+    """Return a project of the program in the folder of a file; what else lies there is no part."""
     name = path.resolve().parent.name
-    own = DeclarationPlace(name, tuple(sources_in(path.parent)))
+    files = sources_in(path.parent)
+    texts = [each for each in files if each.suffix.lower() == path.suffix.lower()]
+    own = DeclarationPlace(name, (*declarations_of(files), *texts))
     layout = SourceLayout(
         path.parent, DeclarationPlace(name, ()), {name: ProgramPlace(path.parent, own)}
     )

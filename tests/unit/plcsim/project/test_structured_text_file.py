@@ -110,6 +110,14 @@ def test_nine_tasks_are_too_many(load_text):
         load_text(f"{head}{tasks}{programs}END_CONFIGURATION\n")
 
 
+def test_sources_in_c_beside_a_file_are_no_part_of_it(tmp_path):
+    (tmp_path / "Main.st").write_text("PROGRAM _CYCLIC\nn := n + 1;\nEND_PROGRAM\n")
+    (tmp_path / "Main.var").write_text("VAR n : INT; END_VAR\n")
+    (tmp_path / "kernel.c").write_text("void _CYCLIC run(void) {}\n")
+    (program,) = load_file(tmp_path / "Main.st").setup.classes[0].programs
+    assert list(program.code.warnings) == []
+
+
 def test_a_file_without_a_program_has_nothing_to_run(load_text):
     with pytest.raises(ConfigurationError, match="no PROGRAM is in it"):
         load_text("FUNCTION f : INT VAR_INPUT x : INT; END_VAR f := x; END_FUNCTION\n")
