@@ -70,9 +70,13 @@ class CodeCache:
         file = self._folder / (key + _SUFFIX)
         try:
             with file.open("rb") as stream:
-                digest, code = stream.read(_DIGEST), stream.read(self._max_bytes)
-                if os.fstat(stream.fileno()).st_uid not in (os.geteuid(), 0):
+                status = os.fstat(stream.fileno())
+                if status.st_uid not in (os.geteuid(), 0):
                     return None  # somebody else's machine code
+                # as much as there is: Python makes room for all that is asked for, which is 256 MB
+                # in pages that are locked and so are real
+                size = min(status.st_size, self._max_bytes)
+                digest, code = stream.read(_DIGEST), stream.read(size)
         except OSError:
             return None
         if digest != _hash(code):
