@@ -16,12 +16,28 @@ from st_types.errors import Diagnostic, DiagnosticSeverity, SourceError
 
 if TYPE_CHECKING:
     from pathlib import Path
+    from typing import BinaryIO
 
 MAX_SOURCE_BYTES = 32 * 1024 * 1024
 """Largest file that is read; real declaration files stay below 2 MiB."""
 
+_PART = 64 * 1024
+
 _LINE_END = re.compile(r"\r\n?|\n")
 _UTF16 = {BOM_UTF16_LE: "utf-16-le", BOM_UTF16_BE: "utf-16-be"}
+
+
+def read_at_most(file: BinaryIO, most: int) -> bytes:
+    """Return what is left in a file, up to a number of bytes.
+
+    Python makes room for all that ``file.read`` is asked for, however small the file is; where the
+    process has locked its memory that is real memory, and time to clear it.
+    """
+    parts = []
+    while most > 0 and (part := file.read(min(most, _PART))):
+        parts.append(part)
+        most -= len(part)
+    return b"".join(parts)
 
 
 class Location(NamedTuple):
@@ -93,7 +109,7 @@ class Source:
             SourceError: the file is larger than `MAX_SOURCE_BYTES`.
         """
         with path.open("rb") as file:
-            return cls.decode(shown or str(path), file.read(MAX_SOURCE_BYTES + 1))
+            return cls.decode(shown or str(path), read_at_most(file, MAX_SOURCE_BYTES + 1))
 
     @cached_property
     def line_starts(self) -> list[int]:

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 from xml.parsers import expat
 
+from st_types.syntax.source import read_at_most
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
@@ -77,7 +79,7 @@ def read_document(file: Path) -> XmlElement:
     """
     try:
         with file.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
+            data = read_at_most(stream, MAX_BYTES + 1)
     except OSError as err:
         raise DocumentError(err.strerror or str(err)) from None
     if len(data) > MAX_BYTES:

@@ -13,6 +13,7 @@ import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.project.automation_studio.finding import Finding
+from st_types.syntax.source import read_at_most
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -153,7 +154,7 @@ def _unknown(file: Path, line: _Line, message: str) -> Finding:
 def _lines(file: Path) -> tuple[list[_Line], list[Finding]]:
     try:
         with file.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
+            data = read_at_most(stream, MAX_BYTES + 1)
     except OSError as err:
         return [], [Finding(file, 0, err.strerror or str(err))]
     if len(data) > MAX_BYTES:

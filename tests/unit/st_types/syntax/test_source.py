@@ -1,10 +1,12 @@
+from io import BytesIO
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from st_types.errors import SourceError
 from st_types.syntax import source
-from st_types.syntax.source import Location, Source
+from st_types.syntax.source import Location, Source, read_at_most
 
 
 @pytest.mark.parametrize(
@@ -22,6 +24,12 @@ from st_types.syntax.source import Location, Source
 def test_decoding(data: bytes, text: str, encoding: str) -> None:
     found = Source.decode("a.typ", data)
     assert (found.text, found.encoding) == (text, encoding)
+
+
+@pytest.mark.parametrize("size", [0, 5, 64 * 1024, 200_000])
+@pytest.mark.parametrize("most", [0, 4, 64 * 1024, 150_000, 1 << 40])
+def test_a_file_is_read_up_to_a_number_of_bytes_without_room_for_all(size: int, most: int) -> None:
+    assert read_at_most(BytesIO(bytes(size)), most) == bytes(min(size, most))
 
 
 @given(st.binary())
