@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.access.users import Users, users_file
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.extension import Attachment, Extension
+from plcsim.web.border import BorderReport
 from plcsim.web.settings import read_settings
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ class WebExtension(Extension):
             "folder": str(settings.folder),
             **_facts(controller),
         }
-        return Attachment(given, (), STREAM_SIZE)
+        return Attachment(given, (), STREAM_SIZE, BorderReport(controller).connect)
 
     def check(self, settings: WebProject, controller: Controller) -> Sequence[str]:
         """Check that the pages can be served, and that somebody could log in."""

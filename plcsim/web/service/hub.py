@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import os
 import time
 from collections import deque
@@ -70,9 +71,10 @@ class Hub:
         self.traces: dict[int, LiveTrace] = {}
         self.figures = ClassFigures(self.given["classes"], self.given["tasks"])
         self.sources = Sources(Path(self.given["folder"]), self.image.directory)
+        self._border: dict[str, Any] = {"time_ns": 0, "topics": [], "idents": {}}
         self._followers = 0
         self._events = self.image.events(from_oldest=True)
-        self._samples = self.image.samples()
+        self._samples = self.image.samples(from_oldest=True)
         self._watch = ScanWatch(self.image.directory.cycle_ns)
         self._supervisor = os.getppid()
         self._refreshed_s = 0.0
@@ -100,6 +102,8 @@ class Hub:
                     trace.take(sample, record.time_ns)
                 else:
                     self.values.sampled(sample.number, sample.data)
+            elif record.kind == EventKind.RECORD.value:
+                self._border = {"time_ns": record.time_ns, **json.loads(record.data)}
             elif record.kind == EventKind.CYCLE.value:
                 self.figures.take_cycle(cycle_of(record.data))
             elif record.kind == EventKind.HISTOGRAM.value:
@@ -199,8 +203,8 @@ class Hub:
         return {"processes": processes(self._supervisor, names), "cpu": self.page.cpu}
 
     def network(self) -> dict[str, Any]:
-        """Return the sockets of the processes of the run."""
-        return {"sockets": sockets(self.system()["processes"])}
+        """Return the sockets of the processes of the run, topics and idents of the programs."""
+        return {"sockets": sockets(self.system()["processes"]), **self._border}
 
     def task_classes(self) -> dict[str, Any]:
         """Return histograms, the last cycles and violations of the task classes."""
