@@ -119,7 +119,7 @@ link.addEventListener("closed", (event) => {
   if (event.detail === 4401) askWho();
 });
 document.getElementById("forced").addEventListener("click", showForces);
-window.addEventListener("hashchange", () => { open(); page.focus(); });
+window.addEventListener("hashchange", () => { open(); page.focus({ preventScroll: true }); scrollTo(0, 0); });
 showNav("");
 open();
 link.connect();

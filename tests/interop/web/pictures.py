@@ -48,7 +48,7 @@ def _trace(page: Page) -> None:
     page.wait_for_timeout(6000)
     box = page.locator(".u-over").first.bounding_box()
     assert box is not None
-    for key, share in (("a", 0.35), ("b", 0.6)):
+    for key, share in (("a", 0.6), ("b", 0.85)):
         page.mouse.move(box["x"] + box["width"] * share, box["y"] + 10)
         page.wait_for_timeout(200)
         page.keyboard.press(key)
