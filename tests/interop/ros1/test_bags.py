@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from pymodbus.client import ModbusTcpClient
 
 from crosnode.testing import Ros as VirtualRos
 from plcsim.recorder.bag.files import Ros1Bag
@@ -17,7 +18,7 @@ from plcsim.recorder.bag.types import text_message
 from plcsim.testing import Plc
 from plcsim.testing.target import project_target
 
-from .rig import PROGRAMS, Ros
+from .rig import PROGRAMS, Ros, free_port
 
 pytest.importorskip("rosbags")
 
@@ -149,3 +150,68 @@ def test_we_play_what_rosbag_has_recorded(ros: Ros, theirs: Path, tmp_path: Path
     assert plc["listener.heard"] == played
     assert plc["listener.word"].startswith("roscpp ")
     plc.close()
+
+
+ECHO = """
+from crosnode.plc.project import create_node
+from plcsim import Program
+from st_types import STRING, UDINT, UINT, var
+
+
+class Echo(Program):
+    __slots__ = ("node", "words", "back")
+    heard = var(UDINT)
+    word = var(STRING(40))
+    setpoint = var(UINT)
+    total = var(UDINT)
+
+    def init(self):
+        self.node = create_node(self.context, "echo")
+        self.words = self.node.register_subscriber("/words", "std_msgs/String", queue_size=100)
+        self.back = self.node.register_publisher("/back", "std_msgs/String")
+
+    def cyclic(self):
+        self.node.do_events_loop()
+        self.total = (self.total + self.setpoint) & 0xFFFFFFFF
+        while (message := self.words.pop()) is not None:
+            self.word = message.data
+            self.heard += 1
+            self.back.send(self.back.new(data=f"{message.data} {self.total}"))
+
+    def exit(self):
+        self.node.destroy()
+"""
+
+
+def test_a_run_with_modbus_writes_and_a_real_peer_is_repeated(ros: Ros, tmp_path: Path) -> None:
+    """On the real clock; PLCSIM_RECORD_S says for how long."""
+    seconds = float(os.environ.get("PLCSIM_RECORD_S", "5"))
+    project, port, bag = tmp_path / "echo", free_port(), tmp_path / "run.bag"
+    (project / "echo").mkdir(parents=True)
+    (project / "echo" / "main.py").write_text(ECHO)
+    (project / "plc.toml").write_text(
+        f'[task_class.1]\ncycle = "2ms"\nprograms = ["echo"]\non_violation = "log"\n'
+        f"[modbus]\nport = {port}\n[ros]\n"
+    )
+    (project / "tags.csv").write_text("tag,area,offset,type\necho.setpoint,hr,0,uint16\n")
+    peer = ros.rospy("talk", "/words", "")
+    command = [sys.executable, "-m", "plcsim"]
+    process = ros.start([*command, "run", str(project), "--record", str(bag)])
+
+    written = 0
+    with ModbusTcpClient("127.0.0.1", port=port, retries=0) as client:
+        ros.until(client.connect, 60)
+        end_s = time.monotonic() + seconds
+        while time.monotonic() < end_s:
+            assert not client.write_register(0, written % 1000).isError()
+            written += 1
+            time.sleep(0.01)
+    process.kill(signal.SIGINT, patience_s=60)
+    peer.kill()
+
+    again = ros.start([*command, "replay", str(bag), str(project)])
+    ros.until(lambda: not again.is_running, 60 + 3 * seconds)
+    assert "cycles repeated exactly" in again.text
+    found = counts(ros, bag)
+    assert found["/back"] > 30 * seconds
+    assert written > 20 * seconds
