@@ -12,7 +12,7 @@ from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.plc.extension import EXTENSION
 from crosnode.plc.in_process_master import InProcessMaster
-from crosnode.plc.player import Player
+from crosnode.plc.player import ROUND_NS, Player
 from crosnode.plc.project import MASTER_IP, SharedTypes, step_beside, surroundings
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
@@ -77,6 +77,8 @@ class Ros:
         self._players = count(1)
         self._publishers: dict[tuple[str, str], Publisher] = {}
         self._last_ns = -1
+        self._playing: _Host | None = None
+        self._happened = self._step_ns = 0
         self._enter()
         self._types = self._context.library(SharedTypes)
         self._master: MasterServer | None = None
@@ -254,11 +256,14 @@ class Ros:
                 plc.advance(SETTLING * plc.cycle_ns)  # the subscriber has to see the connection too
                 player.start(plc.clock.now_ns())
                 host.step = lambda: player.step(plc.clock.now_ns())
+                self._playing = host
                 plc.advance(reader.end_ns - reader.start_ns + plc.cycle_ns, lambda: player.is_over)
                 plc.cycles(1)
                 return player.sent
         except RecordingError as error:
             raise PlcTestError(str(error)) from None
+        finally:
+            self._playing = None
 
     def _heard(self) -> set[str]:
         """Return the topics that somebody subscribes to."""
@@ -325,9 +330,21 @@ class Ros:
 
     def _step(self) -> None:
         now_ns = self._plc.clock.now_ns()
-        for host in self._hosts:
+        playing = self._playing
+        for host in [playing] if playing and self._rests(now_ns) else self._hosts:
             host.context.release_ns = now_ns
             host.step()
+
+    def _rests(self, now_ns: int) -> bool:
+        """Whether nothing has happened on the network since all hosts did a step.
+
+        It counts while a bag is played, when no test asks them for anything; their timers may wait.
+        """
+        happened = self._plc.network.happened
+        if happened == self._happened and now_ns < self._step_ns + ROUND_NS:
+            return True
+        self._happened, self._step_ns = happened, now_ns
+        return False
 
 
 class _Host:

@@ -40,6 +40,7 @@ class VirtualNetwork:
     Attributes:
         faults: plans faults.
         trace: the newest arrivals and losses, oldest first.
+        happened: how many events there were so far.
         random: source of all chance on this net.
     """
 
@@ -56,6 +57,7 @@ class VirtualNetwork:
         self.limits = limits or WireLimits()
         self.random = Random(seed)  # noqa: S311  # repeatable on purpose
         self.trace: deque[TraceEvent] = deque(maxlen=trace_length)
+        self.happened = 0
         self.faults = NetworkFaults(lambda: self.now_ns, self._plan_reset)
         self._clock_ns = clock_ns
         self._call_ns = call_ns
@@ -115,6 +117,7 @@ class VirtualNetwork:
         until_ns = clock_ns if clock_ns > self._moment_ns else self._moment_ns + self._call_ns
         while (due := self._events.take_due(until_ns)) is not None:
             self._moment_ns, act = due
+            self.happened += 1
             act()
         self._moment_ns = until_ns
 
