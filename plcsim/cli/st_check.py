@@ -9,7 +9,7 @@ alone, and see what the other files of their folder declare.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeGuard
 
 from plcsim.cli.declaration_files import SUFFIXES
 from plcsim.cli.declaration_files import read_files as read_declaration_files
@@ -22,7 +22,7 @@ from plcsim.cli.declaration_scopes import (
 )
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.dialect import is_standard
-from plcsim.program.structured_text.syntax.tree import ActionUnit
+from plcsim.program.structured_text.syntax.tree import ActionUnit, ProgramUnit
 from st_types.errors import DiagnosticSeverity
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.resolve.scope import Scope
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.program.structured_text.check.typed import Storage
-    from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+    from plcsim.program.structured_text.syntax.tree import StructuredTextFile, Unit
     from st_types.syntax.tree import DeclarationFile
 
 
@@ -112,7 +112,16 @@ def _check(group: _Group) -> None:
     scope.check()
     if not any(file.diagnostics.error_count for file in group.files):
         storage: Storage = "global" if group.is_library else "program"
-        check_program(group.name, group.files, scope, storage=storage)
+        names = [unit.name for file in group.files for unit in file.units if _is_program(unit)]
+        if dialect is IEC and len(names) > 1:
+            for only in names:  # each sees the others' declarations, not their variables
+                check_program(group.name, group.files, scope, storage="global", only=only)
+        else:
+            check_program(group.name, group.files, scope, storage=storage)
+
+
+def _is_program(unit: Unit) -> TypeGuard[ProgramUnit]:
+    return isinstance(unit, ProgramUnit)
 
 
 def _groups(

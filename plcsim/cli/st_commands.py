@@ -101,10 +101,14 @@ def _report(file: StructuredTextFile, counts: Counter[str]) -> None:
     """Print what was found in a file."""
     log = file.diagnostics
     records = sorted(log.records, key=lambda record: (record.line, record.column))
-    for text in dict.fromkeys(record.render() for record in records):
+    told = {record.render(): record.severity for record in records}  # what two programs share, once
+    for text in told:
         print(text)
     if log.omitted:
         print(f"{file.path}: {log.omitted} more findings are not shown")
+    if not log.omitted:
+        counts.update(str(severity) for severity in told.values())
+        return
     counts["error"] += log.error_count
     counts["warning"] += log.warning_count
 

@@ -28,6 +28,8 @@ from st_types.syntax.trivia import open_comment, pragmas_in
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from st_types.syntax.tree import Declaration
+
 UNSUPPORTED = frozenset(["CLASS", "INTERFACE", "NAMESPACE", "METHOD", "PROPERTY"])
 """What IEC 61131-3 edition 3 and its followers have besides, up to ``END_CLASS`` and so on."""
 
@@ -141,11 +143,20 @@ class DeclarationParser(SpecificationParser):
         at = self.index
         self.index += 1
         qualifiers = self._qualifiers()
-        declarations = self.declarations("END_VAR")
+        is_used = self.texts[at].upper() != "VAR_CONFIG"
+        declarations = self.declarations("END_VAR") if is_used else self._unused()
         section, before = self.texts[at].upper(), self.trivia[at]
         pragmas = pragmas_in(before)
         closing = self._closing(at)
         return VariableBlock(at, section, qualifiers, declarations, pragmas, before, closing)
+
+    def _unused(self) -> list[Declaration]:
+        """Step over a VAR_CONFIG, whose names have parts: it says where variables lie."""
+        message = "VAR_CONFIG is not used: a variable AT an address is one like any other"
+        self.diagnostics.warning(self.tokens.offset(self.index - 1), message)
+        self.index -= 1
+        self.skip_behind("END_VAR")
+        return []
 
     def _qualifiers(self) -> tuple[str, ...]:
         start = self.index

@@ -142,6 +142,9 @@ class ExpressionChecker:
         )
 
     def _address(self, node: syntax.DirectAddress) -> Value:
+        found = self.names.located(node)
+        if found is not None:
+            return found
         hint = "declare a variable AT this address"
         self.error(
             node, FindingCode.NOT_SUPPORTED, f"{node.text} in a statement is not supported", hint

@@ -18,6 +18,7 @@ from plcsim.program.structured_text.codes import FindingCode
 from st_types.resolve.constants import UnknownValueError
 from st_types.resolve.index import VariableEntry
 from st_types.resolve.scope import Hit
+from st_types.syntax.expressions import Name
 from st_types.types.derived import ReferenceType
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Storage, Value
     from st_types.resolve.index import IndexEntry, NameSpace
     from st_types.resolve.scope import Scope
-    from st_types.syntax.expressions import Name
+    from st_types.syntax.expressions import DirectAddress
 
 BY_ADDRESS: Final = frozenset([TypeKind.STRING, TypeKind.WSTRING, TypeKind.STRUCT, TypeKind.ARRAY])
 """Kinds of parameters of a FUNCTION that go over by their address: what the function does to them
@@ -196,6 +197,15 @@ class ScopeNames:
         if value is None:
             return named(symbol)
         return Constant(symbol.type, value.value)
+
+    def located(self, node: DirectAddress) -> Value | None:
+        """Return the variable that is declared AT an address, None where there is none."""
+        text = node.text.upper()
+        for scope in self.scope.chain:
+            for entry in scope.index.variables:
+                if entry.node.address.upper() == text:
+                    return self._variable(Name(node.at, entry.name), entry)
+        return None
 
     def is_namespace(self, name: str) -> bool:
         """Return whether a name is that of a namespace, of a library or of a list of variables."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check import typed
@@ -14,7 +15,8 @@ from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax import tree
 from st_types.resolve.constants import EvaluationError
 from st_types.syntax import expressions as syntax
-from st_types.types.derived import ReferenceType
+from st_types.syntax.literals import parse_literal
+from st_types.types.derived import ReferenceType, StructType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -67,6 +69,9 @@ class StatementChecker(BlockChecker):
     # Assignments
 
     def _assignment(self, node: tree.Assignment, into: list[Statement]) -> None:
+        if type(node.value) is syntax.Call and self._has_enable(node.value):
+            self._enabled(node, node.value, lambda call: replace(node, value=call), into)
+            return
         line = self.findings.line(node)
         if node.operator != ":=":
             into.append(_VENDOR_RULES[node.operator](self, node, line))
@@ -152,8 +157,11 @@ class StatementChecker(BlockChecker):
     # Calls
 
     def _expression(self, node: tree.ExpressionStatement, into: list[Statement]) -> None:
-        line = self.findings.line(node)
         expression = node.expression
+        if type(expression) is syntax.Call and self._has_enable(expression):
+            self._enabled(node, expression, lambda call: replace(node, expression=call), into)
+            return
+        line = self.findings.line(node)
         found: Statement | None = None
         name = expression.function if type(expression) is syntax.Call else expression
         if type(name) is syntax.MemberAccess and self.is_namespace(name.base):
@@ -165,6 +173,41 @@ class StatementChecker(BlockChecker):
         else:
             found = self.bare_call(expression, line)
         into.append(found or self._evaluated(expression, line))
+
+    def _has_enable(self, node: syntax.Call) -> bool:
+        """Return whether a call has an EN or ENO that nothing declares, in a standard file."""
+        if self.names.scope.dialect.case_sensitive or _enables(node) == (None, None):
+            return False
+        name = node.function
+        if type(name) is syntax.Name:
+            value = self.names.value(name)
+            if value is not None:
+                is_declared = isinstance(value.type, StructType) and value.type.spelling("EN")
+                return not is_declared
+            function = self.names.scope.find_function(name.name)
+            return function is None or function.scope.find_variable("EN") is None
+        return True
+
+    def _enabled(
+        self,
+        node: tree.Assignment | tree.ExpressionStatement,
+        call: syntax.Call,
+        made: Callable[[syntax.Call], tree.Statement],
+        into: list[Statement],
+    ) -> None:
+        """Check a call with EN and ENO as ``IF EN THEN call; ENO := TRUE; ELSE ENO := FALSE;``."""
+        enable, enabled = _enables(call)
+        others = [each for each in call.arguments if each.name.upper() not in ("EN", "ENO")]
+        then: list[tree.Statement] = [made(replace(call, arguments=others))]
+        other: list[tree.Statement] = []
+        for body, text in ((then, "TRUE"), (other, "FALSE")):
+            if enabled is not None:
+                value = syntax.Literal(node.at, text, parse_literal(text))
+                body.append(tree.Assignment(node.at, enabled, value))
+        if enable is None:
+            into += self.statements(then)
+        else:
+            self._if(tree.IfStatement(node.at, [tree.Arm(node.at, enable, then)], other), into)
 
     def _action(self, node: Expression, name: str, line: int) -> Statement:
         if isinstance(node, syntax.Call) and node.arguments:
@@ -305,6 +348,12 @@ class StatementChecker(BlockChecker):
             return
         self._placed.add(label)
         into.append(typed.Label(self.findings.line(node), label))
+
+
+def _enables(node: syntax.Call) -> tuple[Expression | None, Expression | None]:
+    """Return what a call gives for EN, and what takes its ENO."""
+    given = {each.name.upper(): each.value for each in node.arguments if each.name}
+    return given.get("EN"), given.get("ENO")
 
 
 _VENDOR_RULES: dict[str, Callable[[StatementChecker, tree.Assignment, int], Statement]] = {

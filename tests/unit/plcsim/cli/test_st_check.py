@@ -102,3 +102,18 @@ def test_a_file_alone_sees_its_folder_and_none_below(check):
     }
     assert check(files, "a.st") == ["a.st:2:6 ST2001"]
     assert check(files | {"plc.toml": ""}, "a.st") == ["a.st:2:6 ST2001"]
+
+
+def test_several_programs_in_a_file_are_checked_each_for_itself(check):
+    text = (
+        "FUNCTION_BLOCK F VAR a : INT; END_VAR a := nothing; END_FUNCTION_BLOCK\n"
+        "PROGRAM one VAR a : INT; f : F; END_VAR a := 1; f(); END_PROGRAM\n"
+        "PROGRAM two VAR b : INT; END_VAR a := 1; END_PROGRAM\n"
+        "CONFIGURATION c VAR_CONFIG one.a AT %IW1 : INT; END_VAR END_CONFIGURATION\n"
+    )
+    found = check({"main.st": text})
+    assert sorted(set(found)) == [
+        "main.st:1:45 ST2001",
+        "main.st:3:34 ST2001",
+        "main.st:4:17 ST1001",
+    ]
