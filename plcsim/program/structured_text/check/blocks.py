@@ -146,6 +146,8 @@ class BlockChecker(CallChecker):
         value = self.value(node)
         if isinstance(value, PLACES):
             symbol = root_of(value)
+            if symbol is not None:
+                symbol.written = True
             if symbol is not None and symbol.is_constant:
                 message = f"{symbol.name} is a constant"
                 self.error(node, FindingCode.CONSTANT_ASSIGNED, message)

@@ -93,6 +93,7 @@ class Symbols:
         else:
             symbol.by_address = section in _REFERENCE_SECTIONS
         symbol.has_address = symbol.by_address
+        symbol.is_input = section == "VAR_INPUT"
         return symbol
 
 
@@ -242,4 +243,4 @@ def keep_address(value: Value) -> None:
     """Note that the address of a place is known from now on."""
     symbol = root_of(value)
     if symbol is not None:
-        symbol.has_address = True
+        symbol.has_address = symbol.written = True

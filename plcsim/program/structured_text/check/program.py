@@ -398,12 +398,18 @@ class _ProgramChecker:
         functions = {job.name: job for job in self._jobs if job.function is not None}
         for job in functions.values():
             body = job.body
-            if body is None or not _needs_memory(body) or not _reaches(job, job.name, functions):
+            needs_memory = body is not None and (_needs_memory(body) or self._copies_inputs(body))
+            if body is None or not needs_memory or not _reaches(job, job.name, functions):
                 continue
             message = f"{job.name} calls itself, and has variables that are no single values"
             hint = "such variables of a FUNCTION exist once"
             findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
             findings.error(job.unit, FindingCode.NOT_SUPPORTED, f"{message}: not supported", hint)
+
+    def _copies_inputs(self, body: typed.CheckedBody) -> bool:
+        """Return whether a function of a standard file has copies of what it is given."""
+        inputs = (each for each in body.parameters if each.by_address and each.is_input)
+        return not self._scope.dialect.case_sensitive and any(each.written for each in inputs)
 
     def _check(self, job: _Job, into: list[typed.CheckedBody]) -> list[_Job]:
         """Check a body and return the actions that it is the first to call."""

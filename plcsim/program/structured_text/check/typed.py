@@ -38,6 +38,8 @@ class Symbol:
         initial: value at the start of its unit or call, None for that of its type.
         has_address: its address is taken, and may be known to others.
         used: something names it.
+        is_input: of a VAR_INPUT.
+        written: a body assigns it, or takes its address.
     """
 
     name: str
@@ -49,6 +51,8 @@ class Symbol:
     initial: object = None
     has_address: bool = False
     used: bool = False
+    is_input: bool = False
+    written: bool = False
 
 
 # Values. All have ``type``.

@@ -14,6 +14,7 @@ from plcsim.program.structured_text.lower.memory import constant_of, is_scalar, 
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
 from plcsim.program.structured_text.lower.statements import StatementLowering
 from st_types.syntax.collector import collector_paused
+from st_types.types.derived import StringType, WStringType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -124,10 +125,29 @@ def _initial_statements(context: FunctionContext, body: CheckedBody) -> list[ir.
             place = context.module.variables.place(symbol)
             value = ir.Local(value_type, index)
             found.append(ir.Store(body.line, width_of(symbol.type), place, value))
+        elif symbol.is_input and symbol.written and context.module.semantics.copies_inputs:
+            found += _copied(context, symbol, index, body.line)
     symbols = [*body.locals, *([body.result] if body.result is not None else [])]
     for symbol in symbols:
         found += _initialised(context, symbol, body.line)
     return found
+
+
+def _copied(
+    context: FunctionContext, symbol: Symbol, index: int, line: int
+) -> Sequence[ir.Statement]:
+    """Let a parameter that is written lead to a copy of what the caller gave."""
+    if not symbol.by_address:
+        return ()
+    data_type, hidden = symbol.type, context.module.hidden
+    own = ir.AddressOf(ir.Place(hidden.segment, hidden.place(data_type.size, data_type.alignment)))
+    given = ir.Local("i32", index)
+    copy: ir.Statement = ir.CopyBytes(line, own, given, ir.Const("i32", data_type.size))
+    if isinstance(data_type, StringType | WStringType):
+        helper = "rt.string_assign" if isinstance(data_type, StringType) else "rt.wstring_assign"
+        arguments = (own, given, ir.Const("i32", data_type.length))
+        copy = ir.Evaluate(line, ir.Call(None, helper, arguments))
+    return [copy, ir.SetLocal(line, index, own)]
 
 
 def _initialised(context: FunctionContext, symbol: Symbol, line: int) -> Sequence[ir.Statement]:

@@ -17,6 +17,8 @@ class Semantics:
         limits_once: the limit and the step of FOR are evaluated once, before the loop.
         short_circuit: AND and OR of BOOLs leave out the right side where the left one decides.
         rounds_to_even: REAL to integer rounds halves to the even number, else away from zero.
+        copies_inputs: a FUNCTION works on its own copy of a STRING, a STRUCT or an ARRAY that it is
+            given as VAR_INPUT; else on what the caller has.
         checks_bounds: an index outside its bounds ends the program.
     """
 
@@ -25,6 +27,7 @@ class Semantics:
     limits_once: bool = False
     short_circuit: bool = False
     rounds_to_even: bool = False
+    copies_inputs: bool = False
     checks_bounds: bool = False
 
 
@@ -35,5 +38,6 @@ IEC: Final = Semantics(
     limits_once=True,
     short_circuit=True,
     rounds_to_even=True,
+    copies_inputs=True,
     checks_bounds=True,
 )

@@ -45,7 +45,19 @@ RESULTS = {
         "ds[1].m": 3030,
     },
     "openplc.st": {"count": 5, "valve": True},
-    "suite.st": {"res": 17, "f": 55, "a": 32, "b": 21, "x": 280.5, "bits": 0x1F, "ok": True},
+    "suite.st": {
+        "small": "abc",
+        "loud": "Ab!",
+        "again": "Ab!",
+        "numbers[1]": 1,
+        "res": 17,
+        "f": 55,
+        "a": 32,
+        "b": 21,
+        "x": 280.5,
+        "bits": 0x1F,
+        "ok": True,
+    },
     "twincat.st": {"data.nCount": 8, "fb.fSum": 15.0, "bSet": True, "nLong": (1 << 32) + 5},
 }
 """Worked out by hand: values after five cycles."""
