@@ -10,7 +10,7 @@ import hashlib
 import os
 import re
 import tempfile
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -49,12 +49,21 @@ def library_headers(libraries: Sequence[Scope], known: list[Header]) -> dict[str
         libraries: in the order in which they are included.
         known: takes what the headers declare, for those that rest on them.
     """
+    headers, made = _library_headers(tuple(libraries))
+    known += made
+    return dict(headers)
+
+
+@lru_cache(maxsize=2)
+def _library_headers(libraries: tuple[Scope, ...]) -> tuple[Mapping[str, str], Sequence[Header]]:
+    """Return the same for all programs of a project, which see the same libraries."""
     headers: dict[str, str] = {}
+    known: list[Header] = []
     for library in libraries:
         known.append(_header(library, known))
         text = c_header(known[-1], library.name)
         headers[f"{library.name}.h"] = _including(headers, _without_standard(text))
-    return headers
+    return headers, known
 
 
 def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict[str, str]:

@@ -73,11 +73,16 @@ class Language(Protocol):
 
     Attributes:
         name: as people call it, such as "Structured Text".
+        is_compiled: loading runs nothing of the program, and leaves what it compiles in a cache.
     """
 
     @property
     def name(self) -> str:
         """As people call it, such as "Structured Text"."""
+
+    @property
+    def is_compiled(self) -> bool:
+        """Loading runs nothing of the program, and leaves what it compiles in a cache."""
 
     def units(self, files: Sequence[Path]) -> Sequence[Path]:
         """Return those files of a program that are in this language and hold units.

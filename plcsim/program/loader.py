@@ -9,6 +9,7 @@ from functools import cache, cached_property
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
+from plcsim.host.helper_process import can_help, helper_process
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import files_in
@@ -60,6 +61,9 @@ NOT_THERE: Final = {
 
 DIALECTS: Final = {"automation-studio": AUTOMATION_STUDIO, "iec": IEC}
 """Dialects of Structured Text by their names in plc.toml."""
+
+FEWEST_FOR_HELP: Final = 4
+"""Programs that are worth a second process."""
 
 _counter = itertools.count(1)
 
@@ -180,21 +184,59 @@ class ProgramLoader:
     def _load_declared(self, declared: Loaded) -> Loaded:
         """Load the programs whose declarations are right."""
         common = Findings()
-        failures = dict(declared.failures)
-        codes = {}
         for library in self.declarations.own_libraries:
             with common.gathered():
                 self._check_bodies(library)
-        for name in self._layout.programs:
-            if name in failures:
-                continue
-            wrong = Findings()
-            with wrong.gathered():
-                codes[name] = self._load(name)
-                self.warnings += codes[name].warnings
-            if wrong:
-                failures[name] = wrong.texts
+        names = [name for name in self._layout.programs if name not in declared.failures]
+        found = self._load_all(names)
+        codes: dict[str, ProgramCode] = {}
+        failures = dict(declared.failures)
+        for name in names:
+            code = found[name]
+            if isinstance(code, tuple):
+                failures[name] = code
+            else:
+                codes[name] = code
+                self.warnings += code.warnings
         return Loaded(codes, (*declared.common, *common.texts), failures)
+
+    def _load_all(self, names: Sequence[str]) -> Mapping[str, ProgramCode | tuple[str, ...]]:
+        """Return programs, or what is wrong in them, by name.
+
+        A helper process compiles half of them, which are in the cache when they are loaded here.
+        """
+        others = self._half(names) if can_help() else []
+        if len(others) < FEWEST_FOR_HELP:
+            return {name: self._tried(name) for name in names}
+        first = [name for name in names if name not in set(others)]
+        with helper_process(lambda: [self._tried(name) for name in others]) as wait:
+            found = {name: self._tried(name) for name in first}
+            wait()
+        return {**found, **{name: self._tried(name) for name in others}}
+
+    def _half(self, names: Sequence[str]) -> list[str]:
+        """Return the programs with half of the text of those whose code a cache keeps."""
+        sizes = {}
+        for name in names:
+            files = self._layout.programs[name].own.files
+            if any(each.units(files) for each in self._languages if each.is_compiled):
+                sizes[name] = sum(_size(file) for file in files)
+        half: list[str] = []
+        balance = 0
+        for name in sorted(sizes, key=lambda name: (-sizes[name], name)):
+            if balance > 0:
+                half.append(name)
+                balance -= sizes[name]
+            else:
+                balance += sizes[name]
+        return half
+
+    def _tried(self, name: str) -> ProgramCode | tuple[str, ...]:
+        """Return a program, or what is wrong in it."""
+        try:
+            return self._load(name)
+        except ConfigurationError as err:
+            return err.findings
 
     def _check_bodies(self, library: Library) -> None:
         """Load the bodies of a library of the project, and note what has none.
@@ -274,3 +316,10 @@ class ProgramLoader:
         return ConfigurationError(
             f"{folder}: holds no program: neither main.py nor variables.py, no .st file, no .c file"
         )
+
+
+def _size(file: Path) -> int:
+    try:
+        return file.stat().st_size
+    except OSError:
+        return 0

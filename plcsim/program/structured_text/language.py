@@ -30,6 +30,7 @@ class StructuredText:
     """The language; see `plcsim.program.language.Language`."""
 
     name: Final = NAME
+    is_compiled: Final = True
 
     def units(self, files: Sequence[Path]) -> list[Path]:
         """Return the .st files of a program."""

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.program import loader as loader_module
 from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.python.language import PYTHON
@@ -46,6 +47,7 @@ class Other:
     """A language whose units end in ``.other``; it loads nothing."""
 
     name = "Other"
+    is_compiled = False
 
     def units(self, files):
         return [file for file in files if file.suffix == ".other"]
@@ -69,6 +71,33 @@ def test_a_program_is_loaded_by_the_language_that_has_units_in_its_folder(projec
     assert source.declarations is loader.declarations
     assert source.scope is loader.declarations.scope_of("main")
     assert [file.name for file in source.files] == ["a.other", "b.other"]
+
+
+def test_a_helper_process_compiles_half_of_many_programs(project, monkeypatch):
+    """Here too each is loaded: what the other process has done is in its cache."""
+    here = []
+
+    class Compiled(Other):
+        is_compiled = True
+
+        def load(self, source):
+            cache = source.folder / "cache"
+            here.append((source.name, cache.exists()))
+            cache.touch()
+            if source.name == "p3":
+                raise ConfigurationError("p3 is wrong")
+            return OtherCode(source)
+
+    monkeypatch.setattr(loader_module, "can_help", lambda: True)
+    names = [f"p{number}" for number in range(8)]
+    folder = project({f"{name}/a.other": name * 9 for name in names})
+    loader = ProgramLoader(folder_layout(folder, names), languages=[Compiled()])
+    loaded = loader.load_each()
+    assert [name for name, _ in here] == ["p0", "p2", "p4", "p6", "p1", "p3", "p5", "p7"]
+    assert [done for _, done in here] == [False] * 4 + [True] * 4
+    assert [*loaded.codes] == [name for name in names if name != "p3"]
+    assert loaded.failures == {"p3": ("p3 is wrong",)}
+    assert loader.warnings == [f"{name}: a warning" for name in names if name != "p3"]
 
 
 def test_a_program_has_one_language(project):

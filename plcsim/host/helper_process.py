@@ -1,0 +1,66 @@
+"""Work in a second process, for what it leaves on disk.
+
+A copy of this process does it, so it begins with all that is in memory here; what it makes there is
+lost. Where the work shall be of use, it fills a cache that is asked here afterwards.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+def can_help() -> bool:
+    """Whether there is a processor for a second process, and a copy of this one can work.
+
+    A copy has one thread: locks that another thread holds here would stay locked there for ever.
+    """
+    is_alone = threading.active_count() == 1 and sys.gettrace() is None
+    return is_alone and len(os.sched_getaffinity(0)) > 1
+
+
+@contextmanager
+def helper_process(work: Callable[[], object]) -> Iterator[Callable[[], None]]:
+    """Do work in a copy of this process during the block; give what waits for its end.
+
+    Nothing is told of how it ends, and it prints nothing. It is killed where the block ends before.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    pid = os.fork()
+    if pid == 0:
+        _help(work)
+    is_over = False
+
+    def wait() -> None:
+        nonlocal is_over
+        if not is_over:
+            with suppress(ChildProcessError):
+                os.waitpid(pid, 0)
+            is_over = True
+
+    try:
+        yield wait
+    finally:
+        if not is_over:
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+            wait()
+
+
+def _help(work: Callable[[], object]) -> None:
+    """Do the work, and end without running what belongs to the other process."""
+    try:
+        nowhere = os.open(os.devnull, os.O_RDWR)
+        for stream in (0, 1, 2):
+            os.dup2(nowhere, stream)
+        work()
+    finally:
+        os._exit(0)

@@ -1,0 +1,64 @@
+"""Work in a copy of this process."""
+
+import os
+import sys
+import time
+
+import pytest
+
+from plcsim.host.helper_process import can_help, helper_process
+
+
+def test_it_works_beside_and_its_end_can_be_waited_for(tmp_path):
+    made = []
+
+    def work():
+        made.append(1)
+        print("not to be seen")
+        (tmp_path / "pid").write_text(str(os.getpid()))
+
+    with helper_process(work) as wait:
+        wait()
+        wait()
+        assert (tmp_path / "pid").read_text() != str(os.getpid())
+    assert made == []
+
+
+def test_how_it_ends_does_not_matter(capfd):
+    def work():
+        raise KeyboardInterrupt
+
+    with helper_process(work) as wait:
+        wait()
+    assert capfd.readouterr() == ("", "")
+
+
+def test_it_ends_with_the_block(tmp_path):
+    def work():
+        (tmp_path / "begun").touch()
+        time.sleep(60)
+
+    def break_off():
+        with helper_process(work):
+            while not (tmp_path / "begun").exists():
+                time.sleep(0.001)
+            raise ValueError(1)
+
+    start = time.monotonic()
+    with pytest.raises(ValueError, match="1"):
+        break_off()
+    assert time.monotonic() - start < 30
+    with pytest.raises(ChildProcessError):
+        os.waitpid(-1, os.WNOHANG)
+
+
+def test_one_processor_or_several_threads_have_no_helper(monkeypatch):
+    monkeypatch.setattr(sys, "gettrace", lambda: None)
+    monkeypatch.setattr("threading.active_count", lambda: 1)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _pid: {0, 1})
+    assert can_help()
+    monkeypatch.setattr("threading.active_count", lambda: 2)
+    assert not can_help()
+    monkeypatch.setattr("threading.active_count", lambda: 1)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _pid: {0})
+    assert not can_help()
