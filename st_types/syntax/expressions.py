@@ -198,6 +198,7 @@ class ExpressionParser(TokenReader):
         as the rest.
         """
         keys, texts, postfixes = self.keys, self.texts, self.postfixes
+        precedences = PRECEDENCE
         waiting: list[tuple[int, int, Expression]] = []  # precedence, operator, left operand
         index = self.index
         while True:
@@ -209,8 +210,7 @@ class ExpressionParser(TokenReader):
                 self.index = index
                 left = self.literal(texts[index]) if key == "literal" else self._operand()
                 index = self.index
-            key = keys[index]
-            precedence = PRECEDENCE.get(key, 0)
+            precedence = precedences.get(keys[index], 0)
             while waiting and waiting[-1][0] >= precedence:
                 _, at, first = waiting.pop()
                 operator = keys[at]

@@ -65,7 +65,7 @@ def _parse(source: Source, defines: Mapping[str, str]) -> StructuredTextFile:
     diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
     tokens = Tokens(source)
     parser = UnitParser(tokens, diagnostics)
-    if defines or "directive" in parser.keys:
+    if defines or ("#" in source.text and "directive" in parser.keys):
         preprocess(tokens, defines, diagnostics)
         parser = UnitParser(tokens, diagnostics)
     file = parser.structured_text_file()

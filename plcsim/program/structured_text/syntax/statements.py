@@ -108,12 +108,20 @@ class StatementParser(DeclarationParser):
                 return found
 
     def _statements(self, into: list[Statement]) -> None:
-        keys = self.keys
+        keys, texts = self.keys, self.texts
         in_case = self._open[-1:] == ["END_CASE"]
         while True:
-            key = keys[self.index]
-            if key == NAME and keys[self.index + 1] == ":=":
-                into.append(self._assignment())
+            index = self.index
+            key = keys[index]
+            if key == NAME and keys[index + 1] == ":=":  # as most statements begin
+                self.index = index + 2
+                value = self.expression()
+                target = Name(index, texts[index])
+                if keys[self.index] == ";":
+                    self.index += 1
+                    into.append(Assignment(index + 1, target, value))
+                else:
+                    into.append(self._assigned(index + 1, target, value))
             elif in_case and self._starts_label(key):
                 return
             elif key == NAME:
@@ -171,17 +179,6 @@ class StatementParser(DeclarationParser):
                 break
             index += 1
         self.index = index
-
-    def _assignment(self) -> Statement:
-        """Parse what begins with ``name :=``, as most statements do."""
-        at = self.index
-        self.index = at + 2
-        value = self.expression()
-        target = Name(at, self.texts[at])
-        if self.keys[self.index] != ";":
-            return self._assigned(at + 1, target, value)
-        self.index += 1
-        return Assignment(at + 1, target, value)
 
     def _named_statement(self) -> Statement:
         """Parse what begins with a name."""
