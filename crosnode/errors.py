@@ -8,6 +8,7 @@
     │   └── DefinitionError          a definition that genmsg would not load, with its line
     ├── MessageValueError            ours: a value that its field cannot hold (also a ValueError)
     ├── InvalidNameError             ours: not a ROS graph name (also a ValueError)
+    ├── HostPendingError             the address of a host is being asked for; try a later step
     ├── TransformError               no transform between two frames (also a LookupError)
     ├── NodeError                the world's: a node cannot start, for it gets no port
     ├── LocalProtocolError           ours: a protocol object used out of turn
@@ -44,6 +45,10 @@ class MessageValueError(CrosnodeError, ValueError):
 
 class InvalidNameError(CrosnodeError, ValueError):
     """A name is not a legal ROS graph name."""
+
+
+class HostPendingError(CrosnodeError):
+    """The address of a host is being asked for: a later step knows it, or that there is none."""
 
 
 class NodeError(CrosnodeError):

@@ -1,4 +1,4 @@
-"""Names of hosts: the cycle asks no name server, so all names are known before the first one."""
+"""Names of hosts: those of tables, known before the first cycle, and whom else to ask."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from plcsim.network import Address
 from plcsim.network.protocol import is_ipv4
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
 LOCAL: Final = {"localhost": "127.0.0.1", "::1": "127.0.0.1"}
 
@@ -40,18 +40,25 @@ class HostTable:
 
     Args:
         hosts: names and addresses beyond ``localhost``.
+        ask: returns the address of any other name; raises as ``resolve`` does.
     """
 
-    def __init__(self, hosts: Mapping[str, str] | None = None) -> None:
+    def __init__(
+        self, hosts: Mapping[str, str] | None = None, ask: Callable[[str], str] | None = None
+    ) -> None:
+        self._ask = ask
         self._hosts = LOCAL | {name.lower(): ip for name, ip in (hosts or {}).items()}
 
     def resolve(self, host: str) -> str:
         """Return the IPv4 address of a host.
 
         Raises:
-            InvalidNameError: the name is not in the table.
+            InvalidNameError: the name is not known.
+            HostPendingError: it is being asked for.
         """
         ip = host if is_ipv4(host) else self._hosts.get(host.lower())
+        if ip is None and self._ask is not None:
+            ip = self._ask(host)
         if ip is None:
             raise InvalidNameError(f"host {host[:100]!r} is not known; add it to [ros.hosts].")
         return ip
@@ -61,6 +68,7 @@ class HostTable:
 
         Raises:
             InvalidNameError: not such a URI, or an unknown host.
+            HostPendingError: the host is being asked for.
         """
         host, port = parse_uri(uri, scheme)
         return Address(self.resolve(host), port)

@@ -23,6 +23,7 @@ from crosnode.node.parameter import ParameterSubscription, check_parameters
 from crosnode.node.publisher import Publisher, TopicAcceptor
 from crosnode.node.queues import DropOldestQueue
 from crosnode.node.registration import Registration
+from crosnode.node.resolver import Resolver
 from crosnode.node.ros_time import Epoch, RosTime
 from crosnode.node.rosout import LogLevel, Rosout
 from crosnode.node.service_caller import ServiceCaller
@@ -125,7 +126,8 @@ class CrosNode:
             if not listener.open(now_ns):
                 raise NodeError(f"{self.name}: {_no_port(bind_ip, listener.status)}.")
         self.uri = make_uri("http", self.host, self._slave_listener.port)
-        hosts = HostTable(options.hosts)
+        self._resolver = Resolver(self._context, options.name_servers)
+        hosts = HostTable(options.hosts, self._resolver.find)
         api = ApiCaller(loop, hosts, options.xmlrpc)
         master = MasterClient(api, master_uri, self.name, self.uri, self.statuses)
         self.core = NodeCore(self.name, loop, api, master, hosts, options.tcpros, self.statuses)
@@ -399,6 +401,7 @@ class CrosNode:
     def _step(self, now_ns: int, budget: StepBudget) -> None:
         core = self.core
         core.now_ns, core.budget = now_ns, budget
+        self._resolver.step()
         core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)
         if self.pace.end(now_ns, is_short=budget.is_short) and self.pace.is_behind:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
+from crosnode.graph.dns import NameServers
 from crosnode.tcpros import TcprosLimits
 from crosnode.xmlrpc import XmlRpcLimits
 
@@ -26,6 +27,7 @@ class NodeOptions(NamedTuple):
         xmlrpc: bounds of an XML-RPC connection.
         bind_ip: own interface to listen on, "" for all, None for that of the node's host.
         hosts: addresses of host names.
+        name_servers: who is asked for other names.
         epoch: turns releases into nanoseconds since 1970, None for those that are so already.
         clock_ns: measures the step for ``statistics``; None measures nothing.
         respawns: whether the node returns when others end it.
@@ -40,6 +42,7 @@ class NodeOptions(NamedTuple):
     xmlrpc: XmlRpcLimits = XmlRpcLimits()
     bind_ip: str | None = None
     hosts: Mapping[str, str] | None = None
+    name_servers: NameServers = NameServers()
     epoch: Epoch | None = None
     clock_ns: Callable[[], int] | None = None
     respawns: bool = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
+from crosnode.errors import HostPendingError
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import HeaderReceived, MessagesReceived, Refused, SubscriberConnection
 from crosnode.transport.connection import Failed
@@ -149,6 +150,8 @@ class PublisherLink:
         try:
             _, host, port = call.value
             self._address = self._receiver.core.hosts.address(f"rosrpc://{host}:{port}", "rosrpc")
+        except HostPendingError:
+            return  # asked again in the next step
         except (ValueError, TypeError) as error:
             self._fail(PublisherTrigger.NOT_HAD, now_ns)
             self._tell(StatusKind.PEER_REFUSED, f"{self.uri}: {error}")

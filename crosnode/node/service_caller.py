@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from crosnode.errors import DecodeError, InvalidNameError
+from crosnode.errors import DecodeError, HostPendingError, InvalidNameError
 from crosnode.node.period import Period
 from crosnode.node.queues import DropOldestQueue
 from crosnode.tcpros import (
@@ -146,14 +146,17 @@ class ServiceCaller:
             self._link.close("the caller was released")
 
     def _found(self, lookup: ApiCall) -> None:
-        self._lookup = None
         if lookup.state is CallState.FAILED:
+            self._lookup = None
             self._fail(f"no provider of {self.service}: {lookup.error}")
             return
         try:
             self._address = self._core.hosts.address(str(lookup.value), "rosrpc")
+        except HostPendingError:
+            return  # asked again in the next step
         except InvalidNameError as error:
             self._fail(str(error))
+        self._lookup = None
 
     def _connect(self, address: Address, now_ns: int, budget: StepBudget) -> None:
         if not budget.start_call():

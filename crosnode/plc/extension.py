@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import CrosnodeError
+from crosnode.graph.dns import NameServers, parse_name_servers
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.ros_time import Epoch
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from plcsim.settings.table import Table
 
 HOSTS: Final = Path("/etc/hosts")
+RESOLV: Final = Path("/etc/resolv.conf")
 LOOK_NS: Final = 500_000_000
 """Nanoseconds between two looks at masters and at the wall clock."""
 
@@ -42,7 +44,10 @@ class RosExtension(Extension):
     def read(self, table: Table) -> RosSettings:
         """Return the settings; the types of the bridge are looked up."""
         text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
-        settings = read_settings(table, dict(os.environ), text)
+        servers = RESOLV.read_text(errors="replace") if RESOLV.is_file() else ""
+        settings = replace(
+            read_settings(table, dict(os.environ), text), name_servers=parse_name_servers(servers)
+        )
         types = MessageTypes(settings.packages)
         findings = Findings()
         keys = settings.table
@@ -71,7 +76,10 @@ class RosExtension(Extension):
         own = (ip, settings.table.master_port)
         host, port = own if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
         uri = make_uri("http", host, port)
-        return replace(settings, master_uri=uri, host=ip, bind_ip=None, environment={})
+        return replace(
+            settings, master_uri=uri, host=ip, bind_ip=None, environment={},
+            name_servers=NameServers(),
+        )  # fmt: skip
 
     def service(self, settings: RosSettings) -> str:
         """Return the module of the embedded master, where it runs in a process of its own."""

@@ -117,6 +117,7 @@ def make_node(
     options = options._replace(
         bind_ip=ros.bind_ip,
         hosts=ros.hosts,
+        name_servers=ros.name_servers,
         epoch=found.epoch,
         clock_ns=found.clock_ns,
         respawns=ros.table.respawn,

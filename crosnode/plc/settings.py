@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from crosnode.errors import CrosnodeError
 from crosnode.graph.arguments import node_settings, parse_arguments
+from crosnode.graph.dns import NameServers
 from crosnode.graph.hosts import parse_hosts
 from crosnode.graph.names import check_base_name, check_name
 from crosnode.graph.uri import DEFAULT_PORT, make_uri, parse_uri
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from plcsim.settings import Table
 
 EMBEDDED: Final = "embedded"
+NO_SERVERS: Final = NameServers()
 MOST: Final = 1 << 30
 """Of anything that bounds a step."""
 
@@ -242,6 +244,7 @@ class RosSettings:
         packages: folders of message packages, those of the table first.
         hosts: addresses of host names.
         environment: ROS_* variables of the process.
+        name_servers: who is asked for names that ``hosts`` has not.
         is_in_process: whether an embedded master runs in the scan, and not in a process beside it.
     """
 
@@ -254,6 +257,7 @@ class RosSettings:
     hosts: Mapping[str, str]
     environment: Mapping[str, str]
     is_in_process: bool = False
+    name_servers: NameServers = NO_SERVERS
 
     @property
     def is_embedded(self) -> bool:

@@ -6,7 +6,7 @@ from collections import deque
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
-from crosnode.errors import InvalidNameError, MessageValueError
+from crosnode.errors import HostPendingError, InvalidNameError, MessageValueError
 from crosnode.transport.budget import CALL_WORK
 from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
@@ -156,18 +156,21 @@ class ApiCaller:
         self._turn = (self._turn + 1) % max(1, len(channels))
         for uri, channel in channels[self._turn :] + channels[: self._turn]:
             if channel.calls and channel.link is None:
-                if budget.start_call():
-                    self._connect(uri, channel, now_ns)
+                self._connect(uri, channel, now_ns, budget)
             elif not channel.calls and channel.link is None:
                 del self._channels[uri]
             if channel.link is not None:
                 channel.advance(now_ns, budget)
 
-    def _connect(self, uri: str, channel: _Channel, now_ns: int) -> None:
+    def _connect(self, uri: str, channel: _Channel, now_ns: int, budget: StepBudget) -> None:
         try:
             address = self._hosts.address(uri, "http")
+        except HostPendingError:
+            return  # asked again in the next step
         except InvalidNameError as error:
             channel.fail_all(str(error))
+            return
+        if not budget.start_call():
             return
         connection = XmlRpcClientConnection(f"{address.ip}:{address.port}", self._limits, now_ns)
         channel.link = self._loop.connect(address, connection, channel, now_ns)

@@ -82,7 +82,9 @@ def last_resort(limit_ns: int) -> Iterator[None]:
     No exception reaches code that does not return from one call into a library in C. The stack,
     with file and line, goes to standard error, and the exit code is 1.
     """
-    faulthandler.dump_traceback_later(limit_ns / 1e9 + PATIENCE_S, exit=True)
+    errors = sys.__stderr__  # the process' own: what takes its place may have no descriptor
+    if errors is not None:
+        faulthandler.dump_traceback_later(limit_ns / 1e9 + PATIENCE_S, exit=True, file=errors)
     try:
         yield
     finally:
