@@ -150,6 +150,7 @@ class EventLoop:
         self.listeners: list[PortListener] = []
         self._new: list[PeerLink] = []
         self._turn = 0
+        self._listener_turn = 0
         self._round = 0
 
     def listen(self, ip: str, port: int, acceptor: Acceptor) -> PortListener:
@@ -174,14 +175,15 @@ class EventLoop:
         self._new.append(link)
 
     def step(self, now_ns: int, budget: StepBudget) -> None:
-        """Look at the listeners, then at each link in turn while the budget lasts.
+        """Look at one listener, then at each link in turn while the budget lasts.
 
         A link that has nothing to do costs next to nothing. Links with more to read have further
         turns. The next step begins with the first link that had to wait.
         """
         news = self.pool.look()
-        for listener in self.listeners:
-            listener.step(now_ns, budget, news)
+        if self.listeners:  # one in each step, so that a flood of connections leaves links theirs
+            self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
+            self.listeners[self._listener_turn].step(now_ns, budget, news)
         budget.is_short = False
         self._turn = self._go_round(now_ns, budget, news)
         while not budget.is_short and (busy := [link for link in self.links if link.has_more]):
