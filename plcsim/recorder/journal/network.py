@@ -6,38 +6,44 @@ sends is not recorded: in a replay it goes nowhere, and comes out the same.
 
 from __future__ import annotations
 
-import struct
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, cast
 
-from plcsim.network import Accepted, Address, Opened, OptionValue, Outcome, Received, Sent
+from plcsim.network import (
+    Accepted,
+    Address,
+    Opened,
+    OpenedDatagrams,
+    OptionValue,
+    Outcome,
+    Received,
+    Sent,
+)
+from plcsim.recorder.journal.answers import (
+    I64,
+    NOTHING,
+    OUTCOMES,
+    U32,
+    address_from,
+    address_text,
+    heads,
+    i64_from,
+    u32_from,
+)
+from plcsim.recorder.journal.datagrams import OPEN, RecordedDatagrams, ReplayDatagrams
 
 if TYPE_CHECKING:
-    from plcsim.network import Network, Option, Socket
+    from plcsim.network import DatagramNetwork, Network, Option, Socket
     from plcsim.recorder.journal.feed import Feed
     from plcsim.recorder.journal.journal import Journal
 
-_OUTCOMES: Final = tuple(Outcome)
-_U32: Final = struct.Struct("<I")
-_I64: Final = struct.Struct("<q")
 _NONE: Final = -1
 
-
-def _heads(call: bytes) -> dict[Outcome, bytes]:
-    return {outcome: call + bytes([place]) for place, outcome in enumerate(_OUTCOMES)}
-
-
-_OPEN, _ACCEPT, _LISTEN, _CONNECT = map(_heads, (b"o", b"a", b"l", b"c"))
-_SEND, _RECV, _SHUTDOWN = map(_heads, (b"s", b"r", b"d"))
-_SET_OPTION, _OPTION, _SET_LINGER = map(_heads, (b"t", b"p", b"i"))
+_OPEN, _ACCEPT, _LISTEN, _CONNECT = map(heads, (b"o", b"a", b"l", b"c"))
+_SEND, _RECV, _SHUTDOWN = map(heads, (b"s", b"r", b"d"))
+_SET_OPTION, _OPTION, _SET_LINGER = map(heads, (b"t", b"p", b"i"))
 _CLOSE, _LISTENING, _LOCAL, _PEER, _LINGER = b"x", b"n", b"h", b"e", b"g"
 _LOOK = b"k"
-
-
-def _text(address: Address | None) -> bytes:
-    if address is None:
-        return b"\0"
-    ip = address.ip.encode()
-    return bytes([len(ip) + 1]) + ip + address.port.to_bytes(4, "little")
+_OPEN_DATAGRAMS = heads(OPEN)
 
 
 class RecordedNetwork:
@@ -61,9 +67,9 @@ class RecordedNetwork:
     def look(self) -> list[RecordedSocket]:
         """See `plcsim.network.Network`; a socket is told by its place among those made."""
         found = [self._made[each] for each in self._network.look() if each in self._made]
-        self.answers += _LOOK + b"\0" + _U32.pack(len(found))
+        self.answers += _LOOK + NOTHING + U32.pack(len(found))
         for each in found:
-            self.answers += _U32.pack(each.number)
+            self.answers += U32.pack(each.number)
         return found
 
     def record(self, socket: Socket) -> RecordedSocket:
@@ -81,6 +87,14 @@ class RecordedNetwork:
         outcome, socket = self._network.open(ip, port, reuse_address=reuse_address)
         self.answers += _OPEN[outcome]
         return Opened(outcome, socket and self.record(socket))
+
+    def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
+        """See `plcsim.network.DatagramNetwork`."""
+        network = cast("DatagramNetwork", self._network)
+        outcome, socket = network.open_datagrams(ip, port, reuse_address=reuse_address)
+        self.answers += _OPEN_DATAGRAMS[outcome]
+        made = None if socket is None else RecordedDatagrams(socket, self.answers)
+        return OpenedDatagrams(outcome, made)
 
 
 class RecordedSocket:
@@ -107,14 +121,14 @@ class RecordedSocket:
     def local(self) -> Address:
         """See `Socket`."""
         value = self._socket.local
-        self._answers += _LOCAL + b"\0" + _text(value)
+        self._answers += _LOCAL + NOTHING + address_text(value)
         return value
 
     @property
     def peer(self) -> Address | None:
         """See `Socket`."""
         value = self._socket.peer
-        self._answers += _PEER + b"\0" + _text(value)
+        self._answers += _PEER + NOTHING + address_text(value)
         return value
 
     def listen(self, backlog: int) -> Outcome:
@@ -129,7 +143,7 @@ class RecordedSocket:
         self._answers += _ACCEPT[outcome]
         if socket is None:
             return Accepted(outcome, None, peer)
-        self._answers += _text(peer)
+        self._answers += address_text(peer)
         return Accepted(outcome, self._network.record(socket), peer)
 
     def connect(self, peer: Address) -> Outcome:
@@ -142,7 +156,7 @@ class RecordedSocket:
         """See `Socket`."""
         sent = self._socket.send(data, urgent=urgent, direct=direct)
         self._answers += _SEND[sent.outcome]
-        self._answers += _U32.pack(sent.taken)
+        self._answers += U32.pack(sent.taken)
         return sent
 
     def recv(self, size: int, *, peek: bool = False, urgent: bool = False) -> Received:
@@ -150,7 +164,7 @@ class RecordedSocket:
         received = self._socket.recv(size, peek=peek, urgent=urgent)
         self._answers += _RECV[received.outcome]
         if received.outcome is Outcome.OK:
-            self._answers += _U32.pack(len(received.data))
+            self._answers += U32.pack(len(received.data))
             self._answers += received.data
         return received
 
@@ -164,7 +178,7 @@ class RecordedSocket:
         """See `Socket`."""
         self._network.forget(self._socket)
         self._socket.close()
-        self._answers += _CLOSE + b"\0"
+        self._answers += _CLOSE + NOTHING
 
     def set_option(self, option: Option, value: int) -> Outcome:
         """See `Socket`."""
@@ -176,7 +190,7 @@ class RecordedSocket:
         """See `Socket`."""
         answer = self._socket.option(option)
         self._answers += _OPTION[answer.outcome]
-        self._answers += _I64.pack(answer.value)
+        self._answers += I64.pack(answer.value)
         return answer
 
     def set_linger(self, seconds: int | None) -> Outcome:
@@ -188,7 +202,7 @@ class RecordedSocket:
     def linger(self) -> int | None:
         """See `Socket`."""
         value = self._socket.linger()
-        self._answers += _LINGER + b"\0" + _I64.pack(_NONE if value is None else value)
+        self._answers += _LINGER + NOTHING + I64.pack(_NONE if value is None else value)
         return value
 
 
@@ -207,13 +221,10 @@ class ReplayNetwork:
     def look(self) -> list[ReplaySocket]:
         """See `plcsim.network.Network`."""
         self._feed.answer(_LOOK)
-        found = [self._made.get(self._u32()) for _ in range(self._u32())]
+        found = [self._made.get(u32_from(self._feed)) for _ in range(u32_from(self._feed))]
         if None in found:
             raise self._feed.differs("the network told of a socket that is not there")
         return [each for each in found if each is not None]
-
-    def _u32(self) -> int:
-        return int.from_bytes(self._feed.data(4), "little")
 
     def replay(self) -> ReplaySocket:
         """Return what answers for a new socket."""
@@ -227,8 +238,14 @@ class ReplayNetwork:
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See `plcsim.network.Network`."""
-        outcome = _OUTCOMES[self._feed.answer(b"o")]
+        outcome = OUTCOMES[self._feed.answer(b"o")]
         return Opened(outcome, self.replay() if outcome is Outcome.OK else None)
+
+    def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
+        """See `plcsim.network.DatagramNetwork`."""
+        outcome = OUTCOMES[self._feed.answer(OPEN)]
+        made = ReplayDatagrams(self._feed) if outcome is Outcome.OK else None
+        return OpenedDatagrams(outcome, made)
 
 
 class ReplaySocket:
@@ -240,20 +257,7 @@ class ReplaySocket:
         self._number = number
 
     def _outcome(self, call: bytes) -> Outcome:
-        return _OUTCOMES[self._feed.answer(call)]
-
-    def _u32(self) -> int:
-        return int.from_bytes(self._feed.data(4), "little")
-
-    def _i64(self) -> int:
-        return int.from_bytes(self._feed.data(8), "little", signed=True)
-
-    def _address(self) -> Address | None:
-        length = self._feed.data(1)[0]
-        if not length:
-            return None
-        ip = self._feed.data(length - 1).decode()
-        return Address(ip, self._u32())
+        return OUTCOMES[self._feed.answer(call)]
 
     @property
     def listening(self) -> bool:
@@ -264,13 +268,13 @@ class ReplaySocket:
     def local(self) -> Address:
         """See `Socket`."""
         self._feed.answer(_LOCAL)
-        return self._address() or Address("", 0)
+        return address_from(self._feed) or Address("", 0)
 
     @property
     def peer(self) -> Address | None:
         """See `Socket`."""
         self._feed.answer(_PEER)
-        return self._address()
+        return address_from(self._feed)
 
     def listen(self, backlog: int) -> Outcome:
         """See `Socket`."""
@@ -281,7 +285,7 @@ class ReplaySocket:
         outcome = self._outcome(b"a")
         if outcome is not Outcome.OK:
             return Accepted(outcome)
-        peer = self._address() or Address("", 0)
+        peer = address_from(self._feed) or Address("", 0)
         return Accepted(outcome, self._network.replay(), peer)
 
     def connect(self, peer: Address) -> Outcome:
@@ -291,12 +295,14 @@ class ReplaySocket:
     def send(self, data: bytes | memoryview, *, urgent: bool = False, direct: bool = False) -> Sent:
         """See `Socket`."""
         outcome = self._outcome(b"s")
-        return Sent(outcome, self._u32())
+        return Sent(outcome, u32_from(self._feed))
 
     def recv(self, size: int, *, peek: bool = False, urgent: bool = False) -> Received:
         """See `Socket`."""
         outcome = self._outcome(b"r")
-        return Received(outcome, self._feed.data(self._u32()) if outcome is Outcome.OK else b"")
+        return Received(
+            outcome, self._feed.data(u32_from(self._feed)) if outcome is Outcome.OK else b""
+        )
 
     def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:
         """See `Socket`."""
@@ -314,7 +320,7 @@ class ReplaySocket:
     def option(self, option: Option) -> OptionValue:
         """See `Socket`."""
         outcome = self._outcome(b"p")
-        return OptionValue(outcome, self._i64())
+        return OptionValue(outcome, i64_from(self._feed))
 
     def set_linger(self, seconds: int | None) -> Outcome:
         """See `Socket`."""
@@ -323,5 +329,5 @@ class ReplaySocket:
     def linger(self) -> int | None:
         """See `Socket`."""
         self._feed.answer(_LINGER)
-        value = self._i64()
+        value = i64_from(self._feed)
         return None if value == _NONE else value

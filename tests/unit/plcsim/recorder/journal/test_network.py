@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from plcsim.network import Address, Network, Option, Outcome, VirtualNetwork
+from plcsim.network import Address, Datagram, Network, Option, Outcome, VirtualNetwork
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
 from plcsim.recorder.journal.network import RecordedNetwork, ReplayNetwork
@@ -68,3 +68,37 @@ def test_a_replay_answers_what_was_recorded() -> None:
     assert feed.left == ""
     assert Outcome.OK in recorded
     assert Outcome.WOULD_BLOCK in recorded
+
+
+def send(server: Any, client: Any, wait: Callable[[], None]) -> list[Any]:
+    """Use every call of UDP; return the answers, without the sockets."""
+    outcome, here = server.open_datagrams(SERVER, 5000)
+    told: list[Any] = [outcome, server.open_datagrams(SERVER, 5000).outcome, here.local, here.peer]
+    there = client.open_datagrams(CLIENT, 0).socket
+    told += [there.local, there.send(b"lost"), there.connect(Address(SERVER, 5000)), there.peer]
+    told += [there.send(b"hello"), there.send(b"again", Address(SERVER, 5000)), here.recv(10)]
+    wait()
+    told += [here.recv(3, peek=True), here.recv(10), here.recv(10), here.recv(10)]
+    told += [here.set_option(Option.BROADCAST, 1), here.option(Option.BROADCAST)]
+    told += [there.disconnect(), there.peer]
+    for each in (here, there):
+        each.close()
+    return [*told, here.local, here.recv(10)]
+
+
+def test_a_replay_answers_the_datagrams_that_were_recorded() -> None:
+    time = Time()
+    net = VirtualNetwork(time)
+    journal = Journal()
+
+    def wait() -> None:
+        time.now_ns += 1_000_000
+
+    recorded = send(*(RecordedNetwork(net.host(ip), journal) for ip in (SERVER, CLIENT)), wait)
+    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
+    repeated = send(ReplayNetwork(feed), ReplayNetwork(feed), lambda: None)
+
+    assert repeated == recorded
+    assert feed.left == ""
+    came = {each.data for each in recorded if isinstance(each, Datagram)}
+    assert came >= {b"hello", b"again", b""}
