@@ -209,8 +209,9 @@ class Ros2Bag:
 
         self._path = path
         self._folder = active(path)
+        self._folder.mkdir()  # in it, for rosbags names the file by its folder, and notes that name
         plugin = StoragePlugin.MCAP if path.suffix == ".mcap" else StoragePlugin.SQLITE3
-        self._writer = Writer(self._folder, version=9, storage_plugin=plugin)
+        self._writer = Writer(self._folder / path.stem, version=9, storage_plugin=plugin)
         self._writer.open()
         self._types: dict[int, str] = {}
         self._size = 0
@@ -250,8 +251,7 @@ class Ros2Bag:
     def close(self) -> None:
         """See `Bag`."""
         self._writer.close()
-        (inner,) = self._folder.glob(f"*{self._path.suffix}")
-        inner.rename(self._path)
+        (self._folder / self._path.stem / self._path.name).rename(self._path)
         shutil.rmtree(self._folder)
 
     def abandon(self) -> None:

@@ -35,7 +35,7 @@ def test_what_is_written_is_read_again(tmp_path: Path, name: str) -> None:
     assert [file.name for file in tmp_path.iterdir()] == [name]
 
 
-@pytest.mark.parametrize("name", ["a.bag", "a.db3"])
+@pytest.mark.parametrize("name", ["a.bag", "a.mcap", "a.db3"])
 def test_the_same_messages_make_the_same_file(tmp_path: Path, name: str) -> None:
     digests = set()
     for folder in ("one", "two"):
