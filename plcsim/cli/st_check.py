@@ -128,6 +128,9 @@ def _groups(
     files: dict[Path, StructuredTextFile], scopes: Sequence[NamedScope]
 ) -> Iterator[_Group]:
     rest = dict(files)
+    twincat = [rest.pop(path) for path in files if path.suffix.lower().startswith(".tc")]
+    if twincat:  # all units of a project of TwinCAT see each other, whatever folders they lie in
+        yield _Group("project", twincat, library_scopes())
     for each in scopes:
         if each.listed is not None:
             own = [rest.pop(path) for f in each.listed if (path := f.resolve()) in rest]

@@ -10,6 +10,7 @@ from plcsim.cli.st_check import check_files
 from plcsim.cli.st_format import format_files
 from plcsim.cli.st_run import run
 from plcsim.core.errors import PlcError
+from plcsim.program.structured_text.names import SUFFIXES
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
-
-SUFFIXES = frozenset([".st"])
 
 _NOUNS = {
     ProgramUnit: "program unit",

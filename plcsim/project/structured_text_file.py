@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from plcsim.library.library import declarations_of, sources_in
 from plcsim.program.layout import DeclarationPlace, ProgramPlace, SourceLayout, unit_place
 from plcsim.program.structured_text.dialect import is_standard
+from plcsim.program.structured_text.names import SUFFIXES
 from plcsim.program.structured_text.sources import check_syntax, read_files
 from plcsim.project.assembly import load
 from plcsim.project.configuration import DEFAULT_CYCLE_NS, class_entry, configured_classes
@@ -55,11 +56,20 @@ def project_of_file(path: Path, cycle_ns: int | None = None) -> Project:
     check_syntax(files)
     if not is_standard(files[0].parsed):
         return _of_automation_studio(path, cycle_ns or DEFAULT_CYCLE_NS)
-    classes = configured_classes([path], cycle_ns or DEFAULT_CYCLE_NS)
-    common = DeclarationPlace(path.stem, (path, *declarations_of(sources_in(path.parent))))
+    units = _units_with(path)
+    classes = configured_classes(units, cycle_ns or DEFAULT_CYCLE_NS)
+    common = DeclarationPlace(path.stem, (*units, *declarations_of(sources_in(path.parent))))
     sources = dict.fromkeys(p.source for each in classes for p in each.programs)
     places = {source: unit_place(path.parent, source) for source in sources}
     return _named(path.stem, classes, SourceLayout(path.parent, common, places))
+
+
+def _units_with(path: Path) -> list[Path]:
+    """Return the file, with all others of its project where it is one of TwinCAT."""
+    if not path.suffix.lower().startswith(".tc"):
+        return [path]
+    root = next((each for each in path.parents if any(each.glob("*.plcproj"))), path.parent)
+    return sorted(file for file in root.rglob("*.[tT][cC]*") if file.suffix.lower() in SUFFIXES)
 
 
 def _of_automation_studio(path: Path, cycle_ns: int) -> Project:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.structured_text.names import NAME
+from plcsim.program.structured_text.names import NAME, SUFFIXES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from plcsim.program.language import ProgramCode, ProgramSource
     from st_types.resolve.dialect import Dialect
     from st_types.syntax.tree import DeclarationFile
-
-SUFFIX: Final = ".st"
 
 
 class StructuredText:
@@ -76,4 +74,4 @@ STRUCTURED_TEXT: Final = StructuredText()
 
 
 def _sources(files: Sequence[Path]) -> list[Path]:
-    return [file for file in files if file.suffix.lower() == SUFFIX]
+    return [file for file in files if file.suffix.lower() in SUFFIXES]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.preprocessor import preprocess
 from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+from plcsim.program.structured_text.syntax.twincat import is_twincat, text_of
 from plcsim.program.structured_text.syntax.units import UnitParser
 from st_types.syntax.collector import collector_paused
 from st_types.syntax.diagnostics import DiagnosticLog
@@ -38,6 +39,13 @@ def parse_structured_text(
             0, "the file is no text", "it is encrypted, binary, or UTF-16 without BOM"
         )
         return StructuredTextFile([], Tokens(Source(source.path, "")), diagnostics)
+    if is_twincat(source.text):
+        source = Source(source.path, text_of(source.text), source.encoding, source.mark)
+    elif _XML.match(source.text):
+        diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
+        hint = "TwinCAT's .TcPOU, .TcGVL, .TcDUT and .TcIO are read; export others as text"
+        diagnostics.error(0, "the file is XML", hint)
+        return StructuredTextFile([], Tokens(Source(source.path, "")), diagnostics)
     with collector_paused():
         first = _parse(source, defines)
         if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
@@ -49,6 +57,7 @@ def parse_structured_text(
 SAMPLE = 4096
 """Characters at the start of a file that tell whether it is text."""
 
+_XML = re.compile(r"\s*<\?xml\b")
 _CONTROLS = re.compile(r"[\0-\x08\x0e-\x19\x1b-\x1f]")
 
 

@@ -135,7 +135,7 @@ class UnitParser(StatementParser):
 
     def _words(self) -> tuple[str, ...]:
         start = self.index
-        while self.keyword in _MODIFIERS and self.keys[self.index + 1] == NAME:
+        while self.keyword in _MODIFIERS and self.texts[self.index + 1].isidentifier():
             self.index += 1
         return tuple(word.upper() for word in self.texts[start : self.index])
 
