@@ -45,8 +45,8 @@ _OPTIONS = (
     *("-mno-bulk-memory", "-mno-nontrapping-fptoint", "-mno-reference-types", "-mno-multivalue"),
     *("-nostdlibinc", "-fno-color-diagnostics", "-ferror-limit=0", "-Wno-unknown-warning-option"),
     *("-D_DEFAULT_INCLUDES", "-D_SG4", "-D_REPLACE_CONST"),
-    # a jump through a table is one that the processor often takes to the wrong place first: texts
-    # that are taken apart character by character take three times as long with it
+    # a jump through a table is one that the processor often takes to the wrong place first: the
+    # kernel of texts in benchmarks/c_kernels takes a tenth longer with it
     "-fno-jump-tables",
     "-UNDEBUG",  # zig defines it where it optimises
     "-U__EMSCRIPTEN__",  # what the target is called says nothing about the system

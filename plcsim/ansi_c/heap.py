@@ -9,8 +9,11 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from plcsim.core.tag import Tag
 from plcsim.machine.encoder import ModuleWriter, Signature, sleb, uleb
 from plcsim.machine.opcodes import CALL, I32, I32_CONST, LOCAL_GET
+from st_types.types.derived import Member, StructType
+from st_types.types.elementary import UDINT
 
 if TYPE_CHECKING:
     from plcsim.ansi_c.c_library import CLibrary
@@ -34,6 +37,15 @@ _FUNCTIONS: Final = {
     "_ZdaPvm": ("plc_delete", 2, 0),
 }
 """By the name that programs use: the function of the C library, its further parameters, results."""
+
+
+USE: Final = "plc_heap"
+"""The variable of a program that tells how much of its heap is in use."""
+
+_USE_TYPE: Final[StructType[object]] = StructType(
+    USE, [Member(name, UDINT) for name in ("Size", "Used", "Most", "Areas", "Refused")]
+)
+_USE_OFFSET = 4  # of what `HeapUse` tells, in struct plc_heap
 
 
 class HeapUse(NamedTuple):
@@ -85,7 +97,12 @@ class ProgramHeap:
 
     def use(self) -> HeapUse:
         """Return how much of it is in use now."""
-        return HeapUse(*struct.unpack("<5I", self._memory.read(self._struct + 4, 20)))
+        return HeapUse(*struct.unpack("<5I", self._memory.read(self._struct + _USE_OFFSET, 20)))
+
+    def tag(self, program: str) -> Tag:
+        """Return `use` as a variable of the program, which nobody else writes."""
+        held = StructType[object](program, [Member(USE, _USE_TYPE)])
+        return Tag(program, held, self._struct + _USE_OFFSET, is_constant=True)
 
 
 def is_of_heap(name: str) -> bool:

@@ -76,6 +76,9 @@ class CCode:
         compiled.locate_by(name, locator(module))
         names = [each.name for tag in (*own, *site.shared) for each in _members(tag)]
         data = own_variables(self._module, self._scope, names, name)
+        more = [] if data is None else [Tag(name, data, module.address)]
+        if surroundings.heap is not None:
+            more.append(surroundings.heap.tag(name))
         units = {unit: _unit(module, unit, site.machine) for unit in Unit}
         units[Unit.INIT] = _fresh(module, surroundings, units[Unit.INIT])
         return Task(
@@ -83,7 +86,7 @@ class CCode:
             variables,
             units,
             constants=constants,
-            more=() if data is None else [Tag(name, data, module.address)],
+            more=more,
             fault_of=compiled.fault_of,
             interrupt=_interrupt,
             instructions=site.machine.meter,

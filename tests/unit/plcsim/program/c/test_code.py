@@ -311,3 +311,16 @@ def test_what_c_defines_itself_are_tags(controller):
     plc.tags.write(plc.tags.find("conveyor.plain"), value=100)
     plc.run(cycles=1)
     assert value(plc, "conveyor.plain") == 101
+
+
+def test_the_use_of_the_heap_is_a_variable_of_the_program(run, value):
+    text = (
+        "#include <bur/plctypes.h>\n#include <stdlib.h>\nunsigned long bur_heap_size = 4096;\n"
+        "void _CYCLIC f(void) { malloc(1000); free(malloc(2000)); }\n"
+    )
+    controller = run({"main/Main.c": text}, cycles=1)
+    use = value(controller, "main.plc_heap")
+    assert use == {"Size": 4096, "Used": 1000, "Most": 3000, "Areas": 1, "Refused": 0}
+    controller.run(cycles=10)
+    assert value(controller, "main.plc_heap.Refused") > 0
+    assert controller.state is State.RUN
