@@ -70,7 +70,7 @@ class UnitTestCase(NamedTuple):
     line: int
 
 
-class Verdict(NamedTuple):
+class CaseResult(NamedTuple):
     """What became of a test case: a state of the report, and what it found."""
 
     state: int
@@ -129,7 +129,7 @@ def _blank(match: re.Match[str]) -> str:
     return match[0] if match[0].startswith('"') else "\n" * match[0].count("\n")
 
 
-def run_tests(folder: Path, place: ProgramUnderTest) -> Mapping[tuple[str, str], Verdict]:
+def run_tests(folder: Path, place: ProgramUnderTest) -> Mapping[tuple[str, str], CaseResult]:
     """Run the tests of a program on the virtual clock; return what became of each.
 
     Other programs do not run.
@@ -147,7 +147,7 @@ def run_tests(folder: Path, place: ProgramUnderTest) -> Mapping[tuple[str, str],
             raise ConfigurationError(*application.left_out[place.source])
         clock = VirtualClock()
         network = VirtualNetwork(clock.now_ns).host(VIRTUAL_IP)
-        return _verdicts(_reported(assemble(application, clock=clock, network=network), place))
+        return _results(_reported(assemble(application, clock=clock, network=network), place))
     finally:
         application.unload()
 
@@ -177,12 +177,12 @@ def _fault_of(controller: Controller) -> str:
     return f"{location}: {reason}" if location else reason
 
 
-def _verdicts(report: Mapping[str, Any]) -> Mapping[tuple[str, str], Verdict]:
-    found: dict[tuple[str, str], Verdict] = {}
+def _results(report: Mapping[str, Any]) -> Mapping[tuple[str, str], CaseResult]:
+    found: dict[tuple[str, str], CaseResult] = {}
     findings = report["Findings"][: report["FindingCount"]]
     for number, case in enumerate(report["Cases"][: report["CaseCount"]]):
         texts = [_told(each) for each in findings if each["Case"] == number]
-        found[case["Set"], case["Name"]] = Verdict(case["State"], texts)
+        found[case["Set"], case["Name"]] = CaseResult(case["State"], texts)
     return found
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-    from plcsim.testing.unit_test import ProgramUnderTest, UnitTestCase, Verdict
+    from plcsim.testing.unit_test import ProgramUnderTest, UnitTestCase, CaseResult
 
 __tracebackhide__ = True
 
@@ -29,7 +29,7 @@ class UnitTests(pytest.File):
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
-        self._done: dict[ProgramUnderTest, Mapping[tuple[str, str], Verdict] | Exception] = {}
+        self._done: dict[ProgramUnderTest, Mapping[tuple[str, str], CaseResult] | Exception] = {}
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield its test cases."""
@@ -41,7 +41,7 @@ class UnitTests(pytest.File):
             name = f"{case.place.task}.{case.set}.{case.name}"
             yield UnitTestItem.from_parent(self, name=name, case=case)
 
-    def verdict(self, case: UnitTestCase) -> Verdict:
+    def result_of(self, case: UnitTestCase) -> CaseResult:
         """Return what became of a test case.
 
         Raises:
@@ -75,7 +75,7 @@ class UnitTestItem(pytest.Item):
 
     def runtest(self) -> None:
         """Run it, or the program that it belongs to."""
-        state, findings = self.parent.verdict(self._case)
+        state, findings = self.parent.result_of(self._case)
         if state == SKIPPED:
             pytest.skip("it is not active, or the set was aborted")
         if state != PASSED:
