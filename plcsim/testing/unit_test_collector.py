@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-    from plcsim.testing.unit_test import ProgramUnderTest, UnitTestCase, CaseResult
+    from plcsim.testing.unit_test import CaseResult, ProgramUnderTest, UnitTestCase
 
 __tracebackhide__ = True
 
