@@ -7,9 +7,16 @@ from typing import Any
 
 import pytest
 
+from plcsim.access import line_file
 from plcsim.modbus.map.changes import TagChange
-from plcsim.modbus.service import audit
-from plcsim.modbus.service.audit import BURST, FILES, FILES_OF_REFUSED, HOSTS, AuditLog
+from plcsim.modbus.service.audit import (
+    BURST,
+    FILES,
+    FILES_OF_REFUSED,
+    HOSTS,
+    PAUSE_NS,
+    AuditLog,
+)
 from plcsim.modbus.service.device import Origin
 
 ORIGIN = Origin("10.0.0.7:4711", "operator", 1, 6)
@@ -95,7 +102,7 @@ def test_of_one_host_only_so_many_are_noted_and_the_others_counted(tmp_path: Pat
         for _ in range(BURST + 500):
             log.refused(ORIGIN, b"\6", 3)
         log.refused(ORIGIN._replace(peer="10.0.0.8:1"), b"\6", 3)
-        now_ns = 3 * audit.PAUSE_NS
+        now_ns = 3 * PAUSE_NS
         for _ in range(5):
             log.refused(ORIGIN, b"\6", 3)
     lines = lines_of(tmp_path / "a-refused.jsonl")
@@ -162,8 +169,8 @@ def test_half_a_line_is_taken_back(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     write = os.write
     with AuditLog(str(file)) as log:
         log.applied(ORIGIN, [CHANGE])
-        monkeypatch.setattr(audit.os, "write", lambda fd, data: write(fd, data[:20]))
+        monkeypatch.setattr(line_file.os, "write", lambda fd, data: write(fd, data[:20]))
         log.applied(ORIGIN, [CHANGE])
-        monkeypatch.setattr(audit.os, "write", write)
+        monkeypatch.setattr(line_file.os, "write", write)
         log.applied(ORIGIN, [CHANGE])
     assert [line.get("lost") for line in lines_of(file)] == [None, 1]
