@@ -9,7 +9,7 @@ const CAUSES = { program: "by_program", host: "by_host", preempted: "preempted",
 
 export function show(page, ears) {
   const cards = new Map();
-  const gantt = h("div", { class: "gantt" });
+  const gantt = h("div", { class: "gantt", tabindex: "0", role: "region", "aria-label": "Last cycles" });
   const hold = h("button", { "aria-pressed": "false", onclick: () => {
     const isHeld = hold.getAttribute("aria-pressed") !== "true";
     hold.setAttribute("aria-pressed", String(isHeld));
