@@ -151,13 +151,17 @@ def placed(application: Application) -> Application:
 
     That shows when they are linked: what they call may be nowhere. `Application.left_out` says why.
     """
+    return with_controller(application)[0]
+
+
+def with_controller(application: Application) -> tuple[Application, Controller | None]:
+    """Return the same, and a controller of it that nobody runs where nothing was taken out."""
     if not application.setup.classes:
-        return application
+        return application, None
     try:
-        still_controller(application)
+        return application, still_controller(application)
     except ConfigurationError:
-        return _without_unplaced(application)
-    return application
+        return _without_unplaced(application), None
 
 
 def _without_unplaced(application: Application) -> Application:

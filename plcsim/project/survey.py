@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.project.assembly import load, placed, still_controller
+from plcsim.project.assembly import load, still_controller, with_controller
 from plcsim.project.automation_studio import problems
 from plcsim.project.automation_studio.stub_calls import stub_calls
 
@@ -83,10 +83,12 @@ def survey(project: Project, found: AutomationStudioProject) -> Survey:
         project: as it was read.
         found: its Automation Studio project.
     """
-    application = placed(load(replace(project, keep_going=True)))
+    application, controller = with_controller(load(replace(project, keep_going=True)))
     catalogue = application.setup.catalogue
     calls = [] if catalogue is None else stub_calls(catalogue, _sources(project))
-    controller, trouble = _controller(application)
+    trouble: Sequence[str] = ()
+    if controller is None:
+        controller, trouble = _controller(application)
     sizes = (
         {} if controller is None else {t.name: t.variables.data_type.size for t in controller.tasks}
     )
