@@ -19,7 +19,7 @@ _WEAK, _LOCAL, _UNDEFINED, _EXPLICIT_NAME = 1, 2, 0x10, 0x40
 _KIND_OF_IMPORT: Final = {_OF_FUNCTION: FUNCTION, _OF_GLOBAL: GLOBAL}
 
 
-class Symbols(NamedTuple):
+class ObjectSymbols(NamedTuple):
     """Names that an object shares with others.
 
     Attributes:
@@ -43,14 +43,14 @@ class Symbols(NamedTuple):
         return [n for n, s in self.weak_data.items() if not self.segments[s].startswith(".bss")]
 
 
-def symbols_of(wasm: bytes) -> Symbols:
+def symbols_of(wasm: bytes) -> ObjectSymbols:
     """Return the symbols of an object that the compiler has made.
 
     Raises:
         MachineError: it is none.
     """
     imported: dict[int, list[str]] = {FUNCTION: [], GLOBAL: []}
-    found = Symbols(set(), set(), {}, {}, [])
+    found = ObjectSymbols(set(), set(), {}, {}, [])
     for section in sections(wasm):
         if section.number == IMPORTS:
             for each in imports(wasm, section):
@@ -73,7 +73,7 @@ def symbols_of(wasm: bytes) -> Symbols:
     return found
 
 
-def _read(reader: Reader, imported: dict[int, list[str]], found: Symbols) -> None:
+def _read(reader: Reader, imported: dict[int, list[str]], found: ObjectSymbols) -> None:
     """Read one symbol."""
     kind, place = reader.byte(), reader.offset
     flags = reader.uleb()

@@ -54,7 +54,7 @@ AUTOMATION_STUDIO_MEMORY: Final = 128 << 20
 """Bytes of PLC memory of an Automation Studio project where plc.toml does not say; what no variable
 takes costs the host nothing."""
 
-COMPILING_NS: Final = 300_000_000_000
+COMPILING_NS: Final = 900_000_000_000
 """Loading an Automation Studio project, or C, may take so long at least, on a slow host too."""
 
 _OWN_TABLES: Final = (

@@ -7,6 +7,8 @@ import os
 import stat
 from typing import TYPE_CHECKING, Final
 
+from plcsim.core.controller import Controller
+from plcsim.core.logbook import Severity
 from plcsim.library.fileio.settings import FileIoSettings
 from plcsim.library.fileio.volumes import MOST_OPEN, FileRefusedError, Volumes, inside
 
@@ -32,6 +34,7 @@ class DeviceFiles:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._open: dict[int, int] = {}
+        self._has_told = False
 
     def close_all(self) -> None:
         """Close what is open, as at a restart."""
@@ -103,11 +106,20 @@ class DeviceFiles:
         device, colon, inner = path.rpartition(b":")
         folder = self._folder(device + colon) if colon else self._first()
         if folder is None:
+            self._tell_missing(path)
             raise OSError(errno.ENODEV, "device")
         try:
             return inside(folder, inner)
         except FileRefusedError:
             raise OSError(errno.EACCES, "out of the device") from None
+
+    def _tell_missing(self, path: bytes) -> None:
+        """Log once that a device is missing: C tells of it by a number only."""
+        controller = Controller.of(self._context)
+        if controller is not None and not self._has_told:
+            self._has_told = True
+            text = f"fopen of {os.fsdecode(path)!r}: no such file device; plc.toml names them in "
+            controller.log(Severity.WARNING, "C", f"{text}[library.FileIO] devices")
 
     def _folder(self, name: bytes) -> Path | None:
         """Return the folder of a device, as DevLink or plc.toml names it, in any case."""

@@ -121,6 +121,8 @@ def test_what_cannot_be_done_is_told_by_errno(run, act, expected):
 
 def test_without_a_device_there_are_no_files(run):
     assert run('result = fopen("a", "w") == 0; error = errno == ENODEV;', "")[:2] == (1, 1)
+    texts = [entry.text for entry in run.controller.logbook]
+    assert any("no such file device" in text and "[library.FileIO]" in text for text in texts)
 
 
 def test_no_more_files_than_there_is_room_for(run):
