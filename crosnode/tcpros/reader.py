@@ -50,8 +50,9 @@ class BlockMemory:
         return kept[-1]
 
 
-_UNUSED: Final = 2
-"""References to an object in a list, with that of the call that counts them."""
+_PROBE: Final = [object()]
+_UNUSED: Final = getrefcount(_PROBE[0])
+"""References to an object that only a list has, with those of the call that counts them."""
 
 
 class LargeBlock:
