@@ -83,6 +83,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="run on the virtual clock and network, as fast as the host can",
     )
     parser.add_argument(
+        "--cold",
+        action="store_true",
+        help="a cold start: RETAIN variables begin with their initial values, and the values that "
+        "[retain] has kept are given up",
+    )
+    parser.add_argument(
         "--report", type=Path, metavar="FILE", help="write the figures of the run as JSON"
     )
     parser.add_argument(
@@ -146,6 +152,7 @@ def run_project(options: argparse.Namespace, project: Project) -> int:
         for_ns=options.for_ns,
         cycles=options.cycles,
         stays=options.stay or (options.web and options.cycles is None),
+        cold=options.cold,
         output=output,
         quiet=options.quiet,
     )

@@ -13,6 +13,7 @@ from plcsim.core.forces import Forces
 from plcsim.core.image import ProcessImage
 from plcsim.core.logbook import Logbook, Severity
 from plcsim.core.owners import Owners
+from plcsim.core.retain import RetainedVariables
 from plcsim.core.scan import Scan, ScanHeartbeat
 from plcsim.core.system import Event, State, next_state
 from plcsim.core.tag import TagTable
@@ -71,6 +72,7 @@ class Controller:
         tasks: in configured order, that of the exception program last.
         areas: all variables of the controller: the global ones, then those of each program, as one
             tag each; constants apart.
+        retained: those that keep their values over a warm restart.
         owners: which class owns which of them.
         forces: the forced ones.
         requests: acts asked for and not yet carried out, in order.
@@ -115,6 +117,7 @@ class Controller:
             task.index = index
         self.areas = (*shared, *(area for task in self.tasks for area in task.areas))
         self.tags = TagTable(self.memory, self.areas)
+        self.retained = RetainedVariables(self.memory, self.areas)
         self.origin_ns = self.clock.now_ns()
         context.release_ns = self.origin_ns
         context.date_ns = first_date_ns(self.clock) if start_date_ns is None else start_date_ns
@@ -137,8 +140,13 @@ class Controller:
         task = self.scan.active
         return next((c for c in self.classes if task in c.tasks), None), task
 
-    def boot(self) -> State:
+    def boot(self, *, cold: bool = False) -> State:
         """Give all variables their initial values and run every INIT, in configured order.
+
+        Retained variables get what they had before, or what was handed in before the first boot.
+
+        Args:
+            cold: only permanent variables keep what they had.
 
         Returns:
             RUN, or SERVICE where an INIT failed.
@@ -146,8 +154,13 @@ class Controller:
         Raises:
             StateError: the controller runs; call `shutdown` first.
         """
+        is_restart = self.state is not State.BOOT
+        if is_restart:
+            self.retained.keep()
+        if cold:
+            self.retained.clear()
         self._about_to(Step.BOOT)
-        if self.state is not State.BOOT:
+        if is_restart:
             self._enter(Event.RESTART)
             self.fault = None
             self.stop_requested = False
@@ -157,6 +170,7 @@ class Controller:
         for area in self.areas:
             self.memory.write(area.address, initial_image(area.data_type))
         self.memory.restore()
+        self.retained.restore()
         for task in self.tasks:
             task.resume()
         for task in self.tasks:

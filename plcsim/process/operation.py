@@ -161,7 +161,7 @@ class Operation:
             self._stop()
         elif request.action in _RESTARTS:
             controller.shutdown()
-            controller.boot()
+            controller.boot(cold=request.action is Action.COLD_RESTART)
             controller.start()
 
     def _stop(self) -> None:

@@ -49,6 +49,13 @@ HELD_BACK = (signal.SIGINT, signal.SIGTERM, STALLED)
 DUMP = signal.SIGUSR2
 """The supervisor sends this before it kills: the Python stack goes to the dump file."""
 
+RETAIN = "retain"
+"""The table of plc.toml by which retained variables outlive this process."""
+
+KEPT_IN_MEMORY = (
+    "RETAIN variables are kept over a warm restart only: plc.toml has no table [retain]"
+)
+
 
 @dataclass(frozen=True)
 class RunOrder:
@@ -67,6 +74,7 @@ class RunOrder:
         image_fd: an empty file for the shared image.
         system_fd: the system area of the PLC memory, by which compiled programs are ended.
         wake_fds: an eventfd for each service of the project.
+        cold: retained variables begin with their initial values.
     """
 
     parent: int
@@ -81,6 +89,7 @@ class RunOrder:
     image_fd: int
     system_fd: int
     wake_fds: list[int]
+    cold: bool = False
 
     def to_json(self) -> str:
         """Return the order as the argument of this process."""
@@ -166,7 +175,9 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     _handle_signals(controller)
     for right in rights.refused:
         controller.log(Severity.WARNING, "system", f"no real-time right: {right}")
-    controller.boot()
+    if controller.retained.tags and RETAIN not in application.extensions:
+        controller.log(Severity.WARNING, "system", KEPT_IN_MEMORY)
+    controller.boot(cold=order.cold)
     if rights.complete:
         realtime.settle()
     controller.start()

@@ -74,6 +74,7 @@ class Supervisor:
         stays: STOPPED and SERVICE do not end the run: the scan waits for a restart.
         output: carries what the processes print; by default to this process' stdout and stderr.
         quiet: the services print nothing but errors.
+        cold: retained variables begin with their initial values.
 
     Attributes:
         page: the status page.
@@ -90,6 +91,7 @@ class Supervisor:
         stays: bool = False,
         output: Output | None = None,
         quiet: bool = False,
+        cold: bool = False,
     ) -> None:
         self.page = StatusPage()
         self._project = project
@@ -123,6 +125,7 @@ class Supervisor:
                 stays,
                 *fds,
                 self.services.wake_fds,
+                cold,
             ),
             (project_fd, *fds, *self.services.wake_fds),
             self._output.child(),

@@ -69,7 +69,12 @@ def variables_of(name: str, declared: Iterable[DeclaredVariable]) -> DeclaredVar
     members: dict[bool, list[Member]] = {True: [], False: []}
     for variable in declared:
         if variable.data_type is not None:
-            member = Member(variable.name, variable.data_type, variable.initial)
+            member = Member(
+                variable.name,
+                variable.data_type,
+                variable.initial,
+                is_retained=variable.is_retained,
+            )
             members[variable.is_constant].append(member)
     try:
         return DeclaredVariables(

@@ -69,6 +69,7 @@ class Application:
         stubbed: blocks and functions that are looked for and that nothing executes, by library.
         notes: what is not as on the controller: what is left out, what is idle.
         maps: of I/O channels and of variables.
+        permanent: tags of its permanent variables (Cpu.per).
         unload: forgets its modules, so that the next to load it has them afresh.
     """
 
@@ -81,6 +82,7 @@ class Application:
     stubbed: Mapping[str, Collection[str]] = field(default_factory=dict)
     notes: Sequence[str] = ()
     maps: Maps = NO_MAPS
+    permanent: Sequence[str] = ()
     unload: Callable[[], None] = _nothing
 
     def in_process(self, ip: str, *, is_test: bool = False) -> Application:
@@ -253,6 +255,7 @@ def _load(
         catalogue.stubbed,
         [*project.left_out, *_notes(project, left_out), *_stub_notes(catalogue)],
         maps,
+        () if found is None else tuple(pv.tag for pv in found.permanent),
         loader.unload,
     )
 
@@ -350,7 +353,8 @@ def assemble(
         system_fd=system_fd,
         watch=watch,
     )
-    for note in (*application.notes, *connect(controller, application.maps)):
+    notes = *application.notes, *connect(controller, application.maps)
+    for note in (*notes, *_make_permanent(controller, application.permanent)):
         controller.log(Severity.WARNING, "system", note)
     attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
     if image is not None:
@@ -367,6 +371,15 @@ def assemble(
             if attachment.feed is not None:
                 attachment.feed(writer.stream_of(name))
     return controller
+
+
+def _make_permanent(controller: Controller, paths: Sequence[str]) -> list[str]:
+    """Let variables be permanent; return what is not there, a line for each."""
+    found = {path: controller.tags.get(path) for path in paths}
+    for tag in found.values():
+        if tag is not None:
+            controller.retained.add_permanent(tag)
+    return [f"Cpu.per: there is no variable {path}" for path, tag in found.items() if tag is None]
 
 
 def still_controller(application: Application) -> Controller:

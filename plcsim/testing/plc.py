@@ -119,8 +119,11 @@ class Plc(World, Expectations):
             raise PlcTestError(f"there is no task class {number}; there are {known}")
         return found
 
-    def boot(self) -> None:
+    def boot(self, *, cold: bool = False) -> None:
         """Give all variables their initial values and run every INIT.
+
+        Args:
+            cold: see `restart`.
 
         Raises:
             ControllerFault: an INIT failed.
@@ -132,15 +135,19 @@ class Plc(World, Expectations):
         self._last_release_ns = 0
         self.costs.restart()
         with watchdog(self.controller):
-            self.controller.boot()
+            self.controller.boot(cold=cold)
         self._check_fault()
         self.controller.start()
 
-    def restart(self) -> None:
+    def restart(self, *, cold: bool = False) -> None:
         """Restart as after a power failure: EXITs, initial values, INITs; time starts at 0 again.
 
-        Plants, forces and faults stay; acts that were planned and have not happened are dropped.
+        RETAIN variables keep their values, permanent ones at a cold restart too. Plants, forces and
+        faults stay; acts that were planned and have not happened are dropped.
         From SERVICE, too, a restart leads back to RUN.
+
+        Args:
+            cold: RETAIN variables get their initial values too.
 
         Raises:
             ControllerFault: an EXIT or an INIT failed.
@@ -148,7 +155,7 @@ class Plc(World, Expectations):
         if self.controller.state is not State.SERVICE:
             self.stop()
         self._restart_world()
-        self.boot()
+        self.boot(cold=cold)
 
     def stop(self) -> None:
         """Run every EXIT, as when the controller is switched off in an orderly way.

@@ -42,6 +42,11 @@ class DeclaredVariable(NamedTuple):
         """Whether it stands in a VAR CONSTANT."""
         return "CONSTANT" in self.block.qualifiers
 
+    @property
+    def is_retained(self) -> bool:
+        """Whether it stands in a VAR RETAIN."""
+        return "RETAIN" in self.block.qualifiers
+
 
 class DeclaredType(NamedTuple):
     """A type of a TYPE block; ``data_type`` is None where it has no layout."""

@@ -393,7 +393,10 @@ class FileResolver(ConstantResolver):
             return Member(node.name, reference, None, section)
         self.complete(entry)
         data_type = entry.data_type
-        return None if data_type is None else Member(node.name, data_type, entry.value, section)
+        if data_type is None:
+            return None
+        is_retained = "RETAIN" in entry.block.qualifiers
+        return Member(node.name, data_type, entry.value, section, is_retained)
 
 
 def _completed(entry: VariableEntry) -> DataType[object] | None:

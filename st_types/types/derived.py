@@ -34,12 +34,16 @@ class Section(Enum):
 
 
 class Member(NamedTuple):
-    """A member of a STRUCT or a data block; ``initial`` None means the default of its type."""
+    """A member of a STRUCT or a data block, a variable among those of a program.
+
+    ``initial`` None means the default of its type; a RETAIN keeps its value over a warm restart.
+    """
 
     name: str
     data_type: DataType[object]
     initial: object = None
     section: Section = Section.INTERNAL
+    is_retained: bool = False
 
 
 class StringType(DataType[str]):

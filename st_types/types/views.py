@@ -65,6 +65,7 @@ class _Declaration(NamedTuple):
     data_type: DataType[object]
     initial: object
     section: Section
+    is_retained: bool = False
 
 
 def _type_in(declared: object) -> DataType[object]:
@@ -75,23 +76,26 @@ def _type_in(declared: object) -> DataType[object]:
     raise DeclarationError(f"{declared!r} is not a data type.")
 
 
-def _declare(data_type: object, initial: object, section: Section) -> Any:
-    return _Declaration(_type_in(data_type), initial, section)
+def _declare(
+    data_type: object, initial: object, section: Section, *, is_retained: bool = False
+) -> Any:
+    return _Declaration(_type_in(data_type), initial, section, is_retained)
 
 
 @overload
-def var(data_type: type[S], initial: object = None) -> S: ...
+def var(data_type: type[S], initial: object = None, *, retain: bool = False) -> S: ...
 @overload
-def var(data_type: DataType[V], initial: object = None) -> V: ...
-def var(data_type: object, initial: object = None) -> object:
+def var(data_type: DataType[V], initial: object = None, *, retain: bool = False) -> V: ...
+def var(data_type: object, initial: object = None, *, retain: bool = False) -> object:
     """Declare a variable in the body of a `Struct`, a program or a function block.
 
     Args:
         data_type: ``UINT``, ``STRING(20)``, ``ARRAY(REAL, (1, 5))``, ... or a Struct class.
         initial: value after a restart; None gives that of the type. Members of a STRUCT are given
             as a mapping, elements of an ARRAY as a sequence.
+        retain: it keeps its value over a warm restart (VAR RETAIN).
     """
-    return _declare(data_type, initial, Section.INTERNAL)
+    return _declare(data_type, initial, Section.INTERNAL, is_retained=retain)
 
 
 @overload

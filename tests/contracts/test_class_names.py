@@ -23,7 +23,9 @@ ACCEPTED = {
     "Address": "of a host, in network; the compiler's is typed.Address, what ADR() gives",
     "Configuration": "the norm's CONFIGURATION (tree.Configuration), and Automation Studio's",
     "Duration": "ROS 1's word for its own type; in plcsim.settings, a kind of setting",
+    "Frame": "of a call chain in the machine; in crosnode.tf, ROS's word for a coordinate frame",
     "Member": "of a STRUCT in st_types; typed.Member is the access to one",
+    "MethodCall": "XML-RPC's own word; typed.MethodCall is a call of a METHOD",
     "Signature": "of a WebAssembly function in the machine; ir.Signature before it is encoded",
     "Store": "WebAssembly's word for what owns instances; ir.Store is the instruction",
 }

@@ -60,5 +60,9 @@ class Tape:
 
     def _stepped(self, step: Step, until_ns: int, cycles: int) -> None:
         time_ns = self._controller.clock.stamp_ns()
-        limits = LIMITS.pack(until_ns, cycles) if step is Step.RUN else b""
-        self._write(time_ns, self._journal.take(step.value, 0, 0, time_ns, (limits,)))
+        given = b""
+        if step is Step.RUN:
+            given = LIMITS.pack(until_ns, cycles)
+        elif step is Step.BOOT:
+            given = self._controller.retained.to_bytes()
+        self._write(time_ns, self._journal.take(step.value, 0, 0, time_ns, (given,)))

@@ -108,6 +108,8 @@ class Replay:
         self._views = [
             self.controller.memory.view(a.address, a.data_type.size) for a in self.controller.areas
         ]
+        self._retained = b""
+        self.controller.follow_steps(self._stepped)
         feed.end_run = self.controller.end_run
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.insert(0, self._publish)
@@ -133,6 +135,7 @@ class Replay:
             return self._differs("the run ended before this cycle")
         step = Step(record.step)
         limits = LIMITS.unpack(record.variables) if step is Step.RUN else (0, 0)
+        self._retained = record.variables
         self._next()
         with suppress(EndOfRecord, Diverged):
             self._do(step, *limits)
@@ -155,6 +158,11 @@ class Replay:
                 controller.shutdown()
             case Step.CLOSE:
                 controller.close()
+
+    def _stepped(self, step: Step, _until_ns: int, _cycles: int) -> None:
+        """Give retained variables what the recorded boot gave them."""
+        if step is Step.BOOT:
+            self.controller.retained.from_bytes(self._retained)
 
     def _next(self) -> None:
         self._feed.advance()

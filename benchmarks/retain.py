@@ -1,0 +1,222 @@
+"""kill -9 while retained variables change: nothing torn, no more lost than is said.
+
+A program counts in retained variables, all of which change in every cycle: in a DWORD, in an ARRAY
+of 64, in a global variable and in one of Structured Text. Its scan process is killed at random
+moments, and in every second run the process that writes the files together with it. Each run goes
+on with what the last one left.
+
+- Torn: the values of the file are not all of one cycle, or the next run begins with others.
+- Lost, where the scan alone is killed: cycles that were published and are not in the file.
+- Lost, where both are killed: the time between the last cycle published and the one in the file.
+  It is a period at most, and what the host and its disk take until the process has run.
+
+    python benchmarks/retain.py [--kills 200] [--json FILE]
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import random
+import signal
+import sys
+import tempfile
+import time
+from pathlib import Path
+from statistics import median
+from typing import NamedTuple
+
+from _outcome import (
+    Target,
+    console,
+    figures_table,
+    number_above_0,
+    print_machine,
+    print_targets,
+    write_json,
+)
+
+from plcsim.process.supervisor import Supervisor
+from plcsim.project.plc_toml import read_project
+from plcsim.retain.fitting import fit
+from plcsim.retain.generations import Generations
+from plcsim.shared_image import ImageError
+
+CYCLE_MS = 2
+PERIOD_MS = 50
+ELEMENTS = 64
+
+FILES = {
+    "plc.toml": f"""
+[plc]
+realtime = "off"
+init_timeout = "60s"
+[task_class.1]
+cycle = "{CYCLE_MS}ms"
+programs = ["counter", "text"]
+[retain]
+period = "{PERIOD_MS}ms"
+""",
+    "Global.var": "VAR RETAIN\n\tgCount : UDINT;\nEND_VAR\nVAR\n\tgNow : UDINT;\nEND_VAR\n",
+    "counter/main.py": f"""
+from plcsim import Program
+from st_types import ARRAY, UDINT, var
+
+
+class Counter(Program):
+    count = var(UDINT, retain=True)
+    table = var(ARRAY(UDINT, (1, {ELEMENTS})), retain=True)
+    began = var(UDINT, retain=True)
+
+    def init(self) -> None:
+        self.began = self.count
+
+    def cyclic(self) -> None:
+        self.count += 1
+        self.gNow = self.count
+        self.gCount = self.count
+        for number in range(1, {ELEMENTS} + 1):
+            self.table[number] = self.count
+""",
+    "text/Main.st": "PROGRAM _CYCLIC\n\tcount := gNow;\nEND_PROGRAM\n",
+    "text/Variables.var": "VAR RETAIN\n\tcount : UDINT;\nEND_VAR\n",
+}
+
+
+class Kill(NamedTuple):
+    """What a kill has done.
+
+    Attributes:
+        both: the service was killed too.
+        is_torn: values of different cycles, or others than were there before.
+        lost_ms: of the controller's time.
+    """
+
+    both: bool
+    is_torn: bool
+    lost_ms: int
+
+
+def main() -> int:
+    """Kill, and print what was lost."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--kills", type=number_above_0, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--json", type=Path, metavar="FILE")
+    options = parser.parse_args()
+    before = print_machine("before")
+    chance = random.Random(options.seed)
+    with tempfile.TemporaryDirectory(prefix="plcsim-retain-") as folder:
+        kills = _kills(Path(folder), chance, options.kills)
+    after = print_machine("after")
+    return _report(options.json, [before, after], kills)
+
+
+def _kills(folder: Path, chance: random.Random, count: int) -> list[Kill]:
+    for name, text in FILES.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(text, "utf-8")
+    done: list[Kill] = []
+    last = 0
+    for number in range(count):
+        last, kill = _kill(folder, chance.uniform(0.03, 0.3), last, both=bool(number % 2))
+        done.append(kill)
+    return done
+
+
+def _kill(folder: Path, after_s: float, last: int, *, both: bool) -> tuple[int, Kill]:
+    """Run, kill after a time in RUN; return the count that is kept, and what was lost."""
+    published = 0
+    killed = False
+    until_s = 0.0
+    with Supervisor(read_project(folder), quiet=True) as run:
+
+        def look() -> None:
+            nonlocal published, killed, until_s
+            image = run.services.image
+            with contextlib.suppress(ImageError):
+                if killed or image is None or not image.latest or not run.services.pids:
+                    return
+                until_s = until_s or time.monotonic() + after_s
+                if time.monotonic() < until_s or not _is_serving(run):
+                    return
+                killed = True
+                _end((_children() - run.services.pids) | (run.services.pids if both else set()))
+                published = _published(run)
+
+        run.wait(look)
+    count, is_whole, began = _kept(folder)
+    is_torn = not is_whole or began != last
+    return count, Kill(both, is_torn, (published - count) * CYCLE_MS)
+
+
+def _is_serving(run: Supervisor) -> bool:
+    return all(state.name == "SERVING" for state in run.services.states.values())
+
+
+def _published(run: Supervisor) -> int:
+    image = run.services.image
+    assert image is not None
+    tag = image.directory.find("counter.count")
+    at = image.directory.offset_of(tag.address, 4)
+    return int.from_bytes(image.copy(at, at + 4)[1], "little")
+
+
+def _kept(folder: Path) -> tuple[int, bool, int]:
+    """Return the count in the files, whether all values are of one cycle, and where it began."""
+    latest, _ = Generations(folder / "retain").latest()
+    assert latest is not None
+    taken = fit(latest, latest.variables).taken
+    data = b"".join(part for _, part in taken)
+    numbers = memoryview(data).cast("I").tolist()
+    paths = [tag.path for tag in latest.variables]
+    assert paths == ["gCount", "counter.count", "counter.table", "counter.began", "text.count"]
+    counts = [*numbers[:-2], numbers[-1]]
+    return counts[0], len(set(counts)) == 1, numbers[-2]
+
+
+def _end(pids: set[int]) -> None:
+    for pid in pids:
+        os.kill(pid, signal.SIGKILL)
+    deadline = time.monotonic() + 10
+    while time.monotonic() < deadline and not all(map(_has_ended, pids)):
+        time.sleep(0.001)
+
+
+def _has_ended(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text("ascii").rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def _children() -> set[int]:
+    found: set[int] = set()
+    for file in Path("/proc/self/task").glob("*/children"):
+        found |= {int(pid) for pid in file.read_text("ascii").split()}
+    return found
+
+
+def _report(file: Path | None, hosts: list[object], kills: list[Kill]) -> int:
+    table = figures_table("killed", "runs", "torn", "lost p50 ms", "worst ms")
+    for both, text in ((False, "the scan"), (True, "scan and service")):
+        lost = sorted(k.lost_ms for k in kills if k.both is both) or [0]
+        torn = sum(k.is_torn for k in kills if k.both is both)
+        table.add_row(text, str(len(lost)), str(torn), f"{median(lost):g}", str(lost[-1]))
+    console.print(table)
+    alone = [k.lost_ms for k in kills if not k.both]
+    both_killed = sorted(k.lost_ms for k in kills if k.both) or [0]
+    targets = [
+        Target("torn values", sum(k.is_torn for k in kills), 0, ""),
+        Target("lost, the scan killed", max(alone, default=0), 0, "ms"),
+        Target("lost, both killed, median", median(both_killed), PERIOD_MS, "ms"),
+        Target("lost, both killed, worst", both_killed[-1], 4 * PERIOD_MS, "ms"),
+    ]
+    print_targets(targets)
+    write_json(file, hosts, targets, kills=[k._asdict() for k in kills])  # type: ignore[arg-type]
+    return 0 if all(t.met for t in targets) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
