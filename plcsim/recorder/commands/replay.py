@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.cli.command import build_parser
 from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.run import recording, run_project
 from plcsim.core.duration import format_duration
@@ -23,6 +23,7 @@ from plcsim.recorder.replay.why import writers
 from st_types.writers.value_text import value_text
 
 if TYPE_CHECKING:
+    import argparse
     from collections.abc import Callable, Collection
     from pathlib import Path
 
@@ -34,14 +35,6 @@ PLAYER: Final = "ros_play"
 """Table of the extension that plays the bags of others."""
 
 _PLAYED: Final = ("topic", "clock", "real_clock", "record")
-_RUN: Final = {
-    "for_ns": None,
-    "cycles": None,
-    "report": None,
-    "quiet": False,
-    "stay": False,
-}
-"""Options of ``plcsim run`` that ``plcsim replay`` has not."""
 
 
 def replay(options: argparse.Namespace) -> int:
@@ -102,8 +95,8 @@ def _play(options: argparse.Namespace) -> int:
         raise RecordingError(f"{options.bag}: no installed package plays the bags of others")
     keys = {"bag": str(options.bag.resolve()), "topics": options.topic, "clock": options.clock}
     given: dict[str, Any] = {PLAYER: keys, "ros": {}, **recording(options.record)}
-    run = {"virtual": not options.real_clock, "project": options.project}
-    return run_project(argparse.Namespace(**_RUN, **run), read_project(options.project, given))
+    words = ["run", str(options.project), *["--virtual"] * (not options.real_clock)]
+    return run_project(build_parser("run").parse_args(words), read_project(options.project, given))
 
 
 def _refuse(options: argparse.Namespace, meant: str, names: Collection[str]) -> None:

@@ -13,6 +13,7 @@ from crosnode.plc.extension import EXTENSION as ROS
 from crosnode.plc.play_extension import EXTENSION as PLAY
 from crosnode.plc.project import create_node
 from plcsim import Program
+from plcsim.cli.main import main
 from plcsim.core.clock import VirtualClock
 from plcsim.core.controller import Controller
 from plcsim.core.logbook import Entry
@@ -121,6 +122,38 @@ def test_programs_hear_messages_at_their_times(play: Play, name: str, ros: dict[
     assert [each - times[0] for each in times] == [0, 100, 250]
     assert play.told == [f"plays {name}: 250 ms, /in", f"3 messages of {name}"]
     assert len(play.seen) < 200  # the run ends with the bag
+
+
+HEARS = """
+from crosnode.plc.project import create_node
+from plcsim import Program
+from st_types import UDINT, var
+
+class Hears(Program):
+    __slots__ = ("into", "node")
+    count = var(UDINT)
+
+    def init(self):
+        self.node = create_node(self.context, "hears")
+        self.into = self.node.register_subscriber("/in", "std_msgs/String")
+
+    def cyclic(self):
+        self.node.do_events_loop()
+        while self.into.pop() is not None:
+            self.count += 1
+"""
+
+
+def test_plcsim_replay_plays_and_records(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    project = tmp_path / "hears"
+    (project / "hears").mkdir(parents=True)
+    (project / "hears" / "main.py").write_text(HEARS)
+    (project / "plc.toml").write_text('[task_class.1]\ncycle = "10ms"\nprograms = ["hears"]\n')
+    bag, out = write(tmp_path / "field.bag", 0, 100), tmp_path / "out.bag"
+
+    assert main(["replay", str(bag), str(project), "--record", str(out)]) == 0
+    assert main(["bag", "export", str(out), "hears.count"]) == 0
+    assert capfd.readouterr().out.splitlines()[-1].endswith(",2")
 
 
 def test_ros_time_is_that_of_the_bag(play: Play) -> None:
