@@ -151,6 +151,7 @@ def run_project(options: argparse.Namespace, project: Project) -> int:
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
+        serves=options.web,
         stays=options.stay or (options.web and options.cycles is None),
         cold=options.cold,
         output=output,

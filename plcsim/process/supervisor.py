@@ -72,6 +72,7 @@ class Supervisor:
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
         stays: STOPPED and SERVICE do not end the run: the scan waits for a restart.
+        serves: services that can do with the virtual clock run beside it; without it, none does.
         output: carries what the processes print; by default to this process' stdout and stderr.
         quiet: the services print nothing but errors.
         cold: retained variables begin with their initial values.
@@ -89,6 +90,7 @@ class Supervisor:
         for_ns: int | None = None,
         cycles: int | None = None,
         stays: bool = False,
+        serves: bool = False,
         output: Output | None = None,
         quiet: bool = False,
         cold: bool = False,
@@ -105,7 +107,7 @@ class Supervisor:
         self._system = SystemArea.of_file(self._system_fd)
         given = project.extensions
         self.services = ServiceProcesses(
-            in_process(given, VIRTUAL_IP) if virtual else given,
+            given if not virtual else in_process(given, VIRTUAL_IP) if serves else {},
             self.page,
             self._output,
             quiet=quiet,
