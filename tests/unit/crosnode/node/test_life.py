@@ -16,7 +16,7 @@ def test_a_node_that_shall_respawn_returns_with_all_it_had() -> None:
         other.register_subscriber("/out", STRING),
         other.register_publisher("/in", STRING),
     )
-    world.until(lambda: publisher.subscribers and subscriber.publishers)
+    world.until(lambda: heard.publishers and subscriber.publishers)
     other.call_node(node.uri, "shutdown", "because")
     world.until(lambda: not heard.publishers, 100)
     assert not node.is_shut_down
