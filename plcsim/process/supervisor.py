@@ -17,7 +17,7 @@ import signal
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 from plcsim.core import system_area
 from plcsim.core.duration import format_duration
@@ -59,6 +59,10 @@ DUMP_POLLS = 10
 """How often the watchdog looks for the stack of a program before it kills."""
 
 _FRAME = re.compile(r'File "(.+)", line (\d+)')
+
+ONE_THREAD: Final = {"OPENBLAS_NUM_THREADS": "1"}
+"""Numpy's library takes 32 MB for each processor, all of them real where memory is locked, and its
+threads would compete with the scan; who wants them sets the variable."""
 
 
 class Supervisor:
@@ -421,6 +425,7 @@ def _start(order: RunOrder, fds: tuple[int, ...], output: ChildOutput) -> subpro
             stdin=subprocess.DEVNULL,
             stdout=output.fds[0],
             stderr=output.fds[1],
+            env={**ONE_THREAD, **os.environ},
         )
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
