@@ -97,7 +97,7 @@ class ImageTag:
         self._image.send(Write([StoreCommand(self._address, data)]))
 
 
-class Status:
+class BridgeStatusTag:
     """Tells a tag how an entry does, where one is named."""
 
     def __init__(self, image: ImageReader, path: str | None) -> None:
@@ -134,8 +134,8 @@ class Ros2Bridge:
         self.trouble = ""
         self.participant = DomainParticipant(given["domain"])
         try:
-            self._out = [Outgoing(self, entry) for entry in given["publish"]]
-            self._in = [Incoming(self, entry) for entry in given["subscribe"]]
+            self._out = [OutgoingTopic(self, entry) for entry in given["publish"]]
+            self._in = [IncomingTopic(self, entry) for entry in given["subscribe"]]
         except CrosnodeError as error:
             raise ConfigurationError(f"ros2: {error}") from None
         self.text = (
@@ -149,7 +149,7 @@ class Ros2Bridge:
             now_ns: monotonic.
             unix_ns: nanoseconds since 1970, for stamps.
         """
-        entries: list[Incoming | Outgoing] = [*self._in, *self._out]
+        entries: list[IncomingTopic | OutgoingTopic] = [*self._in, *self._out]
         for each in entries:
             try:
                 each.turn(now_ns, unix_ns)
@@ -157,7 +157,7 @@ class Ros2Bridge:
                 self.trouble = f"ros2: {each.topic}: {error}"
 
 
-class Entry:
+class BridgedTopic:
     """What both directions share.
 
     Args:
@@ -171,7 +171,7 @@ class Entry:
         self.type_name: str = entry["type"]
         self.cuts: Counter[str] = Counter()
         self.tag = ImageTag(bridge.image, entry["tag"])
-        self.status = Status(bridge.image, entry["status"])
+        self.status = BridgeStatusTag(bridge.image, entry["status"])
         self.structures = bridge.structures
         message_type = bridge.types.message(self.type_name)
         context = ConversionContext(bridge.types, self.cuts)
@@ -188,7 +188,7 @@ class Entry:
         )
 
 
-class Outgoing(Entry):
+class OutgoingTopic(BridgedTopic):
     """A tag that is published."""
 
     def __init__(self, bridge: Ros2Bridge, entry: dict[str, Any]) -> None:
@@ -220,7 +220,7 @@ class Outgoing(Entry):
         self._writer.write(self.structures.to_structure(self.type_name, message))
 
 
-class Incoming(Entry):
+class IncomingTopic(BridgedTopic):
     """A tag that takes the newest sample of a topic."""
 
     def __init__(self, bridge: Ros2Bridge, entry: dict[str, Any]) -> None:

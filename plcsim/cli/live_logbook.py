@@ -34,22 +34,28 @@ def line_of(time_ns: int, source: str, text: str) -> str:
 class LiveLogbook:
     """Prints warnings as they come; those by the host in one line for all.
 
-    Errors are not printed: they end the run, and its summary tells them.
+    Errors are not printed where they end the run: its summary tells them.
 
     Args:
         events: gives a reader of the stream of events once there is one.
         say: prints a line.
+        with_errors: the run goes on after them, so they are printed too.
 
     Attributes:
         shown: what was printed, as (time_ns, source, text).
     """
 
     def __init__(
-        self, events: Callable[[], StreamReader | None], say: Callable[[str], None]
+        self,
+        events: Callable[[], StreamReader | None],
+        say: Callable[[str], None],
+        *,
+        with_errors: bool = False,
     ) -> None:
         self.shown: set[tuple[int, str, str]] = set()
         self._events = events
         self._say = say
+        self._told = {Severity.WARNING, Severity.ERROR} if with_errors else {Severity.WARNING}
         self._reader: StreamReader | None = None
         self._second = 0
         self._lines = 0
@@ -79,7 +85,7 @@ class LiveLogbook:
             self._unsaid = 0
 
     def _tell(self, entry: Entry) -> None:
-        if entry.severity is not Severity.WARNING:
+        if entry.severity not in self._told:
             return
         if is_by_host(entry.source, entry.text):
             self._tell_of_host(entry)

@@ -24,19 +24,22 @@ from plcsim.cli.project_argument import add_configuration, add_project, configur
 from plcsim.cli.terminal import Terminal
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import ConfigurationError
+from plcsim.core.system import State
 from plcsim.process.output import Output
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.assembly import runnable
 from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Callable, Collection, Iterator
     from types import FrameType
 
     from plcsim.project.plc_toml import Project
+    from plcsim.shared_image.status_page import StatusPage
+
+STAYS = "the values of the last cycle can be read until Ctrl-C"
 
 HINT = "Ctrl-C stops it; values in another terminal: plcsim watch {}"
-
 
 KEEP_GOING = "\nplcsim run --keep-going leaves out the programs that cannot run, and runs the rest"
 
@@ -146,21 +149,25 @@ def run_project(options: argparse.Namespace, project: Project) -> int:
     terminal = None if options.quiet else _terminal()
     stdout = terminal if terminal is not None and _is_one_terminal() else None
     output = Output(stdout, terminal, patient=options.virtual)
+    stays = options.stay or (options.web and options.cycles is None)
     supervisor = Supervisor(
         project,
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
         serves=options.web,
-        stays=options.stay or (options.web and options.cycles is None),
+        stays=stays,
         cold=options.cold,
         output=output,
         quiet=options.quiet,
     )
-    logbook = None if options.quiet else LiveLogbook(supervisor.events, output.say)
+    logbook = None
+    if not options.quiet:
+        logbook = LiveLogbook(supervisor.events, output.say, with_errors=stays)
+    notice = StayNotice(output.say) if stays and not options.quiet else None
     with supervisor, _signals_forwarded(supervisor):
         with _table_on(terminal, _table(project, supervisor, options)):
-            result = supervisor.wait(partial(_look, logbook))
+            result = supervisor.wait(partial(_look, logbook, notice, supervisor.page))
         shown = frozenset() if logbook is None else logbook.shown
         hint = KEEP_GOING if len(project.programs) > 1 and not options.keep_going else ""
         code = _finish(result, options, shown, hint)  # a late Ctrl-C shall not cost the report
@@ -200,9 +207,30 @@ def _read_project(options: argparse.Namespace) -> Project:
     return project
 
 
-def _look(logbook: LiveLogbook | None) -> None:
+class StayNotice:
+    """Tells, each time that the controller stops, that the run stays.
+
+    Args:
+        say: prints a line.
+    """
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self._say = say
+        self._is_told = False
+
+    def look(self, state: State) -> None:
+        """Print the line where the state is SERVICE or STOPPED, once until it runs again."""
+        has_stopped = state in (State.SERVICE, State.STOPPED)
+        if has_stopped and not self._is_told:
+            self._say(f"{state.name}: {STAYS}")
+        self._is_told = has_stopped
+
+
+def _look(logbook: LiveLogbook | None, notice: StayNotice | None, page: StatusPage) -> None:
     if logbook is not None:
         logbook.look(time.monotonic_ns())
+    if notice is not None:
+        notice.look(page.state)
 
 
 def _terminal() -> Terminal | None:
@@ -259,7 +287,7 @@ def _signals_forwarded(supervisor: Supervisor) -> Iterator[None]:
 def _stay(supervisor: Supervisor, options: argparse.Namespace) -> None:
     if not options.quiet:
         with contextlib.suppress(OSError):
-            print("The values of the last cycle can be read until Ctrl-C.", file=sys.stderr)
+            print(STAYS, file=sys.stderr)
     supervisor.stay()
 
 

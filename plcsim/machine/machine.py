@@ -25,7 +25,7 @@ from plcsim.machine.errors import Frame, MachineError
 from plcsim.machine.opcodes import I32, I32_CONST
 from plcsim.machine.signals import keep_handlers
 from plcsim.machine.store import Store
-from plcsim.machine.watch import Watch
+from plcsim.machine.watch import MemoryWatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -172,7 +172,7 @@ class Machine:
         watch: Callable[[Frame], None] | None = None,
     ) -> None:
         self.memory = memory
-        self._watch: Watch | None = None
+        self._watch: MemoryWatch | None = None
         self._cache = cache or default_cache()
         self._engine = engine_of(fuel=fuel, compare=compare)
         keep_handlers()
@@ -194,7 +194,7 @@ class Machine:
         self._shared: dict[object, Any] = {}
         if watch is not None:
             entry = self.reserve_functions(1)
-            self._watch = Watch(watch, entry)
+            self._watch = MemoryWatch(watch, entry)
             self.set_function(entry, self.host_function(self._watch.told, "q"))
 
     def close(self) -> None:

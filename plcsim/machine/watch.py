@@ -54,7 +54,7 @@ _SATURATING: Final = range(8)
 """Conversions, behind 0xFC; what else WebAssembly has, the machine has not (`Engine`)."""
 
 
-class Watch:
+class MemoryWatch:
     """What is asked behind each store of the modules of one machine.
 
     Args:

@@ -86,7 +86,7 @@ class Supervisor:
         services: the service processes; few can do with the virtual clock.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913  # a run has so many choices, each by its name
         self,
         project: Project,
         *,

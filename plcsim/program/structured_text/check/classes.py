@@ -42,7 +42,7 @@ GET, SET = ".GET", ".SET"
 
 
 @dataclass(slots=True, eq=False)
-class Method:
+class ClassMethod:
     """A method as one function block has it.
 
     Attributes:
@@ -79,9 +79,9 @@ class Class:
     file: StructuredTextFile
     base: Class | None = None
     methods: dict[str, MethodUnit] = field(default_factory=dict)
-    _made: dict[tuple[Class, str], Method] = field(default_factory=dict)
+    _made: dict[tuple[Class, str], ClassMethod] = field(default_factory=dict)
 
-    def find(self, key: str, start: Class | None = None) -> Method | None:
+    def find(self, key: str, start: Class | None = None) -> ClassMethod | None:
         """Return a method that this function block has.
 
         Args:
@@ -100,7 +100,7 @@ class Class:
             yield found
             found = found.base
 
-    def implements(self, name: str, interfaces: Mapping[str, Interface]) -> bool:
+    def implements(self, name: str, interfaces: Mapping[str, ClassInterface]) -> bool:
         """Return whether this function block, or one that it extends, implements an interface.
 
         Args:
@@ -116,7 +116,7 @@ class Class:
             seen.add(base)
         return name in seen
 
-    def _method(self, key: str, maker: Class) -> Method | None:
+    def _method(self, key: str, maker: Class) -> ClassMethod | None:
         made = self._made.get((maker, key))
         if made is None:
             unit, file = maker.methods[key], maker.file
@@ -136,11 +136,11 @@ class Class:
                 return None
             through = "" if maker is self else f"{maker.block.name}."
             label = f"{self.block.name}.{through}{key or 'body'}"
-            made = self._made[maker, key] = Method(label, function, unit, self, maker)
+            made = self._made[maker, key] = ClassMethod(label, function, unit, self, maker)
         return made
 
 
-class Interface(NamedTuple):
+class ClassInterface(NamedTuple):
     """An INTERFACE; a variable of it holds the address and the number of a function block.
 
     Attributes:

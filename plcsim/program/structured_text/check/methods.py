@@ -23,7 +23,7 @@ from st_types.syntax import expressions as syntax
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from plcsim.program.structured_text.check.classes import Class, Method
+    from plcsim.program.structured_text.check.classes import Class, ClassMethod
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.names import ScopeNames
@@ -41,7 +41,7 @@ class Callees(NamedTuple):
     """
 
     value: Value
-    methods: Mapping[int, Method]
+    methods: Mapping[int, ClassMethod]
 
 
 class MethodChecker(ExpressionChecker):
@@ -55,7 +55,7 @@ class MethodChecker(ExpressionChecker):
     def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         super().__init__(names, findings)
         self.called_functions: set[str] = set()
-        self.called_methods: dict[str, Method] = {}
+        self.called_methods: dict[str, ClassMethod] = {}
 
     def arguments_of(self, node: syntax.Call, function: DeclaredFunction) -> Sequence[Value | None]:
         """Return the arguments in the order of the parameters."""
@@ -138,7 +138,7 @@ class MethodChecker(ExpressionChecker):
         return None if method is None else Callees(self.itself(), {0: method})
 
     def call_by(
-        self, found: Callees, arguments: Callable[[Method], Sequence[Value | None]]
+        self, found: Callees, arguments: Callable[[ClassMethod], Sequence[Value | None]]
     ) -> Value:
         """Return the call of a method, or of one of several by the number in an interface."""
         value, methods = found
@@ -152,7 +152,7 @@ class MethodChecker(ExpressionChecker):
         return Dispatch(calls[0][1].type, Member(UDINT, value, UDINT.size), calls)
 
     def _called_method(
-        self, instance: Value, method: Method, arguments: Sequence[Value | None]
+        self, instance: Value, method: ClassMethod, arguments: Sequence[Value | None]
     ) -> MethodCall:
         self.called_methods[method.label] = method
         self.called_functions.add(method.label)

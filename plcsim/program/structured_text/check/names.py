@@ -24,7 +24,7 @@ from st_types.types.derived import ReferenceType
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from plcsim.program.structured_text.check.classes import Classes, Interface
+    from plcsim.program.structured_text.check.classes import Classes, ClassInterface
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Storage, Value
@@ -58,7 +58,7 @@ class Symbols:
     def __init__(self, storages: Mapping[Scope, Storage]) -> None:
         self.storages = dict(storages)
         self.classes: Classes = {}
-        self.interfaces: dict[Type, Interface] = {}
+        self.interfaces: dict[Type, ClassInterface] = {}
         self.namespaces: set[str] = set()
         self._symbols: dict[VariableEntry, Symbol] = {}
 

@@ -12,7 +12,7 @@ from plcsim.program.structured_text.check.classes import (
     GET,
     SET,
     Class,
-    Interface,
+    ClassInterface,
     action_as_method,
     body_as_method,
     interface_type,
@@ -48,7 +48,7 @@ from st_types.types.derived import StructType
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
-    from plcsim.program.structured_text.check.classes import Method
+    from plcsim.program.structured_text.check.classes import ClassMethod
     from plcsim.program.structured_text.check.typed import BodyKind, Storage, Value
     from plcsim.program.structured_text.syntax.tree import (
         Part,
@@ -341,7 +341,7 @@ class _ProgramChecker:
         methods = [part for part in unit.parts if isinstance(part, MethodUnit)]
         key_of = self._scope.dialect.key
         keys = {key_of_method(each, key_of(each.declaration.name)) for each in methods}
-        self.symbols.interfaces[data_type] = Interface(unit.name, unit.bases, keys)
+        self.symbols.interfaces[data_type] = ClassInterface(unit.name, unit.bases, keys)
 
     def _include(self, unit: Include) -> None:
         self._findings.error(
@@ -436,7 +436,7 @@ class _ProgramChecker:
             action.is_needed = True
         return [*found, *self._called_methods(checker.called_methods)]
 
-    def _called_methods(self, methods: Mapping[str, Method]) -> Iterator[_Job]:
+    def _called_methods(self, methods: Mapping[str, ClassMethod]) -> Iterator[_Job]:
         """Yield the methods that are called for the first time."""
         for label, method in methods.items():
             if label in self._methods:
