@@ -19,6 +19,7 @@ from plcsim.project.project_file import find_project
 if TYPE_CHECKING:
     import argparse
 
+_EPILOG = epilog(DONE="", FAILED="there is no such project or user, or the file is damaged")
 _ROLES = "look sees everything; operate writes, stops and starts; engineer may do all, force too"
 
 
@@ -33,7 +34,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
             ("plcsim users list my_plc", "users and tokens"),
             ("plcsim users add anna --role engineer", "asks for a password"),
         ),
-        epilog=epilog(DONE="", FAILED="there is no such project or user, or the file is damaged"),
+        epilog=_EPILOG,
     )
     acts = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _register_add(acts)
@@ -43,6 +44,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="remove a user or a token",
         description="Remove a user or a token; who is logged in is logged out.",
         examples=(("plcsim users remove anna", "at once"),),
+        epilog=_EPILOG,
     )
     _add_arguments(remove)
     remove.set_defaults(func=remove_user)
@@ -51,6 +53,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="list users and tokens",
         description="List users and tokens with their roles.",
         examples=(("plcsim users list my_plc", "all of a project"),),
+        epilog=_EPILOG,
     )
     shown.add_argument("project", nargs="?", type=Path, default=None, metavar="PROJECT", help=HELP)
     shown.set_defaults(func=list_users)
@@ -66,6 +69,7 @@ def _register_add(acts: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
             ("plcsim users add anna --role engineer", "asks for a password"),
             ("plcsim users add panel --project my_plc", "looks only"),
         ),
+        epilog=_EPILOG,
     )
     _add_arguments(parser)
     _add_role(parser)
@@ -79,6 +83,7 @@ def _register_token(acts: argparse._SubParsersAction[argparse.ArgumentParser]) -
         description="Make a token for a script and print it; it cannot be shown again. The script "
         "sends it as 'Authorization: Bearer TOKEN'.",
         examples=(("plcsim users token nightly --role look", "prints the token"),),
+        epilog=_EPILOG,
     )
     _add_arguments(parser)
     _add_role(parser)

@@ -19,6 +19,7 @@ PLC_KEYS = """\
 # priority = 50  # of SCHED_FIFO, 1 to 98
 # cpu = -1  # processor of the scan; -1 for the last one that is free
 # exception_program = "..."  # a program that runs for violations under the policy "exception"
+# dialect = ""  # of Structured Text: "iec", "automation-studio", "" for what each file tells
 # start_date = 2026-03-31T06:00:00  # date of the controller at its start; by default the host's
 
 """

@@ -102,7 +102,7 @@ def test_what_a_scan_process_that_died_has_left_can_be_read_until_ctrl_c(
     folder = project_of(KILLED)
     assert main(["run", str(folder), *VIRTUAL, "--stay"]) == 3
     *_, last = capsys.readouterr().err.splitlines()
-    assert last == "The values of the last cycle can be read until Ctrl-C."
+    assert last == "the values of the last cycle can be read until Ctrl-C"
     assert main(["run", str(folder), *VIRTUAL, "--stay", "--quiet"]) == 3
     assert "until Ctrl-C" not in capsys.readouterr().err
     assert main(["run", str(folder), *VIRTUAL]) == 3

@@ -50,11 +50,11 @@ def test_so_many_guests_have_room_and_their_places_are_given_back(world: World) 
 
 DIES = """
 import sys, time
-from plcsim.shared_image import Sample
+from plcsim.shared_image import SampleCommand
 from plcsim.shared_image.guest import guest
 with guest(sys.argv[1]) as reader:
     tag = reader.directory.find("fast.count")
-    reader.send(Sample(1, 0, 0, [(tag.address, 4)]))
+    reader.send(SampleCommand(1, 0, 0, [(tag.address, 4)]))
     print("asked", flush=True)
     time.sleep(60)
 """
