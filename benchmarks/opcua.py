@@ -75,7 +75,7 @@ def make_project(folder: Path, port: int) -> Path:
 
 async def subscribe(port: int, seconds: float) -> None:
     """Be the client: print how many changes came."""
-    from asyncua import Client, ua  # noqa: PLC0415
+    from asyncua import Client, ua  # noqa: PLC0415  # only the client process needs it
 
     class Counter:
         count = 0
@@ -123,7 +123,7 @@ def one_run(folder: Path, seconds: float, *, with_client: bool) -> dict[str, Any
         done = subprocess.run(pinned, stdout=subprocess.PIPE, text=True, check=True)
         found = json.loads(done.stdout)
     else:
-        time.sleep(seconds)
+        time.sleep(seconds)  # the scan runs beside nobody for as long as it does beside a client
     found["share"] = (cpu_s(service) - before) / (time.monotonic() - since)
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60)

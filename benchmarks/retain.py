@@ -25,7 +25,7 @@ import tempfile
 import time
 from pathlib import Path
 from statistics import median
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from _outcome import (
     Target,
@@ -42,6 +42,9 @@ from plcsim.project.plc_toml import read_project
 from plcsim.retain.fitting import fit
 from plcsim.retain.generations import Generations
 from plcsim.shared_image import ImageError
+
+if TYPE_CHECKING:
+    from plcsim.doctor.host import Host
 
 CYCLE_MS = 2
 PERIOD_MS = 50
@@ -181,7 +184,7 @@ def _end(pids: set[int]) -> None:
         os.kill(pid, signal.SIGKILL)
     deadline = time.monotonic() + 10
     while time.monotonic() < deadline and not all(map(_has_ended, pids)):
-        time.sleep(0.001)
+        time.sleep(0.001)  # no children of ours: nothing tells when they have ended
 
 
 def _has_ended(pid: int) -> bool:
@@ -198,7 +201,7 @@ def _children() -> set[int]:
     return found
 
 
-def _report(file: Path | None, hosts: list[object], kills: list[Kill]) -> int:
+def _report(file: Path | None, hosts: list[Host], kills: list[Kill]) -> int:
     table = figures_table("killed", "runs", "torn", "lost p50 ms", "worst ms")
     for both, text in ((False, "the scan"), (True, "scan and service")):
         lost = sorted(k.lost_ms for k in kills if k.both is both) or [0]
@@ -214,7 +217,7 @@ def _report(file: Path | None, hosts: list[object], kills: list[Kill]) -> int:
         Target("lost, both killed, worst", both_killed[-1], 4 * PERIOD_MS, "ms"),
     ]
     print_targets(targets)
-    write_json(file, hosts, targets, kills=[k._asdict() for k in kills])  # type: ignore[arg-type]
+    write_json(file, hosts, targets, kills=[k._asdict() for k in kills])
     return 0 if all(t.met for t in targets) else 1
 
 

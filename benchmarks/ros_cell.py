@@ -75,7 +75,7 @@ class Peers:
             with contextlib.suppress(OSError):
                 master.setParam("/cell", "/robot_description", urdf)
                 return
-            time.sleep(0.05)
+            time.sleep(0.05)  # rosmaster does not tell when it listens
         raise SystemExit("no rosmaster")
 
     def kill_master(self) -> None:
@@ -112,7 +112,7 @@ def start_all(peers: Peers, cell: Project, folder: Path) -> None:
     for _ in range(300):
         if cell.is_readable():
             break
-        time.sleep(0.1)
+        time.sleep(0.1)  # Modbus answers when the first cycle is done
     listener = compiled_listener(folder)
     peers.start("steady", listener, "steady")
     peers.start("stopped", listener, "stopped")
@@ -151,7 +151,7 @@ def trouble(peers: Peers, seconds: int, restart_s: int) -> int:
             peers.send("stopped", signal.SIGSTOP)
         elif second % STOP_EVERY_S == 5 + STOP_S:
             peers.send("stopped", signal.SIGCONT)
-        time.sleep(1)
+        time.sleep(1)  # what happens at which second is the measurement
     peers.send("stopped", signal.SIGCONT)
     return deaths
 

@@ -107,7 +107,7 @@ def await_pages(port: int) -> None:
         except OSError:
             if time.monotonic() > deadline:
                 raise
-            time.sleep(0.1)
+            time.sleep(0.1)  # the pages are asked until they are there
         else:
             return
 

@@ -27,11 +27,14 @@ if TYPE_CHECKING:
     from plcsim.process.service_main import Service
 
 REST_S: Final = 0.001
+"""Between two steps; a message is late by as much at most."""
+
 ASK_NS: Final = 200_000_000
 """Between two questions to the master who subscribes."""
 
 NODE: Final = "player"
 AFTERWARDS_S: Final = 0.5
+"""The last messages are still on their way through TCP and the program."""
 
 
 def serve(service: Service) -> None:

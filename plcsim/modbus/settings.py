@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, field, replace
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal
 
-from plcsim.settings import Converted, Duration, SettingKind, Whole, settings
+from plcsim.settings import Converted, Duration, IpAddress, SettingKind, Whole, settings
 from plcsim.settings.kinds import PathTo
 
 if TYPE_CHECKING:
@@ -27,13 +27,6 @@ class _File(SettingKind):
     def convert(self, value: object, folder: Path) -> str:
         """Return the path."""
         return str(PathTo("file").convert(value, folder.resolve()))
-
-
-def _address(text: str) -> str:
-    try:
-        return str(ipaddress.ip_address(text))
-    except ValueError:
-        raise ValueError(f"{text!r} is not an IP address") from None
 
 
 def _network(text: str) -> str:
@@ -78,7 +71,7 @@ class ModbusSettings:
         tls: None for plain TCP.
     """
 
-    host: Annotated[str, Converted(_address)] = "127.0.0.1"
+    host: Annotated[str, IpAddress()] = "127.0.0.1"
     port: Annotated[int, Whole(0, 65535)] = MODBUS_PORT
     tags: str = ""
     auto: bool = False

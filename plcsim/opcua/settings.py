@@ -6,7 +6,7 @@ import ipaddress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, NamedTuple
 
-from plcsim.settings import Converted, Duration, Whole, settings
+from plcsim.settings import Duration, IpAddress, Whole, settings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,13 +16,6 @@ if TYPE_CHECKING:
 
 OPCUA_PORT: Final = 4840
 """opc.tcp, IANA."""
-
-
-def _address(text: str) -> str:
-    try:
-        return str(ipaddress.ip_address(text))
-    except ValueError:
-        raise ValueError(f"{text!r} is not an IP address") from None
 
 
 @settings
@@ -43,7 +36,7 @@ class OpcuaSettings:
         write_timeout_ns: a write that the scan has not shown by then is answered BadTimeout.
     """
 
-    host: Annotated[str, Converted(_address)] = "127.0.0.1"
+    host: Annotated[str, IpAddress()] = "127.0.0.1"
     port: Annotated[int, Whole(0, 65535)] = OPCUA_PORT
     tags: tuple[str, ...] = ()
     read_only: bool = False

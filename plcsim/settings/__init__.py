@@ -6,7 +6,7 @@ where the key is missing; an attribute without one must be given::
 
     @settings
     class ModbusSettings:
-        host: Annotated[str, Converted(ip_address)] = "127.0.0.1"
+        host: Annotated[str, IpAddress()] = "127.0.0.1"
         port: Annotated[int, Whole(0, 65535)] = 502
         idle_ns: Annotated[int, Duration(minimum_ns=1)] = 60_000_000_000  # key "idle"
         order: Literal["ABCD", "CDAB"] = "ABCD"
@@ -25,12 +25,23 @@ settings, ``tuple[X, ...]`` (a list), ``Mapping[str, X]`` (a table with free key
 """
 
 from plcsim.settings.declaration import is_settings, settings
-from plcsim.settings.kinds import Converted, Duration, Key, OneOf, PathTo, SettingKind, Size, Whole
+from plcsim.settings.kinds import (
+    Converted,
+    Duration,
+    IpAddress,
+    Key,
+    OneOf,
+    PathTo,
+    SettingKind,
+    Size,
+    Whole,
+)
 from plcsim.settings.table import Table
 
 __all__ = [
     "Converted",
     "Duration",
+    "IpAddress",
     "Key",
     "OneOf",
     "PathTo",

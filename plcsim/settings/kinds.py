@@ -6,6 +6,7 @@ that follows ``FILE: TABLE.KEY:``.
 
 from __future__ import annotations
 
+import ipaddress
 import os
 import re
 from abc import ABC, abstractmethod
@@ -156,6 +157,19 @@ class Converted(SettingKind):
     def convert(self, value: object, _folder: Path) -> object:
         """Return what the function makes of the string."""
         return self.function(of_kind(str, value, self.example))
+
+
+@dataclass(frozen=True)
+class IpAddress(SettingKind):
+    """An address of IPv4 or IPv6, as text; settings go to services as JSON."""
+
+    def convert(self, value: object, _folder: Path) -> str:
+        """Return the address as it is commonly written."""
+        text = of_kind(str, value)
+        try:
+            return str(ipaddress.ip_address(text))
+        except ValueError:
+            raise ValueError(f"{text!r} is not an IP address") from None
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import ipaddress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple
 
-from plcsim.settings import Converted, SettingKind, Whole, settings
+from plcsim.settings import IpAddress, SettingKind, Whole, settings
 from plcsim.settings.kinds import PathTo
 
 if TYPE_CHECKING:
@@ -16,13 +16,6 @@ if TYPE_CHECKING:
     from plcsim.settings import Table
 
 WEB_PORT: Final = 8080
-
-
-def _address(text: str) -> str:
-    try:
-        return str(ipaddress.ip_address(text))
-    except ValueError:
-        raise ValueError(f"{text!r} is not an IP address") from None
 
 
 class _PemFile(SettingKind):
@@ -58,7 +51,7 @@ class WebSettings:
         tls: None for plain HTTP.
     """
 
-    host: Annotated[str, Converted(_address)] = "127.0.0.1"
+    host: Annotated[str, IpAddress()] = "127.0.0.1"
     port: Annotated[int, Whole(0, 65535)] = WEB_PORT
     names: tuple[str, ...] = ()
     connections: Annotated[int, Whole(1, 10_000)] = 64

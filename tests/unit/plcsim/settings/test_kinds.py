@@ -4,7 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.settings.kinds import Converted, Duration, OneOf, PathTo, SettingKind, Size, Whole
+from plcsim.settings.kinds import (
+    Converted,
+    Duration,
+    IpAddress,
+    OneOf,
+    PathTo,
+    SettingKind,
+    Size,
+    Whole,
+)
 
 FOLDER = Path()
 
@@ -14,6 +23,7 @@ FOLDER = Path()
     [
         (Whole(-1, 1), -1, -1),
         (Duration(), "1.5s", 1_500_000_000),
+        (IpAddress(), "0:0::1", "::1"),
         (Duration(10, 20), "20ns", 20),
         (Size(0, 1 << 31), "16MiB", 16 << 20),
         (Size(0, 1 << 31), "1 KiB", 1024),

@@ -1,6 +1,10 @@
 """What the service does about clients that misbehave."""
 
-from plcsim.opcua.service.process import MOST_UNREAD, cut_off
+import pytest
+
+pytest.importorskip("asyncua")
+
+from plcsim.opcua.service.server import MOST_UNREAD, cut_off
 
 
 class Transport:
