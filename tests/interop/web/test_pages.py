@@ -330,10 +330,11 @@ def test_everything_is_reached_by_keys(page, press):
     page.get_by_role("button", name="Value of line.setpoint", exact=True).focus()
     page.keyboard.press("Enter")
     page.get_by_label("New value").wait_for()
-    page.get_by_label("New value").focus()
+    assert page.evaluate("document.activeElement.id") == "new-value"
     page.keyboard.press("Control+a")
     page.keyboard.type("3.75")
     page.keyboard.press("Tab")
+    page.wait_for_timeout(300)  # nothing that the dialog does later takes the focus away
     assert page.evaluate("document.activeElement.textContent") == "Write"
     page.keyboard.press("Enter")
     eventually(page, lambda: read(press, "line.setpoint") == [3.75])

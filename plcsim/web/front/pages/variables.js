@@ -246,10 +246,16 @@ export function change(one, view = null) {
       drawNow(link.values.get(one.path));
       view?.showValue(one.path, link.values.get(one.path));
     } }, FORMATS.map((each) => h("option", { value: each, selected: (formats[one.path] ?? "dec") === each }, each)));
-    let isFresh = true;
+    let isUntouched = true;
+    field.input.addEventListener("input", () => { isUntouched = false; });
     const drawNow = (value) => {
       setText(now, shown(value, one.kind, formats[one.path]));
-      if (isFresh && value !== undefined && value !== null) { field.input.value = editable(value, one.kind); isFresh = false; }
+      if (isUntouched && value !== undefined && value !== null) {
+        field.input.value = editable(value, one.kind);
+        // select() would take the focus from where the user went meanwhile
+        if (document.activeElement === field.input) field.input.select?.();
+        isUntouched = false;
+      }
     };
     watching = link.watch([one.path], (_path, value) => drawNow(value));
     draw();
@@ -270,10 +276,9 @@ export function change(one, view = null) {
 function fieldFor(one) {
   if (one.kind === "bool" || one.kind === "enumeration") {
     const names = one.names ?? ["FALSE", "TRUE"];
-    const input = h("select", { id: "new-value" }, names.map((name) => h("option", { value: name }, name)));
+    const input = h("select", { id: "new-value", autofocus: true }, names.map((name) => h("option", { value: name }, name)));
     return { input, shown: input };
   }
-  const input = h("input", { id: "new-value", autocomplete: "off", spellcheck: "false" });
-  setTimeout(() => input.select?.(), 150);
+  const input = h("input", { id: "new-value", autocomplete: "off", spellcheck: "false", autofocus: true });
   return { input, shown: input };
 }
