@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.commands.message_types import message_types
 from crosnode.graph.arguments import DEFAULT_MASTER_URI, NodeSettings, node_settings
-from crosnode.graph.hosts import HostTable, parse_hosts
-from crosnode.graph.uri import parse_uri
+from crosnode.graph.hosts import HostTable, is_ipv6_wanted, loopback, parse_hosts
+from crosnode.graph.uri import make_uri, parse_uri
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.node.ros_time import Epoch
@@ -78,7 +78,7 @@ class RosClient:
         self._turn = turn
         self._options = (options or NodeOptions())._replace(step=UNPACED)
         self._loop = EventLoop(context)
-        self._hosts = HostTable(self._options.hosts)
+        self._hosts = HostTable(self._options.hosts, ipv6=self._options.ipv6)
         self._api = ApiCaller(self._loop, self._hosts, self._options.xmlrpc)
         self._made: CrosNode | None = None
 
@@ -184,7 +184,7 @@ class RosClient:
             limits=self._options.tcpros,
             now_ns=self.now_ns,
         )
-        return self._header(f"rosrpc://{host}:{port}", connection, publisher)
+        return self._header(make_uri("rosrpc", host, port), connection, publisher)
 
     def _header(self, uri: str, connection: ProtocolConnection, whom: str) -> dict[str, str]:
         """Connect, and return the fields of the header that is answered."""
@@ -242,10 +242,12 @@ def open_client(options: argparse.Namespace) -> RosClient:
     turn = partial(_turn, context)
     turn()
     name = f"plcsim_{os.getpid()}_{time.time_ns() // 1_000_000}"
-    settings = node_settings(name, (), {**environment, "ROS_MASTER_URI": uri}, host="127.0.0.1")
+    ipv6 = is_ipv6_wanted(environment)
+    own = loopback(ipv6=ipv6)
+    settings = node_settings(name, (), {**environment, "ROS_MASTER_URI": uri}, host=own)
     text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
     epoch = Epoch(time.time_ns() - context.release_ns)
-    node_options = NodeOptions(hosts=parse_hosts(text), epoch=epoch)
+    node_options = NodeOptions(hosts=parse_hosts(text, ipv6=ipv6), ipv6=ipv6, epoch=epoch)
     return RosClient(context, settings, message_types(options.path), turn, node_options)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import InvalidNameError
-from crosnode.graph.hosts import parse_hosts
+from crosnode.graph.hosts import is_ipv6_wanted, parse_hosts
 from crosnode.graph.uri import make_uri, parse_uri
 from crosnode.master.process import MasterProcess
 from plcsim.core.errors import ConfigurationError
@@ -42,9 +42,12 @@ def run(arguments: argparse.Namespace) -> None:
     """
     start_ns = time.monotonic_ns()
     text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+    ipv6 = is_ipv6_wanted(os.environ)
     host = _host(arguments.host)
     stop = _Stop()
-    process = MasterProcess(host, arguments.port, arguments.bind, parse_hosts(text))
+    process = MasterProcess(
+        host, arguments.port, arguments.bind, parse_hosts(text, ipv6=ipv6), ipv6=ipv6
+    )
     if process.refusal:
         raise ConfigurationError(f"--{process.refusal.field}: {process.refusal.text}")
     sys.stdout.write(f"ROS_MASTER_URI={process.server.uri}\n")

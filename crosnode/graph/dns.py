@@ -1,9 +1,10 @@
-"""Questions to a name server and its answers (RFC 1035), as bytes: addresses of IPv4 only."""
+"""Questions to a name server and its answers (RFC 1035, RFC 3596), as bytes."""
 
 from __future__ import annotations
 
 import re
 import struct
+from ipaddress import IPv4Address, IPv6Address
 from typing import Final, NamedTuple
 
 from plcsim.network.protocol import is_ipv4
@@ -16,7 +17,7 @@ _HEAD: Final = struct.Struct(">HHHHHH")
 _TAIL: Final = struct.Struct(">HH")
 _RECORD: Final = struct.Struct(">HHIH")
 _RECURSE, _IS_ANSWER, _CODE = 0x0100, 0x8000, 0x000F
-_TYPE_A, _CLASS_IN = 1, 1
+_TYPE_A, _TYPE_AAAA, _CLASS_IN = 1, 28, 1
 _POINTER: Final = 0xC0
 _NO_SUCH_NAME: Final = 3
 
@@ -65,24 +66,25 @@ def is_name(host: str) -> bool:
     return len(host) <= MAX_NAME and bool(_NAME.fullmatch(host))
 
 
-def question(number: int, name: str) -> bytes:
+def question(number: int, name: str, *, ipv6: bool = False) -> bytes:
     """Return the question for the address of a name."""
     labels = b"".join(bytes([len(label)]) + label.encode() for label in name.rstrip(".").split("."))
     head = _HEAD.pack(number, _RECURSE, 1, 0, 0, 0)
-    return head + labels + b"\0" + _TAIL.pack(_TYPE_A, _CLASS_IN)
+    kind = _TYPE_AAAA if ipv6 else _TYPE_A
+    return head + labels + b"\0" + _TAIL.pack(kind, _CLASS_IN)
 
 
-def parse_answer(number: int, name: str, data: bytes) -> NameAnswer | None:
+def parse_answer(number: int, name: str, data: bytes, *, ipv6: bool = False) -> NameAnswer | None:
     """Return the answer to a question; None for bytes that are none, and for a server's failure."""
     try:
-        return _parse(number, name, data)
+        return _parse(number, name, data, ipv6=ipv6)
     except (struct.error, IndexError):
         return None
 
 
-def _parse(number: int, name: str, data: bytes) -> NameAnswer | None:
+def _parse(number: int, name: str, data: bytes, *, ipv6: bool) -> NameAnswer | None:
     found, flags, questions, answers, _, _ = _HEAD.unpack_from(data)
-    asked = question(number, name)[_HEAD.size :]
+    asked = question(number, name, ipv6=ipv6)[_HEAD.size :]
     if found != number or not flags & _IS_ANSWER or questions != 1:
         return None
     if data[_HEAD.size : _HEAD.size + len(asked)].lower() != asked.lower():
@@ -96,8 +98,11 @@ def _parse(number: int, name: str, data: bytes) -> NameAnswer | None:
         at += _RECORD.size
         if at + size > len(data):
             return None
-        if (kind, group, size) == (_TYPE_A, _CLASS_IN, 4):
-            return NameAnswer(".".join(map(str, data[at : at + size])), ttl_s)
+        if (kind, group, size) == (
+            (_TYPE_AAAA, _CLASS_IN, 16) if ipv6 else (_TYPE_A, _CLASS_IN, 4)
+        ):
+            made = (IPv6Address if ipv6 else IPv4Address)(data[at : at + size])
+            return NameAnswer(str(made), ttl_s)
         at += size
     return NameAnswer("", 0)
 

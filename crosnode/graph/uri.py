@@ -8,7 +8,8 @@ from typing import Final, NamedTuple
 from crosnode.errors import InvalidNameError
 
 _URI: Final = re.compile(
-    r"(?P<scheme>[a-z]+)://(?P<host>\[[0-9A-Za-z:.%_-]+\]|[A-Za-z0-9._-]+):(?P<port>\d{1,5})(?:/.*)?",
+    r"(?P<scheme>[a-z]+)://(?P<host>\[[0-9A-Za-z:.%_-]+\]|[A-Za-z0-9._-]+|[0-9A-Fa-f.]*:[0-9A-Fa-f:.]+)"
+    r":(?P<port>\d{1,5})(?:/.*)?",
     re.A | re.S,
 )
 
@@ -27,6 +28,8 @@ class Authority(NamedTuple):
 def parse_uri(uri: str, scheme: str) -> Authority:
     """Return the address of a URI, with or without a path.
 
+    A literal of IPv6 may be without brackets, as rospy and roscpp write it.
+
     Raises:
         InvalidNameError: another scheme, no host, or a port outside of 1 to 65535.
     """
@@ -36,7 +39,12 @@ def parse_uri(uri: str, scheme: str) -> Authority:
     return Authority(match["host"].strip("[]"), int(match["port"]))
 
 
+def make_authority(host: str, port: int) -> str:
+    """Return host and port as a URI has them: IPv6, which may have its brackets, in brackets."""
+    host = host.strip("[]")
+    return f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
+
+
 def make_uri(scheme: str, host: str, port: int) -> str:
     """Return the URI of an address; one of a node ends in a slash, as rospy and roscpp write it."""
-    host = f"[{host}]" if ":" in host else host
-    return f"{scheme}://{host}:{port}" + ("/" if scheme == "http" else "")
+    return f"{scheme}://{make_authority(host, port)}" + ("/" if scheme == "http" else "")

@@ -46,12 +46,21 @@ class MasterProcess:
         port: to listen at.
         bind_ip: own interface to listen on, "" for all, None for that of ``host``.
         hosts: addresses of host names in the URIs of nodes.
+        ipv6: whether names stand for addresses of IPv6.
 
     Attributes:
         server: the master.
     """
 
-    def __init__(self, host: str, port: int, bind_ip: str | None, hosts: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        bind_ip: str | None,
+        hosts: Mapping[str, str],
+        *,
+        ipv6: bool = False,
+    ) -> None:
         descriptors.allow(IDENTS + descriptors.SPARE)
         self._context = Context(Memory(), OsNetwork(), {"AsTCP": {"idents": IDENTS}})
         pid = os.getpid()
@@ -59,6 +68,7 @@ class MasterProcess:
             host=host,
             port=port,
             bind_ip=bind_ip,
+            ipv6=ipv6,
             pid=pid,
             parameters=first_parameters(f"plcsim-{pid}-{time.time_ns()}"),
             hosts=hosts,

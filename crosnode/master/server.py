@@ -44,6 +44,7 @@ class MasterOptions(NamedTuple):
         host: name or number in its URI.
         port: to listen at.
         bind_ip: own interface to listen on, "" for all, None for that of ``host``.
+        ipv6: whether names stand for addresses of IPv6.
         pid: what getPid answers.
         parameters: what the parameter server holds at the start.
         hosts: addresses of host names in the URIs of nodes.
@@ -54,6 +55,7 @@ class MasterOptions(NamedTuple):
     host: str = "localhost"
     port: int = DEFAULT_PORT
     bind_ip: str | None = None
+    ipv6: bool = False
     pid: int = 0
     parameters: Mapping[str, Value] | None = None
     hosts: Mapping[str, str] | None = None
@@ -79,9 +81,14 @@ class MasterServer:
         self._context = context
         self._loop = EventLoop(context, CallerShare(context, CALLERS_PART))
         acceptor = ApiAcceptor(self, options.xmlrpc)
-        self.bind_ip = own_interface(options.host) if options.bind_ip is None else options.bind_ip
+        bind_ip = options.bind_ip
+        if bind_ip is None:
+            bind_ip = own_interface(options.host, ipv6=options.ipv6)
+        self.bind_ip = bind_ip
         self._listener = self._loop.listen(self.bind_ip, options.port, acceptor)
-        self._api = ApiCaller(self._loop, HostTable(options.hosts), options.xmlrpc)
+        self._api = ApiCaller(
+            self._loop, HostTable(options.hosts, ipv6=options.ipv6), options.xmlrpc
+        )
         self.uri = make_uri("http", options.host, options.port)
         self.master = Master(self.uri, options.pid, options.parameters)
 

@@ -118,7 +118,9 @@ class CrosNode:
         loop = EventLoop(self._context)
         slave = ApiAcceptor(SlaveApi(self), options.xmlrpc)
         topics, services = TopicAcceptor(self), ServiceAcceptor(self)
-        bind_ip = own_interface(self.host) if options.bind_ip is None else options.bind_ip
+        bind_ip = options.bind_ip
+        if bind_ip is None:
+            bind_ip = own_interface(self.host, ipv6=options.ipv6)
         self._slave_listener = loop.listen(bind_ip, 0, slave)
         self.topic_listener = loop.listen(bind_ip, 0, topics)
         self._service_listener = loop.listen(bind_ip, 0, services)
@@ -126,8 +128,8 @@ class CrosNode:
             if not listener.open(now_ns):
                 raise NodeError(f"{self.name}: {_no_port(bind_ip, listener.status)}.")
         self.uri = make_uri("http", self.host, self._slave_listener.port)
-        self._resolver = Resolver(self._context, options.name_servers)
-        hosts = HostTable(options.hosts, self._resolver.find)
+        self._resolver = Resolver(self._context, options.name_servers, ipv6=options.ipv6)
+        hosts = HostTable(options.hosts, self._resolver.find, ipv6=options.ipv6)
         api = ApiCaller(loop, hosts, options.xmlrpc)
         master = MasterClient(api, master_uri, self.name, self.uri, self.statuses)
         self.core = NodeCore(self.name, loop, api, master, hosts, options.tcpros, self.statuses)

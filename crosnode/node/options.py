@@ -26,6 +26,8 @@ class NodeOptions(NamedTuple):
         tcpros: bounds of a topic or service connection.
         xmlrpc: bounds of an XML-RPC connection.
         bind_ip: own interface to listen on, "" for all, None for that of the node's host.
+        ipv6: names stand for addresses of IPv6: ``localhost``, all interfaces, and those that name
+            servers are asked for.
         hosts: addresses of host names.
         name_servers: who is asked for other names.
         epoch: turns releases into nanoseconds since 1970, None for those that are so already.
@@ -41,6 +43,7 @@ class NodeOptions(NamedTuple):
     tcpros: TcprosLimits = TcprosLimits(max_message=16 << 20)
     xmlrpc: XmlRpcLimits = XmlRpcLimits()
     bind_ip: str | None = None
+    ipv6: bool = False
     hosts: Mapping[str, str] | None = None
     name_servers: NameServers = NameServers()
     epoch: Epoch | None = None

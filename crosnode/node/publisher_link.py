@@ -6,6 +6,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
 from crosnode.errors import HostPendingError
+from crosnode.graph.uri import make_uri
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import HeaderReceived, MessagesReceived, Refused, SubscriberConnection
 from crosnode.transport.connection import Failed
@@ -149,10 +150,11 @@ class PublisherLink:
             return
         try:
             _, host, port = call.value
-            self._address = self._receiver.core.hosts.address(f"rosrpc://{host}:{port}", "rosrpc")
+            uri = make_uri("rosrpc", host, port)
+            self._address = self._receiver.core.hosts.address(uri, "rosrpc")
         except HostPendingError:
             return  # asked again in the next step
-        except (ValueError, TypeError) as error:
+        except (ValueError, TypeError, AttributeError) as error:
             self._fail(PublisherTrigger.NOT_HAD, now_ns)
             self._tell(StatusKind.PEER_REFUSED, f"{self.uri}: {error}")
         else:

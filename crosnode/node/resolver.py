@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import secrets
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.errors import HostPendingError, InvalidNameError
 from crosnode.graph.dns import MAX_ANSWER, PORT, is_name, parse_answer, question
@@ -31,10 +31,17 @@ MOST_ANSWERS: Final = 8
 """Taken in a step."""
 
 
+class _Candidate(NamedTuple):
+    """What a server is asked for."""
+
+    name: str
+    ipv6: bool
+
+
 class _Name:
     """A name that is or was asked for."""
 
-    def __init__(self, candidates: list[str], number: int) -> None:
+    def __init__(self, candidates: list[_Candidate], number: int) -> None:
         self.candidates = candidates
         self.number = number
         self.attempts = 0
@@ -49,9 +56,11 @@ class Resolver:
     Args:
         context: of the controller.
         servers: who is asked.
+        ipv6: ask for addresses of IPv6 first, and of IPv4 where there are none.
     """
 
-    def __init__(self, context: Context, servers: NameServers) -> None:
+    def __init__(self, context: Context, servers: NameServers, *, ipv6: bool = False) -> None:
+        self._kinds = (True, False) if ipv6 else (False,)
         self._context = context
         self._servers = servers
         self._names: dict[str, _Name] = {}
@@ -79,9 +88,10 @@ class Resolver:
             raise InvalidNameError(f"host {host[:100]!r} is not known; add it to [ros.hosts].")
         if len(self._names) >= MOST_NAMES:
             del self._names[next(iter(self._names))]
-        candidates = [] if "." in host else [f"{host}.{each}" for each in self._servers.domains]
+        names = [] if "." in host else [f"{host}.{each}" for each in self._servers.domains]
+        candidates = [_Candidate(name, kind) for name in (*names, host) for kind in self._kinds]
         # Nobody can guess the number, and nothing of the run depends on it.
-        found = self._names[host] = _Name([*candidates, host], secrets.randbits(16))
+        found = self._names[host] = _Name(candidates, secrets.randbits(16))
         return found
 
     def step(self) -> None:
@@ -117,7 +127,8 @@ class Resolver:
             return
         assert self._socket is not None
         target = Address(servers[name.attempts % len(servers)], PORT)
-        self._socket.send(question(name.number, name.candidates[0]), target)
+        asked = name.candidates[0]
+        self._socket.send(question(name.number, asked.name, ipv6=asked.ipv6), target)
         name.attempts += 1
         name.next_ns = now_ns + ASK_AGAIN_NS
 
@@ -130,7 +141,8 @@ class Resolver:
             if peer.ip not in self._servers.servers or peer.port != PORT:
                 continue
             for name in waiting:
-                answer = parse_answer(name.number, name.candidates[0], data)
+                asked = name.candidates[0]
+                answer = parse_answer(name.number, asked.name, data, ipv6=asked.ipv6)
                 if name.ip is None and answer is not None:
                     self._answered(name, answer, now_ns)
 

@@ -77,7 +77,7 @@ class RosExtension(Extension):
         host, port = own if settings.is_embedded else (MASTER_IP, DEFAULT_PORT)
         uri = make_uri("http", host, port)
         return replace(
-            settings, master_uri=uri, host=ip, bind_ip=None, environment={},
+            settings, master_uri=uri, host=ip, bind_ip=None, ipv6=":" in ip, environment={},
             name_servers=NameServers(),
         )  # fmt: skip
 
@@ -122,6 +122,7 @@ def _for_service(settings: RosSettings) -> dict[str, object]:
         "host": settings.host,
         "port": settings.table.master_port,
         "bind_ip": settings.bind_ip,
+        "ipv6": settings.ipv6,
         "hosts": dict(settings.hosts),
     }
 

@@ -19,7 +19,9 @@ FIELDS = {"port": "ros.master_port", "bind": "ros.bind"}
 def serve(service: Service) -> None:
     """Serve until asked to stop."""
     given = service.given
-    process = MasterProcess(given["host"], given["port"], given["bind_ip"], given["hosts"])
+    process = MasterProcess(
+        given["host"], given["port"], given["bind_ip"], given["hosts"], ipv6=given["ipv6"]
+    )
 
     def tell() -> bool:
         if process.server.is_open:

@@ -13,6 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.graph.arguments import NodeSettings, node_settings
+from crosnode.graph.hosts import is_ipv6_wanted, loopback
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.node.ros_time import Epoch
@@ -110,12 +111,16 @@ def make_node(
     if not is_real(context):
         options = options._replace(closing_steps=VIRTUAL_CLOSING_STEPS)
     if found is None:
-        settings = node_settings(name, arguments, os.environ, namespace=namespace, host="127.0.0.1")
-        options = options._replace(epoch=_epoch_now(context))
+        ipv6 = is_ipv6_wanted(os.environ)
+        settings = node_settings(
+            name, arguments, os.environ, namespace=namespace, host=loopback(ipv6=ipv6)
+        )
+        options = options._replace(epoch=_epoch_now(context), ipv6=ipv6)
         return CrosNode(context, settings, context.library(SharedTypes), options)
     ros = found.settings
     options = options._replace(
         bind_ip=ros.bind_ip,
+        ipv6=ros.ipv6,
         hosts=ros.hosts,
         name_servers=ros.name_servers,
         epoch=found.epoch,

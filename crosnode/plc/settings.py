@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Final
 from crosnode.errors import CrosnodeError
 from crosnode.graph.arguments import node_settings, parse_arguments
 from crosnode.graph.dns import NameServers
-from crosnode.graph.hosts import parse_hosts
+from crosnode.graph.hosts import is_ipv6_wanted, loopback, parse_hosts
 from crosnode.graph.names import check_base_name, check_name
 from crosnode.graph.uri import DEFAULT_PORT, make_uri, parse_uri
 from crosnode.node.parameter import check_parameters
 from plcsim.core.errors import Findings
-from plcsim.network.protocol import is_ipv4
+from plcsim.network.protocol import is_ip
 from plcsim.project.project_file import FILE_NAME
 from plcsim.settings import Converted, Duration, Key, PathTo, Size, Whole, settings
 
@@ -28,9 +28,9 @@ MOST: Final = 1 << 30
 """Of anything that bounds a step."""
 
 
-def _ipv4(text: str) -> str:
-    if not is_ipv4(text):
-        raise ValueError(f"{text!r} is not an IPv4 address")
+def _ip(text: str) -> str:
+    if not is_ip(text):
+        raise ValueError(f"{text!r} is not an IP address")
     return text
 
 
@@ -194,7 +194,8 @@ class RosTable:
         namespace: of nodes, "" where the table names none.
         arguments: remapping arguments.
         packages: folders of message packages, searched first.
-        hosts: IPv4 addresses by host name.
+        ipv6: whether names stand for addresses of IPv6; None for ROS_IPV6 of the environment.
+        hosts: addresses by host name.
         respawn: whether nodes return that others end: rosnode kill, or another of their name.
         step: bounds of one step.
         limits: of what comes in.
@@ -209,11 +210,12 @@ class RosTable:
     master: Annotated[str | None, Converted(_master)] = None
     master_port: Annotated[int, Whole(1, 65_535)] = DEFAULT_PORT
     host: Annotated[str | None, Converted(_host)] = None
-    bind: Annotated[str | None, Converted(_ipv4)] = None
+    bind: Annotated[str | None, Converted(_ip)] = None
+    ipv6: bool | None = None
     namespace: Annotated[str, Converted(_namespace)] = ""
     arguments: tuple[str, ...] = ()
     packages: tuple[Annotated[Path, PathTo("folder")], ...] = ()
-    hosts: Mapping[str, Annotated[str, Converted(_ipv4)]] = field(default_factory=dict)
+    hosts: Mapping[str, Annotated[str, Converted(_ip)]] = field(default_factory=dict)
     respawn: bool = False
     step: StepTable = StepTable()
     limits: LimitsTable = LimitsTable()
@@ -241,6 +243,7 @@ class RosSettings:
         master_uri: of the master.
         host: name or number under which nodes are reached.
         bind_ip: own interface to listen on, "" for all, None for that of ``host``.
+        ipv6: whether names stand for addresses of IPv6.
         packages: folders of message packages, those of the table first.
         hosts: addresses of host names.
         environment: ROS_* variables of the process.
@@ -257,6 +260,7 @@ class RosSettings:
     hosts: Mapping[str, str]
     environment: Mapping[str, str]
     is_in_process: bool = False
+    ipv6: bool = False
     name_servers: NameServers = NO_SERVERS
 
     @property
@@ -272,8 +276,8 @@ def read_settings(
 
     Args:
         table: of plc.toml.
-        environment: ROS_MASTER_URI, ROS_IP, ROS_HOSTNAME, ROS_NAMESPACE and ROS_PACKAGE_PATH are
-            read where the table does not say.
+        environment: ROS_MASTER_URI, ROS_IP, ROS_HOSTNAME, ROS_IPV6, ROS_NAMESPACE and
+            ROS_PACKAGE_PATH are read where the table does not say.
         hosts_text: in the form of /etc/hosts.
 
     Raises:
@@ -281,7 +285,8 @@ def read_settings(
     """
     keys = table.read(RosTable)
     _check(table, keys)
-    own = node_settings("x", keys.arguments, environment, host="127.0.0.1")
+    ipv6 = is_ipv6_wanted(environment) if keys.ipv6 is None else keys.ipv6
+    own = node_settings("x", keys.arguments, environment, host=loopback(ipv6=ipv6))
     host = keys.host or own.host
     embedded = make_uri("http", host, keys.master_port)
     others = environment.get("ROS_PACKAGE_PATH", "").split(":")
@@ -292,7 +297,9 @@ def read_settings(
         host=host,
         bind_ip=keys.bind,
         packages=(*keys.packages, *(Path(path) for path in others if path)),
-        hosts=parse_hosts(hosts_text) | {name.lower(): ip for name, ip in keys.hosts.items()},
+        ipv6=ipv6,
+        hosts=parse_hosts(hosts_text, ipv6=ipv6)
+        | {name.lower(): ip for name, ip in keys.hosts.items()},
         environment=environment,
     )
 

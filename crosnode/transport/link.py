@@ -9,6 +9,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
+from crosnode.graph.uri import make_authority
 from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK, TRANSFER_WORK
 from crosnode.transport.connection import ConnectionState, Failed, Progress
 from crosnode.transport.dyn_buffer import DynBuffer
@@ -117,7 +118,7 @@ class PeerLink:
         self.socket = socket
         self.connection = connection
         self.owner = owner
-        self.peer = f"{socket.ip}:{socket.port}"
+        self.peer = make_authority(socket.ip, socket.port)
         self.bytes_in = self.bytes_out = 0
         self.state = LinkState.OPEN if socket.is_connected else LinkState.CONNECTING
         self._outbox = DynBuffer(OUTBOX_MAX)

@@ -40,6 +40,7 @@ from plcsim.library.astcp import (
 )
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.settings import AsTcpSettings
+from plcsim.network.protocol import ANY_IPV6, MAX_LITERAL
 from st_types import STRING, UDINT, UINT, Struct, var
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ class Transfer(NamedTuple):
 class SocketBlocks(Struct):
     """What a socket has in PLC memory."""
 
-    address = var(STRING(15))
+    address = var(STRING(45))
     own_port = var(UINT)
     value = var(UDINT)
     where = var(tcpSO_ADDRESS_typ)
@@ -118,12 +119,15 @@ class SocketPool:
     Attributes:
         idents: sockets that AsTCP has for all nodes and programs together.
         shortages: times that one was asked for and none was free.
+        any_ipv6: address of the literal that stands for all interfaces of IPv6.
     """
 
     def __init__(self, context: Context) -> None:
         self.context = context
         self.idents = (context.settings(AsTcpSettings) or AsTcpSettings()).idents
         self.shortages = 0
+        self.any_ipv6 = context.memory.allocate(len(ANY_IPV6) + 1)
+        context.memory.write(self.any_ipv6, ANY_IPV6.encode() + b"\0")
         self.recv_area = context.memory.allocate(AREA_SIZE)
         self.send_area = context.memory.allocate(AREA_SIZE)
         self._free = [self._new() for _ in range(SOCKETS_AT_START)]
@@ -190,7 +194,7 @@ class TcpipSocket:
     def init(self, ip: str, port: int) -> None:
         """Name the peer, or for a listener the own interface; "" is every interface."""
         self.ip, self.port = ip, port
-        self._blocks.address = ip[:15]
+        self._blocks.address = ip[:MAX_LITERAL]
 
     def check_address_and_change_if_necessary(self, ip: str, port: int) -> None:
         """Name another peer; an open connection to the former one is closed."""
@@ -215,7 +219,7 @@ class TcpipSocket:
             DONE, IN_PROGRESS (no ident is free now) or FAILED.
         """
         block = self._blocks.open
-        block.pIfAddr = self._address if listening and self.ip else 0
+        block.pIfAddr = self._interface(listening=listening)
         block.port = self.port if listening else 0
         block.options = tcpOPT_REUSEADDR if listening else 0
         block(enable=True)
@@ -227,6 +231,12 @@ class TcpipSocket:
             self._pool.shortages += 1
             return _IN_PROGRESS
         return _state_of(block.status)
+
+    def _interface(self, *, listening: bool) -> int:
+        """Return the address of the STRING to bind to; a client of IPv6 needs a socket of it."""
+        if listening:
+            return self._address if self.ip else 0
+        return self._pool.any_ipv6 if ":" in self.ip else 0
 
     def _use(self, ident: int) -> None:
         self.ident = ident

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
-from plcsim.network.protocol import NO_ADDRESS, Address, Outcome
+from plcsim.network.protocol import NO_ADDRESS, Address, Outcome, is_connectable, is_ipv4
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -15,6 +15,11 @@ MAX_DATAGRAM = 65_507
 
 BROADCAST_IP = "255.255.255.255"
 """Address of all hosts on the directly connected nets."""
+
+
+def is_target(peer: Address) -> bool:
+    """Whether datagrams can be sent to an address: UDP here is that of IPv4."""
+    return is_ipv4(peer.ip) and is_connectable(peer)
 
 
 class OpenedDatagrams(NamedTuple):

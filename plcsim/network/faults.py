@@ -7,7 +7,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from plcsim.network.errors import NetworkSetupError
-from plcsim.network.protocol import is_ipv4
+from plcsim.network.protocol import is_ip
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -198,8 +198,8 @@ class NetworkFaults:
         self, a: str, b: str | None, at_ns: int | None, until_ns: int | None
     ) -> tuple[int, int | None]:
         for host in (a, b):
-            if host is not None and not is_ipv4(host):
-                raise NetworkSetupError(f"{host!r} is not an IPv4 address such as 192.168.0.10.")
+            if host is not None and not is_ip(host):
+                raise NetworkSetupError(f"{host!r} is not an address such as 192.168.0.10.")
         now_ns = self._now_ns()
         from_ns = now_ns if at_ns is None else at_ns
         if from_ns < now_ns:

@@ -6,7 +6,7 @@ import socket
 from contextlib import suppress
 from typing import Final
 
-from plcsim.network.datagrams import MAX_DATAGRAM, Datagram, OpenedDatagrams
+from plcsim.network.datagrams import MAX_DATAGRAM, Datagram, OpenedDatagrams, is_target
 from plcsim.network.os_options import read_option, set_option
 from plcsim.network.os_outcomes import outcome_of
 from plcsim.network.protocol import (
@@ -17,7 +17,6 @@ from plcsim.network.protocol import (
     OptionValue,
     Outcome,
     Sent,
-    is_connectable,
     is_ipv4,
 )
 
@@ -59,7 +58,7 @@ class OsDatagramSocket:
         The host is not told, as Python cannot undo its connect(2): ``recv`` leaves out what others
         send.
         """
-        if not is_connectable(peer):
+        if not is_target(peer):
             return Outcome.INVALID_ADDRESS
         self._peer = peer
         return Outcome.OK
@@ -76,7 +75,7 @@ class OsDatagramSocket:
         to = target or self._peer
         if to is None:
             return Sent(Outcome.NOT_CONNECTED)
-        if not is_connectable(to):
+        if not is_target(to):
             return Sent(Outcome.INVALID_ADDRESS)
         try:
             return Sent(Outcome.OK, self._socket.sendto(data, to))

@@ -15,6 +15,7 @@ from plcsim.network.os_options import read_option, set_option
 from plcsim.network.os_outcomes import OUTCOMES, outcome_of
 from plcsim.network.protocol import (
     ANY_IP,
+    ANY_IPV6,
     MAX_BACKLOG,
     MAX_LINGER_S,
     MAX_RECEIVE,
@@ -27,6 +28,7 @@ from plcsim.network.protocol import (
     Outcome,
     Received,
     Sent,
+    canonical_ipv6,
     is_connectable,
     is_ipv4,
 )
@@ -54,6 +56,18 @@ _NOTHING_YET: Final = Received(Outcome.WOULD_BLOCK)
 _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
 
 
+_MAPPED: Final = "::ffff:"
+"""Before the IPv4 literal of a peer that a socket of IPv6 hears (RFC 4291, 2.5.5.2)."""
+
+
+def _address(name: tuple[str, int] | tuple[str, int, int, int]) -> Address:
+    """Return an address as the host tells it, one of IPv4 as such."""
+    ip = name[0]
+    if ip.startswith(_MAPPED) and "." in ip:
+        ip = ip[len(_MAPPED) :]
+    return Address(ip, name[1])
+
+
 class OsSocket:
     """A socket of the host. Made by ``OsNetwork.open`` and ``accept`` only."""
 
@@ -62,6 +76,7 @@ class OsSocket:
     ) -> None:
         os_socket.settimeout(0)
         self._socket = os_socket
+        self._is_ipv6 = os_socket.family == socket.AF_INET6
         self._watch = watch
         if peer is not None:
             watch.add(os_socket.fileno(), self)
@@ -80,7 +95,7 @@ class OsSocket:
     def local(self) -> Address:
         """The own address; ``NO_ADDRESS`` once closed."""
         try:
-            return Address(*self._socket.getsockname())
+            return _address(self._socket.getsockname())
         except OSError:
             return NO_ADDRESS
 
@@ -110,8 +125,8 @@ class OsSocket:
             outcome = outcome_of(error)
             # accept(2): an error of the waiting connection itself means "try the next one".
             return Accepted(Outcome.WOULD_BLOCK if outcome in _ENDS else outcome)
-        accepted = OsSocket(os_socket, self._watch, Address(*peer))
-        return Accepted(Outcome.OK, accepted, Address(*peer))
+        address = _address(peer)
+        return Accepted(Outcome.OK, OsSocket(os_socket, self._watch, address), address)
 
     def connect(self, peer: Address) -> Outcome:
         """See ``Socket.connect``."""
@@ -119,9 +134,9 @@ class OsSocket:
             return Outcome.ALREADY_CONNECTED
         if self._listening:
             return Outcome.INVALID
-        if not is_connectable(peer):
+        if not is_connectable(peer) or self._is_ipv6 is not (":" in peer.ip):
             return Outcome.INVALID_ADDRESS
-        return self._connect(self._target or peer)
+        return self._connect(self._target or Address(canonical_ipv6(peer.ip) or peer.ip, peer.port))
 
     def _connect(self, peer: Address) -> Outcome:
         # Linux answers a repeated connect() with the state of the first one.
@@ -268,17 +283,21 @@ class OsNetwork:
 
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See ``Network.open``."""
-        if ip and not is_ipv4(ip):
+        ipv6 = canonical_ipv6(ip)
+        if ip and not ipv6 and not is_ipv4(ip):
             return Opened(Outcome.INVALID_ADDRESS)
         if not 0 <= port < 65_536:
             return Opened(Outcome.INVALID)
         try:
-            os_socket = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+            family = socket.AF_INET6 if ipv6 else socket.AF_INET
+            os_socket = socket.socket(family, socket.SOCK_STREAM)
         except OSError as error:
             return Opened(outcome_of(error))
         try:
             os_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, int(reuse_address))
-            os_socket.bind((ip or ANY_IP, port))
+            if ipv6:
+                os_socket.setsockopt(socket.IPPROTO_IPV6, socket.IPV6_V6ONLY, ipv6 != ANY_IPV6)
+            os_socket.bind((ipv6 or ip or ANY_IP, port))
         except OSError as error:
             os_socket.close()
             outcome = outcome_of(error)

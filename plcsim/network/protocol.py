@@ -1,12 +1,14 @@
 """The interface that function blocks see of a network, and the values it answers with.
 
 Every call returns at once. What the world does (a refusal, a reset, no more descriptors) comes back
-as an ``Outcome``; nothing is raised and no name is ever resolved: an address is an IPv4 literal.
+as an ``Outcome``; nothing is raised and no name is ever resolved: an address is a literal of IPv4
+or IPv6.
 """
 
 from __future__ import annotations
 
 from enum import Enum, auto
+from ipaddress import AddressValueError, IPv6Address
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast
 
 if TYPE_CHECKING:
@@ -16,6 +18,14 @@ if TYPE_CHECKING:
 
 ANY_IP = "0.0.0.0"  # noqa: S104  # the literal is compared and passed on by choice of the program
 """Address of all interfaces of a host."""
+
+ANY_IPV6 = "::"
+"""The same in IPv6; who listens there hears IPv4 as well, as by default on Linux."""
+
+ANY_IPS = frozenset({ANY_IP, ANY_IPV6})
+
+MAX_LITERAL = 45
+"""Characters of the longest IPv6 literal (RFC 4291, 2.2)."""
 
 MAX_RECEIVE = 65_536
 """Bytes; one ``recv`` never allocates more, whatever size is asked for."""
@@ -54,7 +64,7 @@ class Outcome(Enum):
     IN_USE = auto()
     """The local port is taken."""
     INVALID_ADDRESS = auto()
-    """Not an IPv4 literal, or one that cannot be connected to."""
+    """Not a literal of IPv4 or IPv6, of the other one, or one that cannot be connected to."""
     NOT_LOCAL = auto()
     """No interface of this host has the address."""
     DENIED = auto()
@@ -103,7 +113,7 @@ def legal_value(option: Option, value: int) -> int | None:
 
 
 class Address(NamedTuple):
-    """An IPv4 literal and a port; ``ip`` is ``0.0.0.0`` where all interfaces are meant."""
+    """A literal and a port; ``ip`` is ``0.0.0.0`` or ``::`` where all interfaces are meant."""
 
     ip: str
     port: int
@@ -249,7 +259,8 @@ class Network(Protocol):
         """Make a socket and bind it.
 
         Args:
-            ip: IPv4 literal of an own interface; empty or ``0.0.0.0`` for all.
+            ip: literal of an own interface, of IPv6 for a socket of IPv6; empty or ``0.0.0.0``
+                for all of IPv4, ``::`` for all.
             port: 0..65535, 0 for any free one.
             reuse_address: bind even if an earlier connection of the port still fades out.
 
@@ -277,9 +288,29 @@ def is_ipv4(text: str) -> bool:
     return len(parts) == 4 and all(_is_byte(part) for part in parts)
 
 
+def is_ipv6(text: str) -> bool:
+    """Whether ``text`` is an IPv6 literal (RFC 4291, 2.2), without a zone."""
+    return canonical_ipv6(text) is not None
+
+
+def canonical_ipv6(text: str) -> str | None:
+    """Return an IPv6 literal as RFC 5952 writes it; None for any other text, or with a zone."""
+    if ":" not in text or "%" in text or len(text) > MAX_LITERAL:
+        return None
+    try:
+        return str(IPv6Address(text))
+    except AddressValueError:
+        return None
+
+
+def is_ip(text: str) -> bool:
+    """Whether ``text`` is a literal of IPv4 or IPv6."""
+    return is_ipv4(text) or is_ipv6(text)
+
+
 def is_connectable(peer: Address) -> bool:
-    """Whether ``peer`` can be the other end of a connection: an IPv4 literal and a port above 0."""
-    return is_ipv4(peer.ip) and peer.ip != ANY_IP and 0 < peer.port < 65_536
+    """Whether ``peer`` can be the other end of a connection: a literal and a port above 0."""
+    return is_ip(peer.ip) and peer.ip not in ANY_IPS and 0 < peer.port < 65_536
 
 
 def _is_byte(text: str) -> bool:

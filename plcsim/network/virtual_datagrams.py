@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from plcsim.network.datagrams import BROADCAST_IP, MAX_DATAGRAM, Datagram
+from plcsim.network.datagrams import BROADCAST_IP, MAX_DATAGRAM, Datagram, is_target
 from plcsim.network.protocol import (
     ANY_IP,
     NO_ADDRESS,
@@ -14,7 +14,6 @@ from plcsim.network.protocol import (
     OptionValue,
     Outcome,
     Sent,
-    is_connectable,
     legal_value,
 )
 from plcsim.network.wire import Packet, is_loopback
@@ -55,7 +54,7 @@ class VirtualDatagramSocket:
 
     def connect(self, peer: Address) -> Outcome:
         """Fix the other side."""
-        if not is_connectable(peer):
+        if not is_target(peer):
             return Outcome.INVALID_ADDRESS
         self._peer = peer
         return Outcome.OK
@@ -73,7 +72,7 @@ class VirtualDatagramSocket:
             return Sent(Outcome.INVALID)
         if to is None:
             return Sent(Outcome.NOT_CONNECTED)
-        if not is_connectable(to):
+        if not is_target(to):
             return Sent(Outcome.INVALID_ADDRESS)
         if to.ip == BROADCAST_IP and not self._options[Option.BROADCAST]:
             return Sent(Outcome.DENIED)

@@ -5,7 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plcsim.network.datagrams import OpenedDatagrams
-from plcsim.network.protocol import ANY_IP, Address, Opened, Outcome, is_ipv4
+from plcsim.network.protocol import (
+    ANY_IP,
+    ANY_IPS,
+    ANY_IPV6,
+    Address,
+    Opened,
+    Outcome,
+    canonical_ipv6,
+    is_ip,
+)
 from plcsim.network.virtual_datagrams import VirtualDatagramSocket
 from plcsim.network.virtual_socket import VirtualSocket
 from plcsim.network.wire import is_loopback
@@ -17,12 +26,17 @@ FIRST_FREE_PORT = 49_152
 LAST_PORT = 65_535
 
 
+def hears(bound_ip: str, ip: str) -> bool:
+    """Whether who listens at an address hears what is sent to another one."""
+    return bound_ip in (ip, ANY_IPV6) or (bound_ip == ANY_IP and ":" not in ip)
+
+
 class VirtualHost:
     """A host's access to TCP and UDP on a virtual net; made by ``VirtualNetwork.host``.
 
     Attributes:
         net: the net.
-        ip: the host's IPv4 literal.
+        ip: the host's literal, of IPv4 or IPv6.
     """
 
     def __init__(self, net: VirtualNetwork, ip: str) -> None:
@@ -42,6 +56,7 @@ class VirtualHost:
     def open(self, ip: str, port: int, *, reuse_address: bool = False) -> Opened:
         """See ``Network.open``."""
         self.net.settle()
+        ip = canonical_ipv6(ip) or ip
         outcome = self._bindable(ip, port)
         if outcome is not Outcome.OK:
             return Opened(outcome)
@@ -63,7 +78,7 @@ class VirtualHost:
     def open_datagrams(self, ip: str, port: int, *, reuse_address: bool = False) -> OpenedDatagrams:
         """See ``DatagramNetwork.open_datagrams``; two sockets never share a port here."""
         self.net.settle()
-        outcome = self._bindable(ip, port)
+        outcome = Outcome.INVALID_ADDRESS if ":" in ip else self._bindable(ip, port)
         if outcome is not Outcome.OK:
             return OpenedDatagrams(outcome)
         free = (p for p in range(FIRST_FREE_PORT, LAST_PORT + 1) if p not in self._datagrams)
@@ -90,11 +105,11 @@ class VirtualHost:
         return found.take(data, source)
 
     def _bindable(self, ip: str, port: int) -> Outcome:
-        if ip and not is_ipv4(ip):
+        if ip and not is_ip(ip):
             return Outcome.INVALID_ADDRESS
         if not 0 <= port <= LAST_PORT:
             return Outcome.INVALID
-        if ip not in ("", ANY_IP, self.ip) and not is_loopback(ip):
+        if ip not in ("", *ANY_IPS, self.ip) and not is_loopback(ip):
             return Outcome.NOT_LOCAL
         return Outcome.OK
 
@@ -115,7 +130,7 @@ class VirtualHost:
     def _in_use(self, local: Address, *, reuse_address: bool) -> bool:
         """Whether binding fails, by the rules of socket(7), SO_REUSEADDR."""
         for other in self._ports.get(local.port, ()):
-            same_ip = ANY_IP in (local.ip, other.bound.ip) or local.ip == other.bound.ip
+            same_ip = hears(local.ip, other.bound.ip) or hears(other.bound.ip, local.ip)
             if same_ip and not (reuse_address and other.reuse_address and not other.listening):
                 return True
         return not reuse_address and self._is_fading(local.port)
@@ -147,7 +162,7 @@ class VirtualHost:
     def listener(self, address: Address) -> VirtualSocket | None:
         """Return the socket that listens at an address of this host."""
         for user in self._ports.get(address.port, ()):
-            if user.listening and user.bound.ip in (ANY_IP, address.ip):
+            if user.listening and hears(user.bound.ip, address.ip):
                 return user
         return None
 

@@ -1,4 +1,4 @@
-"""A simulated IPv4 net in virtual time: repeatable, seeded, with faults at will."""
+"""A simulated IP net in virtual time: repeatable, seeded, with faults at will."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from plcsim.network.datagrams import BROADCAST_IP
 from plcsim.network.errors import NetworkSetupError
 from plcsim.network.events import EventQueue, NetworkEvent
 from plcsim.network.faults import NetworkFaults
-from plcsim.network.protocol import ANY_IP, is_ipv4
+from plcsim.network.protocol import ANY_IPS, canonical_ipv6, is_ip
 from plcsim.network.virtual_host import VirtualHost
 from plcsim.network.wire import SECOND_NS, Link, Packet, TraceEvent, WireLimits, is_loopback
 
@@ -86,9 +86,10 @@ class VirtualNetwork:
         """Return the host with this address; it comes into being when first asked for.
 
         Raises:
-            NetworkSetupError: not an IPv4 literal of a host.
+            NetworkSetupError: not a literal of a host.
         """
-        if not is_ipv4(ip) or ip == ANY_IP or is_loopback(ip):
+        ip = canonical_ipv6(ip) or ip
+        if not is_ip(ip) or ip in ANY_IPS or is_loopback(ip):
             raise NetworkSetupError(f"{ip!r} is not an address of a host such as 192.168.0.10.")
         return self._hosts.setdefault(ip, VirtualHost(self, ip))
 

@@ -10,7 +10,7 @@ from plcsim.network.connection import Connection
 from plcsim.network.handshake import Handshake
 from plcsim.network.options import SocketOptions
 from plcsim.network.protocol import (
-    ANY_IP,
+    ANY_IPS,
     MAX_BACKLOG,
     MAX_RECEIVE,
     NO_ADDRESS,
@@ -21,6 +21,7 @@ from plcsim.network.protocol import (
     Outcome,
     Received,
     Sent,
+    canonical_ipv6,
     is_connectable,
 )
 from plcsim.network.wire import is_loopback
@@ -141,8 +142,9 @@ class VirtualSocket:
             return self._take_answer(self._handshake)
         if self.state is not SocketState.OPENED:
             return Outcome.INVALID
-        if not is_connectable(peer):
+        if not is_connectable(peer) or (":" in peer.ip) is not (":" in self.bound.ip):
             return Outcome.INVALID_ADDRESS
+        peer = Address(canonical_ipv6(peer.ip) or peer.ip, peer.port)
         if self._net.faults.no_route(self.host.ip, peer.ip, self._net.moment_ns):
             return Outcome.UNREACHABLE
         self._start_to_connect(peer)
@@ -283,7 +285,7 @@ class VirtualSocket:
         self._step(SocketAct.CONNECT)
         to_self = is_loopback(peer.ip)
         own_ip = peer.ip if to_self else self.host.ip
-        local = Address(own_ip if self.bound.ip == ANY_IP else self.bound.ip, self.bound.port)
+        local = Address(own_ip if self.bound.ip in ANY_IPS else self.bound.ip, self.bound.port)
         self._connection = self._make_connection(local, peer)
         target = self.host if to_self else self._net.find_host(peer.ip)
         self._handshake = Handshake(self._net, target, self._connection)

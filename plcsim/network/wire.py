@@ -98,5 +98,5 @@ class TraceEvent(NamedTuple):
 
 
 def is_loopback(ip: str) -> bool:
-    """Whether an IPv4 literal means the own host (127.0.0.0/8)."""
-    return ip.startswith("127.")
+    """Whether a literal means the own host (127.0.0.0/8, ::1)."""
+    return ip.startswith("127.") or ip == "::1"

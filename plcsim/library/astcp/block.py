@@ -10,8 +10,9 @@ from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE
 IDLE = 0
 BUSY = 1
 
-IP_SIZE = 16
-"""Bytes that an IP address takes with its NUL, at most."""
+IPV4_SIZE = 16
+IPV6_SIZE = 46
+"""Bytes that a literal takes with its NUL, at most."""
 
 
 class AsTcpBlock(FunctionBlock):
@@ -53,12 +54,20 @@ class AsTcpBlock(FunctionBlock):
         return idents.settings.closed_while_busy if self.i_state == BUSY else tcpERR_INVALID_IDENT
 
     def ip_at(self, address: int) -> str:
-        """Return the STRING at ``address`` as far as an IP address and one byte more can go.
+        """Return the STRING at ``address`` as far as a literal of IPv4 or IPv6 can go.
 
         Raises:
             PageFault: the string runs into an address that is not valid.
         """
-        return self.context.memory.string(address, IP_SIZE).decode("latin-1")
+        return self.context.memory.string(address, IPV6_SIZE).decode("latin-1")
+
+
+def ip_size(ip: str) -> int:
+    """Return the bytes that a peer's literal takes at most, at a socket bound to ``ip``.
+
+    Programs know 16 of AsTCP; those that listen in IPv6, which AsTCP does not, give more.
+    """
+    return IPV6_SIZE if ":" in ip else IPV4_SIZE
 
 
 def ip_string(ip: str) -> bytes:

@@ -39,8 +39,8 @@ class TcpClient(interface.TcpClient, AsTcpBlock):
     status.
 
     Statuses: ERR_OK, ERR_FUB_BUSY, tcpERR_INVALID (refused, no route, no answer in time, a socket
-    that listens), tcpERR_ALREADY_CONNECTED, tcpERR_INVALID_IDENT, tcpERR_PARAMETER (no IPv4
-    address, port 0), tcpERR_SYSTEM.
+    that listens), tcpERR_ALREADY_CONNECTED, tcpERR_INVALID_IDENT, tcpERR_PARAMETER (no IP
+    address, one of IPv6 for a socket of IPv4 or the reverse, port 0), tcpERR_SYSTEM.
     """
 
     def step(self, idents: IdentTable) -> int:

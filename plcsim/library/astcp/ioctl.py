@@ -7,7 +7,7 @@ from struct import Struct as Format
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.astcp import interface
-from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
+from plcsim.library.astcp.block import AsTcpBlock, ip_size, ip_string
 from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import Option, Outcome
 
@@ -77,7 +77,7 @@ def _get_address(endpoint: Endpoint, data: bytes, memory: Memory) -> _Answer:
     """Store the socket's own address where the tcpSO_ADDRESS_typ in ``data`` points to."""
     port_at, ip_at = _PAIR.unpack(data)
     local = endpoint.socket.local
-    for address, size in ((port_at, _UINT.size), (ip_at, IP_SIZE)):
+    for address, size in ((port_at, _UINT.size), (ip_at, ip_size(local.ip))):
         if address:
             memory.check(address, size)
     if port_at:

@@ -36,8 +36,9 @@ class TcpOpen(interface.TcpOpen, AsTcpBlock):
     """Open a socket, for a server or a client.
 
     Inputs: enable; pIfAddr, address of the interface's IP address as a STRING, 0 or an empty STRING
-    for all; port, 0 for any free one; options, 0 or tcpOPT_REUSEADDR. Outputs: status; ident,
-    tcpINVALID_IDENT after a failure.
+    for all; beyond the library a literal of IPv6 (such as ::) makes a socket of IPv6; port, 0 for
+    any free one; options, 0 or tcpOPT_REUSEADDR. Outputs: status; ident, tcpINVALID_IDENT after a
+    failure.
 
     Statuses: ERR_OK, tcpERR_ALREADY_EXIST (port in use), tcpERR_NOMORE_IDENTS, tcpERR_INTERFACE,
     tcpERR_PARAMETER (unknown option), tcpERR_SOCKET_BIND (such as a port below 1024 without

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plcsim.library.astcp import interface
-from plcsim.library.astcp.block import IP_SIZE, AsTcpBlock, ip_string
+from plcsim.library.astcp.block import AsTcpBlock, ip_size, ip_string
 from plcsim.library.astcp.interface import (
     tcpERR_ALREADY_CONNECTED,
     tcpERR_NOCLIENT,
@@ -25,7 +25,8 @@ class TcpServer(interface.TcpServer, AsTcpBlock):
     """Wait for a client; each call after ERR_OK waits for the next one on the same ident.
 
     Inputs: enable; ident of TcpOpen; backlog, clients that may queue, taken from the first call;
-    pIpAddr, address of 16 bytes for the client's IP address as a STRING, 0 for none. Outputs:
+    pIpAddr, address of 16 bytes, 46 where the ident listens in IPv6, for the client's IP address as
+    a STRING, 0 for none. Outputs:
     status; identclnt for TcpSend, TcpRecv and TcpClose; portclnt. The outputs keep their values
     while nobody comes.
 
@@ -41,7 +42,7 @@ class TcpServer(interface.TcpServer, AsTcpBlock):
         if endpoint is None:
             return self.unknown_ident(idents)
         if self.pIpAddr:
-            self.context.memory.check(self.pIpAddr, IP_SIZE)
+            self.context.memory.check(self.pIpAddr, ip_size(endpoint.socket.local.ip))
         status = self._listen(endpoint.socket)
         if status != ERR_OK:
             return status

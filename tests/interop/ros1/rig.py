@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from crosnode.graph.arguments import node_settings
+from crosnode.graph.hosts import is_ipv6_wanted, parse_hosts
+from crosnode.graph.uri import make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
 from crosnode.node.ros_time import Epoch
@@ -69,23 +71,35 @@ class Ros:
     Args:
         master: "rosmaster" or "plcsim".
         folder: for logs.
+        host: number, or a name of ``hosts``, under which all are reached; "::1" and names are IPv6.
+        hosts: what the processes find as /etc/hosts, in a mount namespace of their own.
     """
 
-    def __init__(self, master: str, folder: Path) -> None:
+    def __init__(self, master: str, folder: Path, host: str = "127.0.0.1", hosts: str = "") -> None:
         self.kind = master
         self.folder = folder
         self.port = free_port()
-        self.uri = f"http://127.0.0.1:{self.port}/"
+        self.host = host
+        self.hosts = parse_hosts(hosts, ipv6=True)
+        self.uri = make_uri("http", host, self.port)
+        self._prefix: list[str] = []
+        if hosts:
+            file = folder / "hosts"
+            file.write_text(hosts)
+            self._prefix = in_own_namespace(file)
         keep = ("PATH", "HOME", "LANG", "PYTHONHASHSEED")
         self.env = {key: os.environ[key] for key in keep if key in os.environ} | {
             "ROS_MASTER_URI": self.uri,
-            "ROS_IP": "127.0.0.1",
             "ROS_HOME": str(folder / "home"),
             "ROS_LOG_DIR": str(folder / "log"),
             "ROS_PACKAGE_PATH": f"{PROGRAMS / 'talker' / 'packages'}:/usr/share",
             "PYTHONUNBUFFERED": "1",
             "ROSCONSOLE_STDOUT_LINE_BUFFERED": "1",
         }
+        if host == "127.0.0.1":
+            self.env["ROS_IP"] = host
+        else:
+            self.env |= {"ROS_IPV6": "on", "ROS_HOSTNAME" if hosts else "ROS_IP": host}
         self._processes: list[Process] = []
         self._nodes: list[tuple[Context, CrosNode]] = []
         self.steps: list[Callable[[], object]] = []
@@ -99,14 +113,15 @@ class Ros:
         self.master = self.start(commands[self.kind])
         deadline = time.monotonic() + 15
         while time.monotonic() < deadline:
-            with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", self.port)):
+            ip = self.hosts.get(self.host, self.host)
+            with contextlib.suppress(OSError), socket.create_connection((ip, self.port)):
                 return
             time.sleep(0.02)
         raise AssertionError(f"no master: {self.master.text}")
 
     def start(self, command: list[str]) -> Process:
         log = self.folder / f"{len(self._processes)}.log"
-        self._processes.append(Process(command, self.env, log))
+        self._processes.append(Process([*self._prefix, *command], self.env, log))
         return self._processes[-1]
 
     def rospy(self, *arguments: str) -> Process:
@@ -129,7 +144,9 @@ class Ros:
         settings = node_settings(name, arguments, self.env)
         types = MessageTypes([PROGRAMS / "talker" / "packages"])
         epoch = Epoch(time.time_ns() - context.release_ns)
-        node = CrosNode(context, settings, types, NodeOptions(epoch=epoch))
+        ipv6 = is_ipv6_wanted(self.env)
+        options = NodeOptions(epoch=epoch, ipv6=ipv6, hosts=self.hosts)
+        node = CrosNode(context, settings, types, options)
         self._nodes.append((context, node))
         return node
 
@@ -179,9 +196,17 @@ class Ros:
             process.kill(signal.SIGINT if process is not self.master else signal.SIGKILL, 3)
 
 
+def in_own_namespace(hosts: Path) -> list[str]:
+    """Return what runs a command with another /etc/hosts, which needs rights."""
+    script = 'mount --bind "$0" /etc/hosts && exec "$@"'
+    return ["unshare", "--mount", "sh", "-c", script, str(hosts)]
+
+
 @contextlib.contextmanager
-def ros_system(master: str, folder: Path) -> Iterator[Ros]:
-    ros = Ros(master, folder)
+def ros_system(
+    master: str, folder: Path, host: str = "127.0.0.1", hosts: str = ""
+) -> Iterator[Ros]:
+    ros = Ros(master, folder, host, hosts)
     try:
         yield ros
     finally:

@@ -14,6 +14,9 @@ from crosnode.graph.uri import Authority, make_uri, parse_uri
         ("rosrpc://host:34691", "rosrpc", Authority("host", 34691)),
         ("rosrpc://host:34691/", "rosrpc", Authority("host", 34691)),
         ("http://10.0.0.1:80/", "http", Authority("10.0.0.1", 80)),
+        ("http://[::1]:11311/", "http", Authority("::1", 11311)),
+        ("http://::1:11311/", "http", Authority("::1", 11311)),  # as rospy with ROS_IP=::1
+        ("rosrpc://fd00::12:4000", "rosrpc", Authority("fd00::12", 4000)),
         ("http://[fe80::1%eth0]:11311/RPC2", "http", Authority("fe80::1%eth0", 11311)),
     ],
 )
@@ -34,6 +37,7 @@ def test_refused(uri: str) -> None:
 def test_make() -> None:
     assert make_uri("http", "h", 1) == "http://h:1/"
     assert make_uri("rosrpc", "::1", 2) == "rosrpc://[::1]:2"
+    assert make_uri("rosrpc", "[::1]", 2) == "rosrpc://[::1]:2"
 
 
 @given(st.text())

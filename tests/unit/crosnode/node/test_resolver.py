@@ -1,6 +1,7 @@
 """Names by DNS on the virtual network: nobody waits, and nobody asks for ever."""
 
 import struct
+from ipaddress import ip_address
 
 import pytest
 
@@ -22,6 +23,7 @@ class NameServer:
     def __init__(self, world: World, names: dict[str, str], ip: str = SERVER_IP) -> None:
         self.names = names
         self.asked: list[str] = []
+        self.kinds: list[int] = []
         made = world.net.host(ip).open_datagrams("", PORT).socket
         assert made is not None
         self.socket = made
@@ -37,24 +39,29 @@ class NameServer:
                 labels.append(data[at + 1 : at + 1 + data[at]].decode())
                 at += 1 + data[at]
             self.asked.append(".".join(labels))
-            self.reply(data, self.names.get(self.asked[-1]), peer)
+            (kind,) = struct.unpack_from(">H", data, at + 1)
+            self.kinds.append(kind)
+            self.reply(data, self.names.get(self.asked[-1]), peer, kind)
 
-    def reply(self, asked: bytes, ip: str | None, peer: Address) -> None:
+    def reply(self, asked: bytes, ip: str | None, peer: Address, kind: int = 1) -> None:
+        """Answer; a name that has an address of the other kind exists, but without this one."""
+        packed = ip_address(ip).packed if ip else b""
+        fits = len(packed) == {1: 4, 28: 16}[kind]
         head = struct.pack(">HHHHHH", int.from_bytes(asked[:2], "big"),
-                           0x8180 if ip else 0x8183, 1, int(ip is not None), 0, 0)  # fmt: skip
+                           0x8180 if ip else 0x8183, 1, int(fits), 0, 0)  # fmt: skip
         record = b""
-        if ip:
-            record = b"\xc0\x0c" + struct.pack(">HHIH", 1, 1, 1, 4)
-            record += bytes(int(part) for part in ip.split("."))
+        if fits:
+            record = b"\xc0\x0c" + struct.pack(">HHIH", kind, 1, 1, len(packed)) + packed
         self.socket.send(head + asked[12:] + record, peer)
 
 
 def rig(
-    names: dict[str, str], *servers: str, domains: tuple[str, ...] = ()
+    names: dict[str, str], *servers: str, domains: tuple[str, ...] = (), ipv6: bool = False
 ) -> tuple[World, NameServer, Resolver]:
     world = World(master=False)
     server = NameServer(world, names)
-    found = Resolver(world.context(PLC_IP), NameServers(servers or (SERVER_IP,), domains))
+    asked = NameServers(servers or (SERVER_IP,), domains)
+    found = Resolver(world.context(PLC_IP), asked, ipv6=ipv6)
     world.steps.append(found.step)
     return world, server, found
 
@@ -163,3 +170,20 @@ def test_a_node_finds_master_publishers_and_services_by_name() -> None:
     world.until(lambda: provider.requests)
     assert set(server.asked) == {"master.plant", "arm.plant"}
     assert news(node, StatusKind.PEER_REFUSED) == []
+
+
+@pytest.mark.parametrize(
+    ("ip", "kinds"), [("fd00::1", [28]), ("192.168.0.1", [28, 1]), ("fd00:0::b", [28])]
+)
+def test_with_ipv6_a_name_is_asked_for_both_kinds(ip: str, kinds: list[int]) -> None:
+    world, server, found = rig({"master.plant": ip}, ipv6=True)
+    world.until(lambda: known(found, "master.plant"), 20)
+    assert found.find("master.plant") == str(ip_address(ip))
+    assert server.kinds == kinds
+
+
+def test_without_ipv6_nobody_is_asked_for_it() -> None:
+    world, server, found = rig({"master.plant": "fd00::1"})
+    with pytest.raises(InvalidNameError):
+        world.until(lambda: known(found, "master.plant"), 20)
+    assert server.kinds == [1]

@@ -47,6 +47,26 @@ def test_an_embedded_master_has_the_uri_of_the_host() -> None:
     assert settings.master_uri == "http://10.1.1.1:12345/"
 
 
+@pytest.mark.parametrize(
+    ("values", "environment", "ipv6"),
+    [
+        ({}, {}, False),
+        ({}, {"ROS_IPV6": "on"}, True),
+        ({}, {"ROS_IPV6": "1"}, False),  # rospy and roscpp know "on" alone
+        ({"ipv6": True}, {}, True),
+        ({"ipv6": False}, {"ROS_IPV6": "on"}, False),
+    ],
+)
+def test_ipv6_is_said_by_the_table_or_as_rospy_reads_it(
+    values: dict[str, object], environment: dict[str, str], ipv6: bool
+) -> None:
+    settings = read(values, environment)
+    assert settings.ipv6 is ipv6
+    assert settings.host == ("::1" if ipv6 else "127.0.0.1")
+    embedded = read(values | {"master": "embedded"}, environment)
+    assert embedded.master_uri == ("http://[::1]:11311/" if ipv6 else "http://127.0.0.1:11311/")
+
+
 def test_packages_hosts_and_the_bridge(tmp_path: Path) -> None:
     (tmp_path / "share").mkdir()
     settings = read(
@@ -73,10 +93,10 @@ def test_packages_hosts_and_the_bridge(tmp_path: Path) -> None:
         ({"master": "somewhere"}, "ros.master"),
         ({"master_port": 0}, "ros.master_port"),
         ({"packages": ["nowhere"]}, "ros.packages.*no such folder"),
-        ({"hosts": {"x": "y"}}, "ros.hosts.x.*IPv4"),
+        ({"hosts": {"x": "y"}}, "ros.hosts.x.*IP address"),
         ({"host": ""}, "ros.host: "),
         ({"host": "a b"}, "ros.host: "),
-        ({"bind": "localhost"}, "ros.bind: 'localhost' is not an IPv4 address"),
+        ({"bind": "localhost"}, "ros.bind: 'localhost' is not an IP address"),
         ({"node": "a b"}, "ros.node"),
         ({"node": "/a/b"}, "ros.node: '/a/b' is not a ROS name without namespace"),
         ({"namespace": "~a"}, "ros.namespace: .* is private"),

@@ -140,7 +140,7 @@ def test_faults_that_are_over_are_forgotten() -> None:
 def test_wrong_plans_are_refused() -> None:
     world = World()
     world.now_ns = 100
-    with pytest.raises(NetworkSetupError, match="'plc' is not an IPv4 address"):
+    with pytest.raises(NetworkSetupError, match="'plc' is not an address"):
         world.faults.reset("plc")
     with pytest.raises(NetworkSetupError, match="at_ns=99 is before"):
         world.faults.silence(CLIENT, at_ns=99)

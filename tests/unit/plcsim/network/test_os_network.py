@@ -3,6 +3,7 @@ from __future__ import annotations
 import errno
 import os
 import resource
+import socket
 import subprocess
 import sys
 import time
@@ -24,6 +25,8 @@ NET = OsNetwork()
 
 class Failing:
     """A socket of the host on which every call fails as told."""
+
+    family = socket.AF_INET
 
     def __init__(self, number: int) -> None:
         self.number = number

@@ -6,6 +6,7 @@ from plcsim.core.errors import PageFault
 from plcsim.library.astcp import (
     ERR_FUB_BUSY,
     ERR_OK,
+    TcpClient,
     TcpServer,
     tcpERR_ALREADY_CONNECTED,
     tcpERR_NO_DATA,
@@ -18,9 +19,10 @@ from plcsim.library.astcp import (
 )
 from plcsim.network import Accepted, Outcome
 
-from .plc import CLIENT, PORT, WILD, World
+from .plc import CLIENT, PORT, WILD, Plc, World
 
 ON, OFF = b"\1\0\0\0", bytes(4)
+LONG_LITERAL = "fd00:1111:2222:3333:4444:5555:6666:7777"
 
 
 def test_busy_until_a_client_comes(world: World) -> None:
@@ -123,3 +125,27 @@ def test_two_blocks_share_a_listening_ident(world: World) -> None:
     two()
     assert two.status == ERR_FUB_BUSY
     world.connect(two)
+
+
+def test_ipv6_takes_the_room_that_its_literals_need(world: World) -> None:
+    """Who opens with a literal of IPv6 gives 46 bytes for the client's address."""
+    server, client = Plc(world.net.host("fd00::1")), Plc(world.net.host(LONG_LITERAL))
+    opened = server.open(PORT, address="::")
+    address = server.memory.allocate(46)
+    listening = server.call(TcpServer, ident=opened.ident, backlog=1, pIpAddr=address)
+    own = client.open(address="::")
+    connecting = client.call(
+        TcpClient, ident=own.ident, pServer=client.text("fd00::1"), portserv=PORT
+    )
+    assert [listening.status, connecting.status] == [ERR_FUB_BUSY, ERR_FUB_BUSY]
+    connecting()
+    listening()
+    assert [listening.status, connecting.status] == [ERR_OK, ERR_OK]
+    assert server.memory.string(address, 46) == LONG_LITERAL.encode()
+
+
+def test_a_wild_address_for_ipv6_takes_no_client(world: World) -> None:
+    server = Plc(world.net.host("fd00::1"))
+    opened = server.open(PORT, address="::")
+    with pytest.raises(PageFault):
+        server.call(TcpServer, ident=opened.ident, backlog=1, pIpAddr=2**20 - 20)
