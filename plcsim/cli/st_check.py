@@ -21,7 +21,9 @@ from plcsim.cli.declaration_scopes import (
     read_declarations,
 )
 from plcsim.program.structured_text.check.program import check_program, declarations_of
+from plcsim.program.structured_text.check.programs import MeantProgram
 from plcsim.program.structured_text.dialect import is_standard
+from plcsim.program.structured_text.program_uses import program_uses
 from plcsim.program.structured_text.syntax.tree import ActionUnit, ProgramUnit
 from st_types.errors import DiagnosticSeverity
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
@@ -107,7 +109,8 @@ def _errors(scopes: Iterable[NamedScope]) -> Iterator[str]:
 
 def _check(group: _Group) -> None:
     dialect = IEC if any(map(is_standard, group.files)) else AUTOMATION_STUDIO
-    declared = [declarations_of(file) for file in group.files]
+    uses = program_uses(file.tokens.source.text for file in group.files)
+    declared = [declarations_of(file, uses) for file in group.files]
     scope = Scope(group.name, declared, group.outer, dialect=dialect, strict=True)
     scope.check()
     if not any(file.diagnostics.error_count for file in group.files):
@@ -115,7 +118,9 @@ def _check(group: _Group) -> None:
         names = [unit.name for file in group.files for unit in file.units if _is_program(unit)]
         if dialect is IEC and len(names) > 1:
             for only in names:  # each sees the others' declarations, not their variables
-                check_program(group.name, group.files, scope, storage="global", only=only)
+                check_program(
+                    group.name, group.files, scope, storage="global", meant=MeantProgram(only)
+                )
         else:
             check_program(group.name, group.files, scope, storage=storage)
 

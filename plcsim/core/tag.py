@@ -80,10 +80,11 @@ def locate(path: str, areas: Sequence[Tag]) -> Tag:
     head = _HEAD.match(bare)
     name = head[0] if head else ""
     own = [a for a in areas if a.path and a.path.upper() == name.upper() and bare == path]
-    if own:
-        return _inside(path, bare[len(name) :].removeprefix("."), own)
     shared = [area for area in areas if not area.path]
-    if any(_has(area, name) for area in shared):
+    is_shared = any(_has(area, name) for area in shared)
+    if own and not (is_shared and not any(area.data_type.size for area in own)):
+        return _inside(path, bare[len(name) :].removeprefix("."), own)
+    if is_shared:  # or the one instance of a program that has no variables of its own
         return _inside(path, bare, shared)
     what = "no program" if not shared else "no program and no global variable"
     raise KeyError(f"{what} {name!r} for tag {path!r}")

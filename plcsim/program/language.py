@@ -34,6 +34,7 @@ class ProgramSource(NamedTuple):
         shared: the global variables of the project.
         only: of several programs in the files the one that is meant, "" where they are one; what
             the files declare belongs to the project then.
+        instance: of that one, where a CONFIGURATION connects variables to it; "" for none.
     """
 
     name: str
@@ -43,6 +44,7 @@ class ProgramSource(NamedTuple):
     scope: Scope
     shared: DeclaredVariables
     only: str = ""
+    instance: str = ""
 
 
 class ProgramCode(Protocol):

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 DEEPEST: Final = 4
 """Folders below the project's in which libraries are looked for."""
 
+INSTANCE_OF: Final = " : "
+"""Stands between the name of an instance and that of its PROGRAM."""
+
 _NOT_LOOKED_INTO: Final = frozenset(["tests", "Temp", "Binaries"])
 """Folders of a project that hold no libraries; neither do those that begin with "." or "_"."""
 
@@ -56,12 +59,14 @@ class ProgramPlace(NamedTuple):
         around: the places between the project and it, from the outside in.
         only: of a PROGRAM that stands among others in the common files, as IEC 61131-3 has it: its
             name; "" for a program of files of its own.
+        instance: of that one, where a CONFIGURATION connects variables to it; "" for none.
     """
 
     folder: Path
     own: DeclarationPlace
     around: tuple[DeclarationPlace, ...] = ()
     only: str = ""
+    instance: str = ""
 
 
 class LibraryPlace(NamedTuple):
@@ -167,8 +172,14 @@ def program_places(folder: Path, sources: Iterable[str]) -> dict[str, ProgramPla
 
 
 def unit_place(folder: Path, name: str) -> ProgramPlace:
-    """Return the place of a PROGRAM among others in the common files."""
-    return ProgramPlace(folder, DeclarationPlace(name, ()), only=name)
+    """Return the place of a PROGRAM among others in the common files.
+
+    Args:
+        folder: of the project.
+        name: of the PROGRAM; ``instance : name`` where a CONFIGURATION connects variables to it.
+    """
+    instance, _, only = name.rpartition(INSTANCE_OF)
+    return ProgramPlace(folder, DeclarationPlace(name, ()), only=only, instance=instance)
 
 
 def outside_libraries(folders: Iterable[Path]) -> tuple[LibraryPlace, ...]:

@@ -278,7 +278,7 @@ class ProgramLoader:
         return shared
 
     def _load(self, name: str) -> ProgramCode:
-        folder, own, _, only = self._layout.programs[name]
+        folder, own, _, only, instance = self._layout.programs[name]
         if only:
             own = self._layout.common
         if not os.path.isdir(folder):  # noqa: PTH112  # no error for what can be no path
@@ -295,7 +295,9 @@ class ProgramLoader:
             language, files = found[0]
             scope = self.declarations.scope_of(name)
             return language.load(
-                ProgramSource(name, folder, files, self.declarations, scope, self.shared, only)
+                ProgramSource(
+                    name, folder, files, self.declarations, scope, self.shared, only, instance
+                )
             )
         except OSError as err:
             raise ConfigurationError(f"{err.filename}: {err.strerror}") from None

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.task import HIGHEST_CLASS
+from plcsim.program.layout import INSTANCE_OF
+from plcsim.program.structured_text.program_uses import program_uses
 from plcsim.program.structured_text.sources import check_syntax, read_files
 from plcsim.program.structured_text.syntax.tree import Configuration, ProgramUnit
 from plcsim.project.tables import ProgramEntry, TaskClassTable, task_class_entry
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
 
+    from plcsim.program.structured_text.program_uses import ProgramUses
     from plcsim.program.structured_text.sources import UnitFile
     from plcsim.program.structured_text.syntax.tree import (
         ProgramConfiguration,
@@ -71,7 +74,8 @@ def configured_classes(
         told = ", ".join(file.path for file in files)
         raise ConfigurationError(f"{told}: no PROGRAM is in it, so there is nothing to run")
     scope = Scope("configuration", [file.declarations() for file in files], dialect=IEC)
-    return _Classes(scope, names, cycle_ns).of(files)
+    uses = program_uses(file.source.text for file in files)
+    return _Classes(scope, names, cycle_ns, uses).of(files)
 
 
 def class_entry(number: int, cycle_ns: int, programs: Sequence[ProgramEntry]) -> TaskClassEntry:
@@ -91,9 +95,14 @@ class _Classes:
         scope: knows the constants that they name.
         names: of the PROGRAMs, by the name in capitals.
         cycle_ns: of what no TASK has.
+        uses: which PROGRAMs others name.
     """
 
-    def __init__(self, scope: Scope, names: Mapping[str, str], cycle_ns: int) -> None:
+    def __init__(
+        self, scope: Scope, names: Mapping[str, str], cycle_ns: int, uses: ProgramUses
+    ) -> None:
+        self._uses = uses
+        self._instances: set[str] = set()
         self._scope = scope
         self._names = names
         self._tasks: dict[str, _Task] = {"": _Task(LOWEST_PRIORITY, "", cycle_ns)}
@@ -113,7 +122,9 @@ class _Classes:
                     programs.append((program.task.upper(), self._instance(file, program)))
         findings.check()
         if not programs:
-            programs = [("", ProgramEntry(name, name)) for name in self._names.values()]
+            called = self._uses.called
+            first = [name for upper, name in self._names.items() if upper not in called]
+            programs = [("", ProgramEntry(name, name)) for name in first or self._names.values()]
         return self._entries(programs, files[0].path)
 
     def _entries(
@@ -156,14 +167,21 @@ class _Classes:
 
     def _instance(self, file: StructuredTextFile, program: ProgramConfiguration) -> ProgramEntry:
         place = f"{file.location(program)}: error: PROGRAM {program.name}"
-        if program.arguments:
-            raise ConfigurationError(f"{place}: values of its variables are not supported here")
         if program.task.upper() not in self._tasks:
             raise ConfigurationError(f"{place}: there is no TASK {program.task} before it")
         source = self._names.get(program.type_name.upper())
         if source is None:
             raise ConfigurationError(f"{place}: the file has no PROGRAM {program.type_name}")
-        return ProgramEntry(program.name, source)
+        if source.upper() in self._uses.named:
+            if source in self._instances:
+                raise ConfigurationError(
+                    f"{place}: {source} exists once, for other programs name it; it has a task"
+                )
+            self._instances.add(source)
+        return ProgramEntry(
+            program.name,
+            f"{program.name}{INSTANCE_OF}{source}" if program.arguments else source,
+        )
 
 
 def _configurations(file: StructuredTextFile) -> Iterator[Configuration]:

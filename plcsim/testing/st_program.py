@@ -18,6 +18,7 @@ from plcsim.network import VirtualNetwork
 from plcsim.program.layout import folder_layout, outside_libraries
 from plcsim.program.loader import ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
+from plcsim.program.structured_text.check.programs import MeantProgram
 from plcsim.program.structured_text.code import compile_program
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.sources import UnitFile, check_syntax, read_files
@@ -144,7 +145,7 @@ def _application(
         text += f"PROGRAM {_CALLER} VAR test : {test.name}; END_VAR test(); END_PROGRAM"
         files.append(UnitFile(Source(str(file), text)))
     catalogue = loader.declarations.catalogue
-    code = compile_program(test.name, files, scope, loader.shared, catalogue, only=program)
+    code = compile_program(test.name, files, scope, loader.shared, catalogue, MeantProgram(program))
     classes = [TaskClassSetup(1, CYCLE_NS, [ProgramSetup(test.name, code)])]
     has_shared = any(kind.members for kind in loader.shared)
     setup = Setup(classes, shared=loader.shared if has_shared else None, catalogue=catalogue)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NoReturn
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Task, Unit
-from plcsim.program.structured_text.check.program import check_program, is_meant, unit_scope
+from plcsim.program.structured_text.check.program import check_program, unit_scope
+from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
@@ -16,6 +17,7 @@ from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
+from plcsim.program.structured_text.program_uses import program_uses
 from plcsim.program.structured_text.sources import UnitDeclarations, check_syntax
 from plcsim.program.structured_text.syntax.tree import ProgramUnit
 from st_types.errors import DiagnosticSeverity
@@ -46,7 +48,8 @@ def load(source: ProgramSource) -> StructuredTextCode:
     files = [each.unit_file for each in scope.files if isinstance(each, UnitDeclarations)]
     name = scope.name if source.only else source.name
     catalogue = source.declarations.catalogue
-    return compile_program(name, files, scope, source.shared, catalogue, source.only)
+    meant = MeantProgram(source.only, source.instance)
+    return compile_program(name, files, scope, source.shared, catalogue, meant)
 
 
 def compile_program(
@@ -55,7 +58,7 @@ def compile_program(
     scope: Scope,
     shared: DeclaredVariables,
     catalogue: Catalogue,
-    only: str = "",
+    meant: MeantProgram = ALL_PROGRAMS,
 ) -> StructuredTextCode:
     """Check and compile a program.
 
@@ -65,22 +68,22 @@ def compile_program(
         scope: what it declares and sees.
         shared: the global variables of the project.
         catalogue: libraries of the project.
-        only: of several PROGRAMs in the files the one that is meant: what the files declare outside
-            of them is global then; "" where all are units of one program.
+        meant: of several PROGRAMs in the files the one that is compiled: what the files declare
+            outside of them is global then; all are units of one program where it has no name.
 
     Raises:
         ConfigurationError: there are errors; all are told, with file, line and column.
     """
-    names = (name, only, scope.dialect.name, repr(MEASURING.options))
+    names = (name, *meant, scope.dialect.name, repr(MEASURING.options))
     cache, key = code_cache(), key_of(names, files, scope, shared)
     stored = find(cache, key)
     if stored is None:
         check_syntax(files)
-        _check_only(files, only)
-        stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, only)
+        _check_meant(files, meant.name)
+        stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, meant)
         keep(cache, key, stored)
     else:
-        layout = VariableLayout(name, _own_scopes(files, scope, only), scope.chain, shared)
+        layout = VariableLayout(name, _own_scopes(files, scope, meant), scope.chain, shared)
     keep_possible(stored.code.profile, {file.path: file.source.text for file in files})
     absent = missing(catalogue, scope, stored.code.imports)
     if absent:
@@ -88,26 +91,27 @@ def compile_program(
     return StructuredTextCode(stored.code, scope, layout.variables, stored.warnings)
 
 
-def _check_only(files: Sequence[UnitFile], only: str) -> None:
+def _check_meant(files: Sequence[UnitFile], meant: str) -> None:
     """Raise a ConfigurationError where no file holds the PROGRAM that is meant."""
     units = [unit for file in files for unit in file.parsed.units]
     names = [unit.name for unit in units if isinstance(unit, ProgramUnit)]
-    if only and only.upper() not in map(str.upper, names):
-        near = did_you_mean(only, names)
+    if meant and meant.upper() not in map(str.upper, names):
+        near = did_you_mean(meant, names)
         told = ", ".join(file.path for file in files)
-        raise ConfigurationError(f"{told}: no PROGRAM {only} is there{near}")
+        raise ConfigurationError(f"{told}: no PROGRAM {meant} is there{near}")
 
 
-def _own_scopes(files: Sequence[UnitFile], scope: Scope, only: str) -> list[Scope]:
+def _own_scopes(files: Sequence[UnitFile], scope: Scope, meant: MeantProgram) -> list[Scope]:
     """Return the scopes whose variables are those of a program, as checking it does."""
+    uses = program_uses(file.source.text for file in files)
     parsed = [file.parsed for file in files if file.may_declare]
     units = [(unit, file) for file in parsed for unit in file.units]
     found = [
-        unit_scope(unit, file, scope)
+        unit_scope(unit, file, scope, uses)
         for unit, file in units
-        if isinstance(unit, ProgramUnit) and is_meant(unit, only)
+        if isinstance(unit, ProgramUnit) and meant.includes(unit)
     ]
-    return [*([] if only else [scope]), *(each for each in found if each is not None)]
+    return [*([] if meant.name else [scope]), *(each for each in found if each is not None)]
 
 
 def _compiled(
@@ -115,9 +119,9 @@ def _compiled(
     files: Sequence[StructuredTextFile],
     scope: Scope,
     shared: DeclaredVariables,
-    only: str,
+    meant: MeantProgram,
 ) -> tuple[Stored, VariableLayout]:
-    program, warnings = checked(name, files, scope, "global" if only else "program", only)
+    program, warnings = checked(name, files, scope, "global" if meant.name else "program", meant)
     if not any(body.kind == "unit" for body in program.bodies):
         raise ConfigurationError(
             f"{files[0].path}: no PROGRAM is here or in the files beside it; "
@@ -126,7 +130,7 @@ def _compiled(
     layout = VariableLayout(name, program.scopes, scope.chain, shared)
     semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
     module = lower(program, layout.areas, semantics)
-    module.name = f"{name}.{only}" if only else name
+    module.name = ".".join(filter(None, (name, *meant)))
     return Stored(generate(module, MEASURING.options), warnings), layout
 
 
@@ -135,7 +139,7 @@ def checked(
     files: Sequence[StructuredTextFile],
     scope: Scope,
     storage: Storage = "program",
-    only: str = "",
+    meant: MeantProgram = ALL_PROGRAMS,
 ) -> tuple[CheckedProgram, list[str]]:
     """Check bodies; return what is to be lowered, and the warnings about them.
 
@@ -143,7 +147,7 @@ def checked(
         ConfigurationError: there are errors; all are told.
     """
     known = {id(record) for file in files for record in file.diagnostics.records}
-    program = check_program(name, files, scope, storage=storage, only=only)
+    program = check_program(name, files, scope, storage=storage, meant=meant)
     records = [each for file in files for each in file.diagnostics.records if id(each) not in known]
     errors = [each.render() for each in records if each.severity is DiagnosticSeverity.ERROR]
     if errors:

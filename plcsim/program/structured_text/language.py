@@ -38,9 +38,9 @@ class StructuredText:
         """Parse the files; return what they declare in VAR and TYPE blocks of their own."""
         if not files:
             return ()
-        from plcsim.program.structured_text.sources import read_files  # noqa: PLC0415  # as in `load`
+        from plcsim.program.structured_text.sources import declared_in  # noqa: PLC0415  # as in `load`
 
-        return [file.declarations() for file in read_files(files)]
+        return declared_in(files)
 
     def dialect(self, declared: Sequence[DeclarationFile]) -> Dialect:
         """Return IEC 61131-3 where a file has VAR blocks, which Automation Studio's have not."""

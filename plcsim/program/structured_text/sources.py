@@ -14,6 +14,12 @@ from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.dialect import is_standard
+from plcsim.program.structured_text.program_uses import (
+    NO_USES,
+    ProgramUses,
+    program_uses,
+    without_comments,
+)
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.errors import DiagnosticSeverity, SourceError
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
@@ -29,10 +35,6 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
     from st_types.resolve.dialect import Dialect
 
-_NO_CODE: Final = re.compile(
-    r"""\(\*.*?\*\) | /\*.*?\*/ | //[^\n]* | '(?:[^'$\n]|\$.)*' | "(?:[^"$\n]|\$.)*" """,
-    re.VERBOSE | re.DOTALL,
-)
 _DECLARING: Final = re.compile(
     r"\b(?:VAR(?:_\w+)?|TYPE|FUNCTION(?:_BLOCK)?|CONFIGURATION)\b", re.IGNORECASE
 )
@@ -61,16 +63,19 @@ class UnitFile:
     @cached_property
     def may_declare(self) -> bool:
         """False where no word in the text could begin a declaration."""
-        return _DECLARING.search(_NO_CODE.sub(" ", self.source.text)) is not None
+        return _DECLARING.search(without_comments(self.source.text)) is not None
 
-    def declarations(self) -> UnitDeclarations:
+    def declarations(self, uses: ProgramUses = NO_USES) -> UnitDeclarations:
         """Return what the file declares for all of its program.
+
+        Args:
+            uses: which of its PROGRAMs others name, so that they are declared, too.
 
         A file that declares nothing, and whose text was parsed without errors before, is not parsed
         for that.
         """
         if self.may_declare or not self._is_sound():
-            made = declarations_of(self.parsed)
+            made = declarations_of(self.parsed, uses)
             return UnitDeclarations(made.items, "", made.tokens, made.diagnostics, self)
         nothing = Source(self.path, "")
         log = DiagnosticLog(nothing, FindingCode.SYNTAX)
@@ -94,6 +99,17 @@ class UnitDeclarations(DeclarationFile):
     """What a file with units declares."""
 
     unit_file: UnitFile = field(compare=False)
+
+
+def declared_in(paths: Iterable[Path]) -> list[UnitDeclarations]:
+    """Return what files with units declare.
+
+    Raises:
+        ConfigurationError: a file cannot be read.
+    """
+    files = read_files(paths)
+    uses = program_uses(file.source.text for file in files)
+    return [file.declarations(uses) for file in files]
 
 
 def dialect_of(declared: Sequence[DeclarationFile]) -> Dialect:

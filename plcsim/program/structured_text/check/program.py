@@ -21,8 +21,18 @@ from plcsim.program.structured_text.check.classes import (
 from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.kinds import kind_of, plain
 from plcsim.program.structured_text.check.names import BY_ADDRESS, ScopeNames, Symbols, named
+from plcsim.program.structured_text.check.programs import (
+    ALL_PROGRAMS,
+    MeantProgram,
+    as_block,
+    call_of,
+    connections,
+    instance_of,
+    is_shared,
+)
 from plcsim.program.structured_text.check.statements import StatementChecker
 from plcsim.program.structured_text.codes import FindingCode
+from plcsim.program.structured_text.program_uses import NO_USES, UNITS, program_uses
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
     Configuration,
@@ -50,8 +60,10 @@ if TYPE_CHECKING:
 
     from plcsim.program.structured_text.check.classes import ClassMethod
     from plcsim.program.structured_text.check.typed import BodyKind, Storage, Value
+    from plcsim.program.structured_text.program_uses import ProgramUses
     from plcsim.program.structured_text.syntax.tree import (
         Part,
+        ProgramConfiguration,
         Statement,
         StructuredTextFile,
         Unit,
@@ -63,14 +75,15 @@ if TYPE_CHECKING:
 QUIET: Final = frozenset([FindingCode.UNUSED_VARIABLE, FindingCode.NARROWED])
 """Warnings that are told on demand only: sound programs are full of what they mean."""
 
-UNITS: Final = {"_INIT": "init", "_CYCLIC": "cyclic", "_EXIT": "exit"}
-"""Units of a task by the names of Automation Studio; any other PROGRAM is the cyclic one."""
 
-
-def declarations_of(file: StructuredTextFile) -> DeclarationFile:
+def declarations_of(file: StructuredTextFile, uses: ProgramUses = NO_USES) -> DeclarationFile:
     """Return what a file of Structured Text declares, for a `Scope`.
 
     Functions and function blocks without VAR blocks of their own are declared in a .fun file.
+
+    Args:
+        file: parsed.
+        uses: which PROGRAMs others name.
     """
     items: list[Item] = []
     for unit in file.units:
@@ -78,6 +91,8 @@ def declarations_of(file: StructuredTextFile) -> DeclarationFile:
             items.append(unit)
         elif isinstance(unit, FunctionUnit | FunctionBlockUnit) and _is_declared(unit):
             items.append(unit.declaration)
+        elif isinstance(unit, ProgramUnit) and is_shared(unit, uses):
+            items += [as_block(unit).declaration, instance_of(unit)]
         elif isinstance(unit, InterfaceUnit):
             items.append(interface_type(unit))
         elif isinstance(unit, Configuration):
@@ -86,17 +101,14 @@ def declarations_of(file: StructuredTextFile) -> DeclarationFile:
     return DeclarationFile(items, "", file.tokens, file.diagnostics)
 
 
-def unit_scope(unit: ProgramUnit, file: StructuredTextFile, outer: Scope) -> Scope | None:
-    """Return the scope of a PROGRAM with VAR blocks of its own, None for one without."""
-    if not unit.blocks:
+def unit_scope(
+    unit: ProgramUnit, file: StructuredTextFile, outer: Scope, uses: ProgramUses
+) -> Scope | None:
+    """Return the scope of the variables that a PROGRAM has for each task, None for none."""
+    if not unit.blocks or is_shared(unit, uses):
         return None
     declared = DeclarationFile(unit.blocks, "", file.tokens, file.diagnostics)
     return Scope(unit.name, [declared], (outer,), dialect=outer.dialect, strict=outer.strict)
-
-
-def is_meant(unit: ProgramUnit, only: str) -> bool:
-    """Return whether a PROGRAM is the one called ``only``, or one of all where that is ""."""
-    return only.upper() in ("", unit.name.upper())
 
 
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
@@ -116,7 +128,7 @@ def check_program(
     *,
     hidden: Collection[FindingCode] = QUIET,
     storage: Storage = "program",
-    only: str = "",
+    meant: MeantProgram = ALL_PROGRAMS,
 ) -> typed.CheckedProgram:
     """Check all bodies of a program; findings go to the ``diagnostics`` of the files.
 
@@ -128,9 +140,11 @@ def check_program(
         scope: what the program declares, what stands in the files (`declarations_of`) included.
         hidden: codes of warnings that are not wanted.
         storage: of the variables of the scope; those of a library are global ones.
-        only: name of the PROGRAM that is meant; "" for all.
+        meant: of several PROGRAMs the one that is compiled.
     """
-    checker = _ProgramChecker(scope, hidden, storage, only)
+    checker = _ProgramChecker(scope, hidden, storage, meant)
+    checker.uses = program_uses(file.tokens.source.text for file in files)
+    checker.connected = meant.configured(files)
     for file in files:
         checker.add(file)
     bodies = checker.bodies()
@@ -168,9 +182,11 @@ class _Job:
 
 class _ProgramChecker:
     def __init__(
-        self, scope: Scope, hidden: Collection[FindingCode], storage: Storage, only: str
+        self, scope: Scope, hidden: Collection[FindingCode], storage: Storage, meant: MeantProgram
     ) -> None:
-        self._only = only
+        self._meant = meant
+        self.uses = NO_USES
+        self.connected: tuple[StructuredTextFile, ProgramConfiguration] | None = None
         self.symbols = Symbols({scope: storage})
         self._scope = scope
         self._hidden = hidden
@@ -203,11 +219,19 @@ class _ProgramChecker:
     # Units
 
     def _program_unit(self, unit: ProgramUnit) -> None:
-        if not is_meant(unit, self._only):
-            return
         name = UNITS.get(unit.name.upper(), "cyclic")
+        if is_shared(unit, self.uses):
+            self._function_block(as_block(unit))
+            is_called = not self._meant.name and unit.name.upper() in self.uses.called
+            if self._meant.includes(unit) and not is_called and self._is_new(unit, "unit", name):
+                connected = None if self.connected is None else self.connected[1]
+                call = call_of(unit, connected)
+                self._jobs.append(_Job(name, "unit", unit, [call], self._file, self._program))
+            return
+        if not self._meant.includes(unit):
+            return
         self._owner = owner = self._program
-        scope = unit_scope(unit, self._file, self._scope)
+        scope = unit_scope(unit, self._file, self._scope, self.uses)
         if scope is not None:
             scope.check()
             self.symbols.storages[scope] = "program"
@@ -245,7 +269,7 @@ class _ProgramChecker:
             owner = owners.get(key_of(owner_name))
             if owner is not None:
                 self._add_action(replace(unit, name=name), owner)
-            elif not self._only:
+            elif not self._meant.name:
                 message = f"no PROGRAM or FUNCTION_BLOCK is called {owner_name}"
                 self._findings.error(unit, FindingCode.UNKNOWN_NAME, message)
 
@@ -428,6 +452,8 @@ class _ProgramChecker:
         body.result = result
         if job.kind in ("function", "block", "method"):
             body.parameters, body.locals = self._variables(owner.scope)
+        if job.kind == "unit" and self.connected is not None and owner.scope is not self._scope:
+            into.append(self._connected(body, checker))
         into.append(body)
         job.body, job.calls = body, checker.called_functions
         called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
@@ -435,6 +461,17 @@ class _ProgramChecker:
         for action in found:
             action.is_needed = True
         return [*found, *self._called_methods(checker.called_methods)]
+
+    def _connected(self, body: typed.CheckedBody, inner: StatementChecker) -> typed.CheckedBody:
+        """Surround the body of a PROGRAM by its connections; return it as an action of its own."""
+        assert self.connected is not None
+        file, program = self.connected
+        findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
+        outer = StatementChecker(ScopeNames(self._scope, self.symbols, findings), findings, {})
+        before, after = connections(program, inner, outer)
+        own = replace(body, name=f"body of {program.type_name}", kind="action")
+        body.statements = [*before, typed.CallAction(body.line, own.name), *after]
+        return own
 
     def _called_methods(self, methods: Mapping[str, ClassMethod]) -> Iterator[_Job]:
         """Yield the methods that are called for the first time."""

@@ -1,5 +1,9 @@
 """Controllers from one file of Structured Text."""
 
+import ast
+import re
+from pathlib import Path
+
 import pytest
 
 from plcsim.core.clock import VirtualClock
@@ -60,6 +64,25 @@ def test_tasks_become_task_classes_by_their_priority(load_text):
     assert (value("left.c.out"), value("drain.c.out"), value("drain.seen")) == (8, 20, 112)
 
 
+WHOLE_FILES = re.findall(
+    r"^==== (.*)\n([\s\S]*?)\n----\n([\s\S]*?)\n(?=====|\Z)",
+    (Path(__file__).parents[3] / "corpus/structured_text/whole_files.txt").read_text("utf-8"),
+    re.MULTILINE,
+)
+"""What each is about, its text, and its variables afterwards, worked out by hand."""
+
+
+@pytest.mark.parametrize(
+    ("title", "text", "expected"), WHOLE_FILES, ids=[f[0] for f in WHOLE_FILES]
+)
+def test_a_whole_file_gives_what_was_worked_out_by_hand(load_text, title, text, expected):
+    rows = dict(row.split(" = ") for row in expected.splitlines())
+    wanted = {name: ast.literal_eval(value) for name, value in rows.items()}
+    controller, value = run(load_text(text), wanted.pop("cycles", 1))
+    assert controller.fault is None
+    assert {name: value(name) for name in wanted} == wanted
+
+
 def test_without_a_configuration_every_program_runs_in_class_1(load_text):
     text = PLANT[: PLANT.index("CONFIGURATION")] + "VAR_GLOBAL level : INT; END_VAR\n"
     controller, value = run(load_text(text, cycle_ns=5 * MS), 2)
@@ -90,8 +113,12 @@ def test_files_of_automation_studio_belong_together(project):
         ),
         ("T#10ms", "T#0ms", "plant.st:23:9: error: INTERVAL of TASK fast must be above 0"),
         ("WITH fast : Fill", "WITH quick : Fill", "error: PROGRAM left: there is no TASK quick"),
-        ("WITH fast : Fill", "WITH fast : Mix", "error: PROGRAM left: the file has no PROGRAM Mix"),
-        ("fast : Fill;", "fast : Fill(a := 1);", "values of its variables are not supported"),
+        ("WITH fast : Fill", "WITH fast : Mix", "PROGRAM left: the file has no PROGRAM Mix"),
+        (
+            "fast : Fill;",
+            "fast : Fill(a := 1);",
+            "plant.st:25:39: error ST3004: Fill has no input a",
+        ),
         ("Level + 1", "Leve + 1", "error ST2001: no variable is called Leve"),
         ("PROGRAM Fill", "PROGRAM", "error ST1001"),
     ],
