@@ -17,8 +17,9 @@ import urllib.request
 from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parent))
-from conftest import TANK, Running, free_port
+sys.path.insert(0, str(Path(__file__).parents[3]))
+from tests.interop.modbus.conftest import TANK, Running
+from tests.ports import free_port
 
 VALUES = (
     ("control_level", "level", "m"),

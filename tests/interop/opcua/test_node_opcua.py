@@ -3,7 +3,6 @@
 import json
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +14,7 @@ pytest.importorskip("argon2")
 
 from plcsim.access import Role, Users
 from plcsim.access.users import users_file
+from tests.ports import free_port
 
 HERE = Path(__file__).parent
 TANK = HERE.parents[2] / "programs" / "tank"
@@ -23,11 +23,6 @@ if not (HERE / "node_modules" / "node-opcua-client").is_dir():
     pytest.skip(
         "node-opcua is not installed; run tests/interop/opcua/install.sh", allow_module_level=True
     )
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return int(probe.getsockname()[1])
 
 
 @pytest.fixture(scope="module")

@@ -21,19 +21,13 @@ from crosnode.node.ros_time import Epoch
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
+from tests.ports import free_port
 
 PYTHON = "/usr/bin/python3"
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 PROGRAMS = ROOT / "programs"
 NS_PER_MS = 1_000_000
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        return port
 
 
 class Process:

@@ -17,8 +17,9 @@ from plcsim.recorder.bag.reindex import reindex
 from plcsim.recorder.bag.types import text_message
 from plcsim.testing import Plc
 from plcsim.testing.target import project_target
+from tests.ports import free_port
 
-from .rig import PROGRAMS, Ros, free_port
+from .rig import PROGRAMS, Ros
 
 pytest.importorskip("rosbags")
 

@@ -16,6 +16,7 @@ import pytest
 
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
+from tests.ports import free_port
 
 PROGRAM = """
 from crosnode.plc.project import create_node
@@ -40,11 +41,6 @@ class Talker(Program):
         assert call.was_answered, "no master in EXIT"
         self.node.destroy()
 """
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return int(probe.getsockname()[1])
 
 
 class Site:

@@ -11,6 +11,8 @@ from plcsim.core.errors import CycleTimeViolation
 from plcsim.host import time_limit as time_limit_module
 from plcsim.host.time_limit import time_limit
 
+pytestmark = pytest.mark.timeout(method="thread")  # SIGALRM and its timer are what is tested
+
 SHORT_NS = 20_000_000
 
 
@@ -101,6 +103,15 @@ def test_what_returns_is_left_alone(alarms):
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
     signal.raise_signal(signal.SIGALRM)
     assert alarms == [signal.SIGALRM]
+
+
+def test_an_alarm_that_comes_after_its_block_is_no_fault(alarms):
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    with pytest.raises(CycleTimeViolation), time_limit(SHORT_NS):
+        spin()
+    assert callable(signal.getsignal(signal.SIGALRM))  # the default would end the process
+    signal.raise_signal(signal.SIGALRM)  # as one does that another thread was handed
+    assert not alarms
 
 
 def test_an_alarm_of_somebody_else_is_on_again(alarms):

@@ -14,6 +14,7 @@ import pytest
 from plcsim.process.run_file import find_run
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import Project, read_project
+from tests.ports import free_port
 
 from ..site import frame
 
@@ -33,11 +34,6 @@ class Echo(Program):
         self.seen = self.wanted
         self.cycles += 1
 """
-
-
-def free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return int(probe.getsockname()[1])
 
 
 class Site:

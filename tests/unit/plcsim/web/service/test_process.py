@@ -19,6 +19,7 @@ from websockets.sync.client import connect
 
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
+from tests.ports import free_port
 
 PROGRAM = """
 from plcsim import Program
@@ -33,11 +34,6 @@ class Echo(Program):
         self.seen = self.wanted
         self.cycles += 1
 """
-
-
-def free_port():
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        return probe.getsockname()[1]
 
 
 class Site:
