@@ -48,6 +48,7 @@ _OPTIONS = (
     # a jump through a table is one that the processor often takes to the wrong place first: the
     # kernel of texts in benchmarks/c_kernels takes a tenth longer with it
     "-fno-jump-tables",
+    *("-mllvm", "-enable-emscripten-sjlj"),  # setjmp; see plcsim.ansi_c.nonlocal_jumps
     "-UNDEBUG",  # zig defines it where it optimises
     "-U__EMSCRIPTEN__",  # what the target is called says nothing about the system
 )

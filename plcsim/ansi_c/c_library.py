@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, NoReturn, Protocol
 
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.module import CModule
+from plcsim.ansi_c.nonlocal_jumps import NonlocalJumps
 from plcsim.core.memory import LIBRARY_AREA, PAGE
 from plcsim.machine.errors import FaultKind, MachineError, MachineFault
 from plcsim.machine.shared_module import read_shared
@@ -87,6 +88,7 @@ class _Host:
         self._functions = {
             "plc_write": self._make(self._write, "III"),
             "plc_fault": self._make(self._fault, "I"),
+            "plc_longjmp": self._make(machine.shared(NonlocalJumps).jump, "I"),
             "plc_file_open": self._of_files(lambda f, p, flags: f.open(self._path(p), flags), 2),
             "plc_file_close": self._of_files(lambda f, file: f.close(file), 1),
             "plc_file_read": self._of_files(lambda f, *values: f.read(*values), 4),

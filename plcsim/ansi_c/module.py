@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from plcsim.ansi_c.line_table import read_line_table
+from plcsim.ansi_c.nonlocal_jumps import NonlocalJumps
 from plcsim.core.errors import ConfigurationError
 from plcsim.machine.placement import Placement, initial_values, place
 
@@ -110,8 +111,8 @@ class CModule:
         return {name: first + number for number, name in enumerate(names)}
 
     def _functions(self) -> dict[tuple[str, str], Extern | int]:
-        names = self._linked.called
-        found = {name: self._surroundings.function(name) for name in names}
+        find, jumps = self._surroundings.function, self._machine.shared(NonlocalJumps)
+        found = {name: find(name) or jumps.extern(name) for name in self._linked.called}
         return {("env", name): extern for name, extern in self._complete(found, "function").items()}
 
     def _complete(self, found: Mapping[str, V | None], kind: str) -> dict[str, V]:

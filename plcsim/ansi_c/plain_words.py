@@ -23,7 +23,6 @@ _ELSEWHERE = {
     **dict.fromkeys(("sys/socket.h", "netinet/in.h", "netinet/tcp.h", "arpa/inet.h"), _SOCKETS),
     **dict.fromkeys(("netdb.h", "sys/ioctl.h", "poll.h"), _SOCKETS),
     "pthread.h": "a controller has no threads: a program's units run in its task class",
-    "setjmp.h": "setjmp and longjmp are not there",
     "dirent.h": "folders are read by the library FileIO (FileIO.h)",
 }
 

@@ -55,10 +55,10 @@ class ProgramSurroundings:
 
     def variable(self, name: str) -> int | None:
         """Return the address of a variable, what is declared nearest; None where there is none."""
-        known = self._variables
-        while name not in known and name.endswith("_"):
-            name = name[:-1]  # headers write it behind words of C, and behind names of types
-        return known.get(name) or self._library.variable(name)
+        known, plain = self._variables, name
+        while plain not in known and plain.endswith("_"):
+            plain = plain[:-1]  # headers write it behind words of C, and behind names of types
+        return known.get(plain) or self._library.variable(name)
 
     def function(self, name: str) -> Extern | None:
         """Return a block, a FUNCTION of a library or a function of C, None where there is none."""

@@ -15,6 +15,10 @@ void plc_write(int file, const char *text, size_t length);
 /* Ends the unit as a fault with a reason. */
 void plc_fault(const char *reason) __attribute__((noreturn));
 
+/* Ends all calls up to the nearest one that was made by invoke_... ; again for a jump that has ended
+ * there and goes on. */
+void plc_longjmp(int again) __attribute__((noreturn));
+
 /* Files, on the file devices of the controller. All return a number of errno.h, below 0, for what
  * they could not do. Places in a file are counted in bytes from its beginning. */
 
