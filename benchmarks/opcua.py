@@ -12,7 +12,6 @@ are differences within a run.
 from __future__ import annotations
 
 import argparse
-import asyncio
 import json
 import os
 import signal
@@ -25,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from _modbus_site import child_with, cpu_s
+from _opcua_subscriber import ITEMS, PUBLISHING_MS, SUBSCRIPTIONS
 from _outcome import (
     Target,
     console,
@@ -36,7 +36,7 @@ from _outcome import (
 )
 from _ports import free_port
 
-SUBSCRIPTIONS, ITEMS, PUBLISHING_MS = 20, 100, 100
+SUBSCRIBER = Path(__file__).parent / "_opcua_subscriber.py"
 FIRST_CPU, LAST_CPU = min(os.sched_getaffinity(0)), max(os.sched_getaffinity(0))
 
 PROJECT = """
@@ -73,32 +73,6 @@ def make_project(folder: Path, port: int) -> Path:
     return project
 
 
-async def subscribe(port: int, seconds: float) -> None:
-    """Be the client: print how many changes came."""
-    from asyncua import Client, ua  # noqa: PLC0415  # only the client process needs it
-
-    class Counter:
-        count = 0
-
-        def datachange_notification(self, *_: Any) -> None:
-            self.count += 1
-
-    counter = Counter()
-    async with Client(f"opc.tcp://127.0.0.1:{port}", timeout=60) as client:
-        index = await client.get_namespace_index("urn:plcsim:" + sys.argv[3])
-        for number in range(SUBSCRIPTIONS):
-            subscription = await client.create_subscription(PUBLISHING_MS, counter)
-            first = number * ITEMS
-            nodes = [
-                client.get_node(ua.NodeId(f"line.values[{first + i}].v", index))
-                for i in range(ITEMS)
-            ]
-            await subscription.subscribe_data_change(nodes)
-        before = counter.count
-        await asyncio.sleep(seconds)
-        print(json.dumps({"changes": counter.count - before}))
-
-
 def one_run(folder: Path, seconds: float, *, with_client: bool) -> dict[str, Any]:
     port = free_port()
     project = make_project(folder, port)
@@ -118,8 +92,8 @@ def one_run(folder: Path, seconds: float, *, with_client: bool) -> dict[str, Any
     before, since = cpu_s(service), time.monotonic()
     found: dict[str, Any] = {"changes": 0}
     if with_client:
-        arguments = [sys.executable, __file__, "--client", f"{port}:{seconds}", project.name]
-        pinned = ["taskset", "-c", str(FIRST_CPU), *arguments]
+        client = [sys.executable, str(SUBSCRIBER), str(port), project.name, str(seconds)]
+        pinned = ["taskset", "-c", str(FIRST_CPU), *client]
         done = subprocess.run(pinned, stdout=subprocess.PIPE, text=True, check=True)
         found = json.loads(done.stdout)
     else:
@@ -185,8 +159,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--client"]:
-        port, _, duration = sys.argv[2].partition(":")
-        asyncio.run(subscribe(int(port), float(duration)))
-    else:
-        sys.exit(main())
+    sys.exit(main())

@@ -12,6 +12,7 @@ from plcsim.opcua.model import ModelMaker
 from plcsim.opcua.notes import notes_of
 from plcsim.opcua.settings import OpcuaProject, read_settings
 from plcsim.project.extension import Attachment, Extension
+from plcsim.settings import is_loopback
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -53,7 +54,7 @@ class OpcuaExtension(Extension):
         missing = [name for name in NEEDED if find_spec(name) is None]
         if missing:
             return [f"opcua: needs {', '.join(missing)}; python3 -m pip install 'plcsim[opcua]'"]
-        if not settings.settings.is_loopback and not Users(users_file(settings.folder)):
+        if not is_loopback(settings.settings.host) and not Users(users_file(settings.folder)):
             return ["opcua.host: nobody is let in before there are users; plcsim users add NAME"]
         return []
 

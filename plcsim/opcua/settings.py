@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, NamedTuple
 
@@ -47,11 +46,6 @@ class OpcuaSettings:
     nodes: Annotated[int, Whole(1, 1_000_000)] = 50_000
     connections: Annotated[int, Whole(1, 1000)] = 64
     write_timeout_ns: Annotated[int, Duration(minimum_ns=1)] = 2_000_000_000
-
-    @property
-    def is_loopback(self) -> bool:
-        """Nobody reaches the server but from this machine."""
-        return ipaddress.ip_address(self.host).is_loopback
 
     @property
     def endpoint(self) -> str:

@@ -35,6 +35,7 @@ from plcsim.settings.kinds import (
     SettingKind,
     Size,
     Whole,
+    is_loopback,
 )
 from plcsim.settings.table import Table
 
@@ -49,6 +50,7 @@ __all__ = [
     "Size",
     "Table",
     "Whole",
+    "is_loopback",
     "is_settings",
     "settings",
 ]

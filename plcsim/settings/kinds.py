@@ -172,6 +172,11 @@ class IpAddress(SettingKind):
             raise ValueError(f"{text!r} is not an IP address") from None
 
 
+def is_loopback(host: str) -> bool:
+    """Return whether nobody reaches an address (of `IpAddress`) but from this machine."""
+    return ipaddress.ip_address(host).is_loopback
+
+
 @dataclass(frozen=True)
 class PathTo(SettingKind):
     """A path; a relative one begins at the folder of the file that holds the table.

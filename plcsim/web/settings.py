@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ipaddress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any, Final, NamedTuple
 
@@ -56,11 +55,6 @@ class WebSettings:
     names: tuple[str, ...] = ()
     connections: Annotated[int, Whole(1, 10_000)] = 64
     tls: WebTlsSettings | None = None
-
-    @property
-    def is_loopback(self) -> bool:
-        """Nobody reaches the pages but from this machine."""
-        return ipaddress.ip_address(self.host).is_loopback
 
     @property
     def url(self) -> str:

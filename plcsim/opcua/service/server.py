@@ -26,6 +26,7 @@ from plcsim.opcua.service.people import People, trust
 from plcsim.opcua.service.readings import Readings
 from plcsim.opcua.service.security import policies, set_certificate
 from plcsim.opcua.settings import OpcuaProject, settings_from
+from plcsim.settings import is_loopback
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -88,7 +89,7 @@ async def _server(project: OpcuaProject, name: str) -> Server:
     settings = project.settings
     people = People(
         Users(users_file(project.folder)),
-        is_loopback=settings.is_loopback,
+        is_loopback=is_loopback(settings.host),
         may_look=settings.anonymous,
     )
     server = Server(user_manager=people)

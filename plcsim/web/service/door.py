@@ -18,6 +18,7 @@ from urllib.parse import urlsplit
 
 from plcsim.access import Role, User
 from plcsim.core.errors import PlcError
+from plcsim.settings import is_loopback
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -88,7 +89,7 @@ class Door:
     @property
     def has_users(self) -> bool:
         """Nobody is let in without a password or a token."""
-        return bool(self._users) or not self._settings.is_loopback
+        return bool(self._users) or not is_loopback(self._settings.host)
 
     def check_host(self, headers: Mapping[str, str]) -> None:
         """Check the name that somebody asks for us by.

@@ -7,6 +7,7 @@ import ssl
 from typing import TYPE_CHECKING
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.settings import is_loopback
 
 if TYPE_CHECKING:
     from plcsim.access import Users
@@ -19,7 +20,7 @@ def check_users(settings: WebSettings, users: Users) -> None:
     Raises:
         ConfigurationError: nobody could log in.
     """
-    if not (settings.is_loopback or users):
+    if not (is_loopback(settings.host) or users):
         raise ConfigurationError(
             f"web.host: {settings.host} is reached from other machines, and there are no users; "
             "plcsim users add NAME --role engineer"

@@ -16,7 +16,6 @@ def test_an_empty_table_serves_everything_on_loopback(tmp_path):
 
     assert found == OpcuaSettings()
     assert (found.host, found.port, found.tags) == ("127.0.0.1", 4840, ())
-    assert found.is_loopback
 
 
 def test_settings_travel_as_json(tmp_path):

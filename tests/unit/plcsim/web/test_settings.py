@@ -14,7 +14,7 @@ def read(folder, **values):
 def test_defaults_are_for_this_machine(tmp_path):
     made = read(tmp_path)
     assert made == WebSettings()
-    assert (made.url, made.is_loopback) == ("http://127.0.0.1:8080", True)
+    assert made.url == "http://127.0.0.1:8080"
 
 
 def test_settings_go_to_the_service_as_json(tmp_path):
@@ -29,7 +29,7 @@ def test_settings_go_to_the_service_as_json(tmp_path):
         tls={"certificate": "cert.pem", "key": "key.pem"},
     )
     assert settings_from(json.loads(json.dumps(made.to_json()))) == made
-    assert (made.url, made.is_loopback) == ("https://[::]:8443", False)
+    assert made.url == "https://[::]:8443"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,46 @@
+"""A client of OPC UA: 20 subscriptions of 100 variables each; prints how many changes came.
+
+python _opcua_subscriber.py PORT PROJECT SECONDS
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+from typing import Any, Final
+
+SUBSCRIPTIONS: Final = 20
+ITEMS: Final = 100
+PUBLISHING_MS: Final = 100
+
+
+class _Counter:
+    count = 0
+
+    def datachange_notification(self, *_: Any) -> None:
+        self.count += 1
+
+
+async def subscribe(port: int, project: str, seconds: float) -> None:
+    """Subscribe to ``line.values[0].v`` and those after it, and count changes for so long."""
+    from asyncua import Client, ua  # noqa: PLC0415  # a benchmark imports the numbers above
+
+    counter = _Counter()
+    async with Client(f"opc.tcp://127.0.0.1:{port}", timeout=60) as client:
+        index = await client.get_namespace_index(f"urn:plcsim:{project}")
+        for number in range(SUBSCRIPTIONS):
+            subscription = await client.create_subscription(PUBLISHING_MS, counter)
+            first = number * ITEMS
+            nodes = [
+                client.get_node(ua.NodeId(f"line.values[{first + i}].v", index))
+                for i in range(ITEMS)
+            ]
+            await subscription.subscribe_data_change(nodes)
+        before = counter.count
+        await asyncio.sleep(seconds)
+        print(json.dumps({"changes": counter.count - before}))
+
+
+if __name__ == "__main__":
+    asyncio.run(subscribe(int(sys.argv[1]), sys.argv[2], float(sys.argv[3])))
