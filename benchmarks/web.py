@@ -6,10 +6,11 @@
 A project in Structured Text with 200 REALs that change in every cycle and 2,000 more that change
 twice a second runs with pages, OPC UA and Modbus TCP. A leg is one run of it, with rights where the
 host gives them; every leg has 4 Modbus clients that ask as fast as the processor they share lets
-them (nice 19: behind everybody else). In turns a leg has these clients and no others ("none"), or also browsers that watch 200 tags ten times a second, one of which traces 8
-tags in every cycle, and a client of OPC UA with 20 subscriptions of 100 variables ("all"). All
-clients and services share the first processor, the scan has the last one. The last leg has all
-clients for as long as the trace is to be, and the first page is asked for while they are there.
+them (nice 19: behind everybody else). In turns a leg has these clients and no others ("none"), or
+also browsers that watch 200 tags ten times a second, one of which traces 8 tags in every cycle, and
+a client of OPC UA with 20 subscriptions of 100 variables ("all"). All clients and services share
+the first processor, the scan has the last one. The last leg has all clients for as long as the
+trace is to be, and the first page is asked for while they are there.
 
 A host that is shared takes its processors away, with clients and without. So both kinds of legs are
 interleaved and equally many, lateness is compared pair by pair, and missed grid points as stalls:

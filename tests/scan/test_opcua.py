@@ -2,12 +2,15 @@
 
 import asyncio
 import json
+import os
 import signal
 import socket
 import subprocess
 import sys
 import textwrap
 import time
+from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 
@@ -235,3 +238,74 @@ def test_users_of_the_project_have_their_roles(line):
     finally:
         users.remove("anna")
         users.remove("panel")
+
+
+def status(line):
+    """Return cycles of the controller now."""
+
+    async def act(_client, node):
+        return await node("gCount").read_value()
+
+    return talk(line, act)
+
+
+def server_process(line):
+    """Return the process id of the service that listens."""
+    port = int(line[1].rpartition(":")[2])
+    rows = Path("/proc/net/tcp").read_text().splitlines()[1:]
+    listening = {row.split()[9] for row in rows
+                 if row.split()[1].endswith(f":{port:04X}") and row.split()[3] == "0A"}  # fmt: skip
+    for folder in Path("/proc").glob("[0-9]*"):
+        for file in _files(folder):
+            if file in {f"socket:[{inode}]" for inode in listening}:
+                command = (folder / "cmdline").read_text()
+                if "plcsim.opcua.service" in command:
+                    return int(folder.name)
+    raise AssertionError("nobody listens")
+
+
+def _files(folder):
+    try:
+        return [str(file.readlink()) for file in (folder / "fd").iterdir()]
+    except OSError:  # it has gone
+        return []
+
+
+def resident(pid):
+    return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_beyond_the_limit_of_connections_a_client_is_told(line):
+    pid = server_process(line)
+    before, memory = status(line), resident(pid)
+    address = ("127.0.0.1", int(line[1].rpartition(":")[2]))
+    with ExitStack() as stack:
+        clients = [stack.enter_context(socket.create_connection(address, 20)) for _ in range(1000)]
+        for client in clients[64:]:
+            answer = client.recv(100)
+            assert answer[:4] == b"ERRF"
+            assert int.from_bytes(answer[8:12], "little") == ua.StatusCodes.BadTcpServerTooBusy
+        while len(_files(Path(f"/proc/{pid}"))) > 64 + 40:
+            time.sleep(0.02)  # those that were refused are being closed
+        assert resident(pid) - memory < 20_000_000
+    assert eventually(lambda: status(line)) > before
+
+
+def eventually(act):
+    """Return what comes of an act that is refused for a moment: connections are being closed."""
+    deadline = time.monotonic() + 30
+    while True:
+        try:
+            return act()
+        except (OSError, TimeoutError, ua.UaError):
+            assert time.monotonic() < deadline
+
+
+def test_a_chunk_of_100_mb_is_refused_before_it_has_come(line):
+    before = status(line)
+    with socket.create_connection(("127.0.0.1", int(line[1].rpartition(":")[2])), 20) as client:
+        client.sendall(b"HELF" + (100_000_000).to_bytes(4, "little"))
+        answer = client.recv(200)
+        assert int.from_bytes(answer[8:12], "little") == ua.StatusCodes.BadTcpMessageTooLarge
+        assert b"65535 at most" in answer
+    assert status(line) > before

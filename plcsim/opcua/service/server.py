@@ -22,6 +22,7 @@ from plcsim.opcua.extension import branches_of
 from plcsim.opcua.service.address_space import Nodes
 from plcsim.opcua.service.attributes import Attributes
 from plcsim.opcua.service.audit import WriteLog
+from plcsim.opcua.service.connections import OpcuaServer
 from plcsim.opcua.service.people import People, trust
 from plcsim.opcua.service.readings import Readings
 from plcsim.opcua.service.security import policies, set_certificate
@@ -92,7 +93,7 @@ async def _server(project: OpcuaProject, name: str) -> Server:
         is_loopback=is_loopback(settings.host),
         may_look=settings.anonymous,
     )
-    server = Server(user_manager=people)
+    server = OpcuaServer(user_manager=people)
     server.name = f"plcsim {name}"
     server.manufacturer_name = server.product_uri = "plcsim"
     server.limits.max_message_size = LARGEST_MESSAGE

@@ -41,7 +41,7 @@ class Act(NamedTuple):
 
 
 async def perform(hub: Hub, caller: Caller, name: str, arguments: Arguments) -> object:
-    """Carry out an act.
+    """Carry out an act, to its end and its line in the audit log even where the caller goes.
 
     Raises:
         PlcError: it is refused, there is no such act, or its arguments are wrong.
@@ -53,7 +53,10 @@ async def perform(hub: Hub, caller: Caller, name: str, arguments: Arguments) -> 
         raise RefusedError(
             f"{name}: the role {caller.user.role.value} may not; {act.role.value} may"
         )
-    return await act.do(hub, caller, arguments)
+    doing = asyncio.ensure_future(act.do(hub, caller, arguments))
+    hub.acting.add(doing)
+    doing.add_done_callback(hub.acting.discard)
+    return await asyncio.shield(doing)
 
 
 def text_of(arguments: Arguments, key: str, longest: int = 1000) -> str:

@@ -72,6 +72,7 @@ class Hub:
         self.figures = ClassFigures(self.given["classes"], self.given["tasks"])
         self.sources = Sources(Path(self.given["folder"]), self.image.directory)
         self._border: dict[str, Any] = {"time_ns": 0, "topics": [], "idents": {}}
+        self.acting: set[asyncio.Future[object]] = set()
         self._followers = 0
         self._events = self.image.events(from_oldest=True)
         self._samples = self.image.samples(from_oldest=True)

@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import uvicorn
 
@@ -24,6 +24,13 @@ if TYPE_CHECKING:
 
     from plcsim.process.service_main import Service
     from plcsim.web.settings import WebSettings
+
+
+BACKLOG: Final = 128
+"""Connections that are taken at once before those that find no room are closed."""
+
+ENOUGH_S: Final = 1.0
+"""A scan that runs has answered by then."""
 
 
 class _Server(uvicorn.Server):
@@ -63,6 +70,8 @@ async def _serve(service: Service) -> None:
     service.serving(url if users else f"{url}  (no users: this machine alone, as engineer)")
     try:
         await server.serve([listening])
+        if hub.acting:  # what was asked for last has its line in the audit log, too
+            await asyncio.wait(hub.acting, timeout=ENOUGH_S)
     finally:
         reading.cancel()
         await asyncio.gather(reading, return_exceptions=True)
@@ -85,5 +94,6 @@ def _config(settings: WebSettings, hub: Hub, door: Door) -> uvicorn.Config:
         ws_ping_interval=20.0,
         ws_ping_timeout=20.0,
         timeout_keep_alive=30,
+        backlog=BACKLOG,
         timeout_graceful_shutdown=1,
     )

@@ -16,7 +16,7 @@ export function show(page, ears) {
   } }), ` ${each}`));
   const body = h("tbody");
   const note = h("p", { class: "muted" });
-  const get = h("button", { onclick: () => download(`${link.facts.project}-logbook.txt`, [shown().map((e) => `${stamp(e)}  ${e.severity.padEnd(11)}  ${e.source}: ${e.text}\n`).join("")], "text/plain") }, "Download");
+  const get = h("button", { onclick: () => download(`${link.facts.project}-logbook.txt`, [shown().map((e) => `${stamp(e)}  ${e.severity.padEnd(11)}  ${e.source}: ${oneLine(e.text)}\n`).join("")], "text/plain") }, "Download");
   put(page, h("h1", {}, "Logbook"), h("div", { class: "toolbar" }, text, kinds, get),
     h("div", { class: "card" }, h("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Logbook" }, h("table", { class: "logbook" },
       h("thead", {}, h("tr", {}, ["Time", "", "Source", "Text"].map((title, at) => h("th", { scope: "col", class: at ? "" : "end" }, title || h("span", { class: "hidden" }, "Severity"))))), body)), note));
@@ -36,6 +36,9 @@ export function show(page, ears) {
   ears.on("hello", () => { entries = []; });
   ears.on("logbook", (told) => { entries = [...entries, ...told.entries].slice(-MOST); draw(); });
 }
+
+// an entry is one line of the file, whatever a program wrote into it
+function oneLine(text) { return text.replace(/[\x00-\x1f\x7f-\x9f\u2028\u2029]+/g, " "); }
 
 function stamp(entry) {
   const us = Math.floor(entry.time_ns / 1000);

@@ -13,6 +13,7 @@ from plcsim.settings.kinds import (
     SettingKind,
     Size,
     Whole,
+    is_loopback,
 )
 
 FOLDER = Path()
@@ -61,3 +62,11 @@ def test_what_is_wrong_is_told(kind: SettingKind, value: object, text: str) -> N
     with pytest.raises(ValueError) as raised:  # noqa: PT011  # the whole text is compared
         kind.convert(value, FOLDER)
     assert str(raised.value) == text
+
+
+@pytest.mark.parametrize(
+    ("host", "is_own"),
+    [("127.0.0.1", True), ("127.9.9.9", True), ("::1", True), ("0.0.0.0", False), ("::", False)],  # noqa: S104  # nothing listens here
+)
+def test_who_reaches_an_address(host: str, *, is_own: bool) -> None:
+    assert is_loopback(host) is is_own

@@ -225,6 +225,50 @@ def test_who_is_logged_out_is_let_go(guarded):
     assert guarded.do(lambda: removed(headers)) == 4401
 
 
+def test_a_wrong_token_gets_no_socket(guarded):
+    async def act():
+        async with Socket(guarded, {"authorization": "Bearer nobody.knows"}) as socket:
+            return await socket.closed()
+
+    assert guarded.do(act) == 4401
+
+
+def test_a_force_outlives_the_session_that_ends_in_the_middle_of_it(world):
+    """It is whole: forced, listed with who, in the audit log, and for somebody else to release."""
+
+    async def leave():
+        async with Socket(world) as socket:
+            await socket.pushed("hello")
+            force = {"id": 1, "do": "force", "tag": "p.level", "value": "2.5"}
+            await socket.tell(json.dumps(force))
+            while not world.hub.acting:
+                await asyncio.sleep(0)
+        while world.hub.acting:
+            await asyncio.sleep(0)
+
+    world.do(leave)
+    assert world.hub.forces() == [{"path": "p.level", "value": "2.5", "by": "web: local"}]
+    assert world.value("p.level") == 2.5
+    (line,) = world.audit()
+    assert (line["act"], line["tag"], line["who"]) == ("force", "p.level", "local")
+    assert ask(world, "POST", "/api/release", {"tag": "p.level"}).status == 200
+    assert world.hub.forces() == []
+
+
+@pytest.mark.parametrize("value", ["</script><b>$'", "$0D$0A$1B[31m$00", "a$Nb$Tc"])
+def test_markup_and_control_characters_are_values_like_others(world, value):
+    """They come as JSON, never as HTML, and are one line of the audit log."""
+    answer = ask(world, "POST", "/api/write", {"tag": "p.name", "value": f"'{value}'"})
+    assert (answer.status, answer.headers["content-type"]) == (200, "application/json")
+    shown = ask(world, "POST", "/api/read", {"tags": ["p.name"]}).json()["values"]
+    assert shown == [world.value("p.name")]
+    assert len(world.audit()) == 1
+    for path in ("p.<b>x</b>", "p.\x00\x1b", "p.na\u202eme"):
+        refused = ask(world, "POST", "/api/write", {"tag": path, "value": "'x'"})
+        assert (refused.status, refused.headers["content-type"]) == (400, "application/json")
+    assert len(world.audit()) == 1
+
+
 def test_a_browser_that_reads_nothing_holds_nothing_up(world):
     """Its next values wait for the last ones; what it asks waits for the answers before."""
 

@@ -111,11 +111,19 @@ def _system(site):
                 return told
 
 
-def test_a_message_that_is_too_long_ends_its_connection_and_nothing_else(site):
+def test_a_message_of_100_mb_is_refused_before_it_has_come(site):
     with site.live() as socket_:
-        with pytest.raises(ConnectionClosed):
-            socket_.send(iter(["x" * (1 << 20)] * 100))
-        assert socket_.close_code == 1009
+        masked_text = b"\x81\xff" + (100_000_000).to_bytes(8, "big") + b"mask"  # RFC 6455, 5.2
+        socket_.socket.sendall(masked_text)
+        with pytest.raises(ConnectionClosed) as told:
+            _read_all(socket_)
+        assert told.value.rcvd.code == 1009
+    assert site.await_pages()
+
+
+def test_a_message_that_is_sent_all_the_same_ends_its_connection_and_nothing_else(site):
+    with site.live() as socket_, pytest.raises(ConnectionClosed):
+        socket_.send(iter(["x" * (1 << 20)] * 100))
     assert site.await_pages()
 
 
@@ -133,20 +141,37 @@ def test_a_body_of_100_mb_is_refused_before_it_has_come(site):
     assert site.await_pages()
 
 
-def test_more_connections_than_allowed_are_told_so(site):
+def test_of_a_thousand_connections_those_beyond_the_limit_are_told_so(site):
+    before, rss = site.await_pages(), _rss(site.process.pid)
+    late = site.ask("status")["cycles"]["1"]
     with ExitStack() as stack:
         clients = [
-            stack.enter_context(socket.create_connection(("127.0.0.1", site.port), 5))
-            for _ in range(200)
+            stack.enter_context(socket.create_connection(("127.0.0.1", site.port), 30))
+            for _ in range(1000)
         ]
-        answers = []
         for client in clients[100:]:
-            client.settimeout(5)
-            answers.append(client.recv(100))
-        assert all(b"503" in answer for answer in answers)
-        rss = _rss(site.process.pid)
-    assert site.await_pages()
-    assert _rss(site.process.pid) - rss < 20_000_000
+            assert b"503" in client.recv(100)
+        _await(lambda: _descriptors(site.process.pid) < 20 + 40)
+        assert _rss(site.process.pid) - rss < 20_000_000
+    assert site.await_pages() > before
+    for cause in ("by_program", "by_controller"):
+        assert site.ask("status")["cycles"]["1"][cause] == late[cause]
+
+
+def _read_all(socket_):
+    while socket_.recv(timeout=30):
+        pass
+
+
+def _await(act):
+    deadline = time.monotonic() + 30
+    while not act():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def _descriptors(pid):
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
 
 
 def _rss(pid):
