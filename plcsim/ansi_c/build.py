@@ -7,6 +7,7 @@ have changed, and a module is linked again where an object has.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 import os
 import re
@@ -16,6 +17,7 @@ import tempfile
 from collections import deque
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -114,16 +116,16 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
         ConfigurationError: the compiler or the linker found errors; all of them are told, as
             "file:line:column: text".
     """
-    with tempfile.TemporaryDirectory(prefix="plcsim-c-") as folder:
-        objects = _compiled(order.sources, order, toolchain, cache, Path(folder, "own"))
+    with _WorkFolder() as work:
+        objects = _compiled(order.sources, order, toolchain, cache, work)
         read = {file for o in objects for file in o.files}
         used = [*order.libraries, *toolchain.libraries]
         sources = [s for each in used if each.is_used(read) for s in each.sources]
-        offered = _compiled(sources, order, toolchain, cache, Path(folder, "others"))
+        offered = _compiled(sources, order, toolchain, cache, work)
         _check_initial_values(order, objects)
         taken = chosen([o.content for o in objects], [o.content for o in offered])
         objects += [offered[number] for number in taken]
-        wasm = _link(order, objects, toolchain, cache, Path(folder))
+        wasm = _link(order, objects, toolchain, cache, work)
     return Built(wasm, [warning for o in objects for warning in o.warnings])
 
 
@@ -148,28 +150,45 @@ def _check_initial_values(order: BuildOrder, objects: Sequence[_Object]) -> None
 
 
 def _compiled(
-    sources: Sequence[Path], order: BuildOrder, toolchain: Toolchain, cache: CodeCache, work: Path
+    sources: Sequence[Path],
+    order: BuildOrder,
+    toolchain: Toolchain,
+    cache: CodeCache,
+    work: _WorkFolder,
 ) -> list[_Object]:
     """Compile what is not known.
 
     Raises:
         ConfigurationError: there are errors; all of them are told.
     """
-    work.mkdir()
-    objects = [
-        _Object(source, work / f"{number}", order, toolchain)
-        for number, source in enumerate(sources)
-    ]
+    objects = [_Object(source, work, order, toolchain) for source in sources]
     unknown = [o for o in objects if not o.load(cache)]
     if len(unknown) >= MANY:
         sys.stderr.write(f"plcsim: {order.name}: compiling {len(unknown)} files\n")
     _compile(unknown)
-    findings = [finding for o in objects for finding in o.errors]
+    findings = [finding for o in unknown for finding in o.errors]
     if findings:
         raise ConfigurationError(*findings)
-    for each in objects:
+    for each in unknown:
         each.store(cache)
     return objects
+
+
+class _WorkFolder(ExitStack):
+    """A folder for what compiler and linker write: it is made when something is written."""
+
+    @cached_property
+    def folder(self) -> Path:
+        """The folder."""
+        return Path(self.enter_context(tempfile.TemporaryDirectory(prefix="plcsim-c-")))
+
+    @cached_property
+    def _numbers(self) -> Iterator[int]:
+        return itertools.count()
+
+    def new_file(self) -> Path:
+        """Return an object file that is not there yet."""
+        return self.folder / f"{next(self._numbers)}.o"
 
 
 class _Object:
@@ -179,18 +198,18 @@ class _Object:
     all of them are still the same, so is the object.
     """
 
-    def __init__(self, source: Path, target: Path, order: BuildOrder, toolchain: Toolchain) -> None:
+    def __init__(
+        self, source: Path, work: _WorkFolder, order: BuildOrder, toolchain: Toolchain
+    ) -> None:
         is_c = source.suffix.lower() == ".c"
         self.source = source
-        self.file = target.with_suffix(".o")
         self.content = b""
         self.errors: list[str] = []
         self.warnings: list[str] = []
         self.files: frozenset[str] = frozenset()
         self.toolchain = toolchain
-        self._work = target.parent
+        self._work = work
         self._folders = order.folders
-        self._dependencies = target.with_suffix(".d")
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
             *_OPTIONS,
@@ -216,8 +235,17 @@ class _Object:
         self.files = frozenset(manifest["files"])
         return bool(self.content)
 
+    @cached_property
+    def file(self) -> Path:
+        """Where the compiler writes it, and what is linked."""
+        return self._work.new_file()
+
+    @cached_property
+    def _dependencies(self) -> Path:
+        return self.file.with_suffix(".d")
+
     def full_command(self) -> list[str]:
-        overlay = overlay_without_rdtsc(self.source, self._work)
+        overlay = overlay_without_rdtsc(self.source, self._work.folder)
         read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
         made = ("-MD", "-MF", str(self._dependencies), "-o", str(self.file))
         return [*self.command, *read, *made]
@@ -235,9 +263,7 @@ class _Object:
             self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
 
     def store(self, cache: CodeCache) -> None:
-        """Keep the object, where it was compiled now."""
-        if not self._dependencies.is_file():
-            return
+        """Keep the object."""
         key = _key("object", self.content)
         manifest = {
             "files": {file: _hash_of(file) for file in sorted(self.files)},
@@ -284,7 +310,7 @@ def _link(
     objects: Sequence[_Object],
     toolchain: Toolchain,
     cache: CodeCache,
-    work: Path,
+    work: _WorkFolder,
 ) -> bytes:
     key = _key("module", toolchain.identity, *_LINK_OPTIONS, *(o.content for o in objects))
     known = cache.load(key)
@@ -292,7 +318,7 @@ def _link(
         return known
     for compiled, content in zip(objects, without_weak([o.content for o in objects]), strict=True):
         compiled.file.write_bytes(content)
-    target = work / "module.wasm"
+    target = work.folder / "module.wasm"
     command = [
         *toolchain.linker,
         *_LINK_OPTIONS,
@@ -342,4 +368,11 @@ def _key(*parts: str | bytes) -> str:
 
 
 def _hash_of(file: str) -> str:
+    status = os.stat(file)  # noqa: PTH116  # of thousands of files
+    return _content_hash(file, status.st_size, status.st_mtime_ns, status.st_ino)
+
+
+@lru_cache(maxsize=4096)
+def _content_hash(file: str, _size: int, _mtime_ns: int, _inode: int) -> str:
+    """Return the hash of a file in this state: many programs read the same headers."""
     return hashlib.blake2b(Path(file).read_bytes(), digest_size=24).hexdigest()

@@ -9,12 +9,18 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.machine.errors import MachineError
 from plcsim.machine.reader import Reader
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 _VERSION = 4
+
+_CUT: Final = "the debug information ends in the middle of something"
+
+_Abbreviation = tuple[int, bool, list[tuple[int, int, int]]]
+"""Tag, whether there are children, and attributes: name, form, bytes of a plain number or 0."""
 
 # tags
 (ARRAY, ENUMERATION, MEMBER, POINTER, COMPILE_UNIT) = (0x01, 0x04, 0x0D, 0x0F, 0x11)
@@ -100,53 +106,84 @@ class DebugInfo:
     def _read_unit(self, reader: Reader, start: int, end: int) -> None:
         abbreviations = self._read_abbreviations(_number(reader, 4))
         reader.bytes(1)  # the size of an address
+        try:
+            last = self._read_entries(reader.offset, end, start, abbreviations)
+        except (IndexError, KeyError, ValueError):
+            raise MachineError(_CUT) from None
+        if last > end:
+            raise MachineError(_CUT)
+
+    def _read_entries(
+        self, at: int, end: int, unit: int, abbreviations: Mapping[int, _Abbreviation]
+    ) -> int:
+        """Read entries from an offset on; return where the last one ends.
+
+        There are tens of thousands of them, so this is one loop over bytes.
+        """
+        data, entries, value = self._info, self.entries, self._value
         path: list[DebugEntry] = []
-        while reader.offset < end:
-            place = reader.offset
-            code = reader.uleb()
+        siblings = self.units
+        while at < end:
+            place = at
+            code = data[at]
+            at += 1
+            if code > 0x7F:
+                code, at = _uleb(data, place)
             if code == 0:
                 if path:
                     path.pop()
+                siblings = path[-1].children if path else self.units
                 continue
             tag, has_children, forms = abbreviations[code]
-            attributes = {name: self._value(reader, form, start) for name, form in forms}
-            entry = self.entries[place] = DebugEntry(tag, attributes)
-            (path[-1].children if path else self.units).append(entry)
+            attributes: dict[int, Any] = {}
+            for name, form, size in forms:
+                if size:
+                    attributes[name] = int.from_bytes(data[at : at + size], "little")
+                    at += size
+                else:
+                    attributes[name], at = value(form, at, unit)
+            entry = entries[place] = DebugEntry(tag, attributes)
+            siblings.append(entry)
             if has_children:
                 path.append(entry)
+                siblings = entry.children
+        return at
 
-    def _read_abbreviations(self, place: int) -> dict[int, tuple[int, bool, list[tuple[int, int]]]]:
+    def _read_abbreviations(self, place: int) -> dict[int, _Abbreviation]:
         reader = Reader(self._abbreviations, place)
-        found: dict[int, tuple[int, bool, list[tuple[int, int]]]] = {}
+        found: dict[int, _Abbreviation] = {}
         while code := reader.uleb():
             tag, has_children = reader.uleb(), bool(reader.byte())
             forms = []
             while pair := (reader.uleb(), reader.uleb()):
                 if pair == (0, 0):
                     break
-                forms.append(pair)
+                forms.append((*pair, _SIZES.get(pair[1], 0)))
             found[code] = tag, has_children, forms
         return found
 
-    def _value(self, reader: Reader, form: int, unit: int) -> Any:
-        if form in _SIZES:
-            return _number(reader, _SIZES[form])
+    def _value(self, form: int, at: int, unit: int) -> tuple[Any, int]:
+        """Return a value whose form is no plain number, and where it ends."""
+        data = self._info
         if form in _REFERENCES:
-            return unit + _number(reader, _REFERENCES[form])
+            end = at + _REFERENCES[form]
+            return unit + int.from_bytes(data[at:end], "little"), end
         if form in _BLOCKS:
             size = _BLOCKS[form]
-            return reader.bytes(_number(reader, size) if size else reader.uleb())
+            count, at = _fixed(data, at, size) if size else _uleb(data, at)
+            return data[at : at + count], at + count
         if form == _STRING_REFERENCE:
-            return _text(self._strings, _number(reader, 4))
+            return _text(self._strings, int.from_bytes(data[at : at + 4], "little")), at + 4
         if form == _STRING:
-            text = _text(self._info, reader.offset)
-            reader.offset = self._info.index(0, reader.offset) + 1
-            return text
+            return _text(data, at), data.index(0, at) + 1
         if form == _SIGNED:
-            return reader.sleb()
+            number, end = _uleb(data, at)
+            bits = 7 * (end - at)
+            return number - (1 << bits) if number >> (bits - 1) else number, end
         if form == _UNSIGNED_REFERENCE:
-            return unit + reader.uleb()
-        return reader.uleb() if form == _UNSIGNED else 1  # the last is DW_FORM_flag_present
+            number, end = _uleb(data, at)
+            return unit + number, end
+        return _uleb(data, at) if form == _UNSIGNED else (1, at)  # the last: DW_FORM_flag_present
 
 
 # forms; numbers, references and offsets by their bytes, blocks by the bytes of their length
@@ -158,6 +195,22 @@ _STRING, _SIGNED, _STRING_REFERENCE, _UNSIGNED, _UNSIGNED_REFERENCE = 0x08, 0x0D
 
 def _number(reader: Reader, size: int) -> int:
     return int.from_bytes(reader.bytes(size), "little")
+
+
+def _fixed(data: bytes, at: int, size: int) -> tuple[int, int]:
+    return int.from_bytes(data[at : at + size], "little"), at + size
+
+
+def _uleb(data: bytes, at: int) -> tuple[int, int]:
+    """Return an unsigned LEB128 number of at most 64 bits, and where it ends."""
+    value = 0
+    for shift in range(0, 70, 7):
+        byte = data[at]
+        at += 1
+        value |= (byte & 0x7F) << shift
+        if byte < 0x80:
+            return value, at
+    raise ValueError(value)
 
 
 def _text(data: bytes, place: int) -> str:

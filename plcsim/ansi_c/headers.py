@@ -158,10 +158,7 @@ def identity_of(kind: str, scopes: Iterable[Scope]) -> str:
     """
     state = hashlib.blake2b(_writer() + kind.encode(), digest_size=16)
     for scope in scopes:
-        state.update(f"{scope.name}\0".encode())
-        for file in scope.files:
-            text = file.tokens.source.text
-            state.update(f"{len(text)}\0".encode() + text.encode("utf-8", "surrogateescape"))
+        state.update(scope.identity)
     return state.hexdigest()
 
 

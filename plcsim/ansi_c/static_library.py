@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -27,11 +28,16 @@ class StaticLibrary(NamedTuple):
 
     def is_used(self, read: Iterable[str]) -> bool:
         """Return whether files that a compiler has read belong to the library."""
-        files = {*map(Path, read)}
-        folders = {Path(os.path.realpath(file.parent)) for file in files}
-        known = {Path(file.name) for file in files} | folders
-        known |= {above for folder in folders for above in folder.parents}
-        return not known.isdisjoint(self.headers)
+        parts = [os.path.split(file) for file in read]
+        known = {name for _, name in parts}.union(*(_places(folder) for folder in dict(parts)))
+        return not known.isdisjoint(map(str, self.headers))
+
+
+@lru_cache(maxsize=4096)
+def _places(folder: str) -> frozenset[str]:
+    """Return a folder, without links, and all above it; many files lie in the same one."""
+    real = Path(os.path.realpath(folder))
+    return frozenset(map(str, (real, *real.parents)))
 
 
 UNIT_TEST: Final = StaticLibrary((FOLDER / "UnitTest.c",), (Path("UnitTest.h"),))

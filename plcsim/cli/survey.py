@@ -63,7 +63,8 @@ class _Sheet:
     def show(self) -> None:
         survey, print_ = self._survey, self._console.print
         print_(_title(self._found), soft_wrap=True)
-        print_(_tasks(survey))
+        for line in _tasks(survey):
+            print_(line, soft_wrap=True)
         self._list("cannot run", self._reasons())
         if survey.stubs:
             print_("\nstubs, for nothing executes them here (idle, or simulated by a table):")
@@ -147,16 +148,11 @@ def _title(found: AutomationStudioProject) -> str:
     )
 
 
-def _tasks(survey: Survey) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for column in ("class", "cycle", "tolerance"):
-        table.add_column(column, justify="right")
-    for column in ("task", "program", "language"):
-        table.add_column(column)
-    table.add_column("bytes", justify="right")
-    table.add_column("")
-    for row in survey.rows:
-        table.add_row(
+def _tasks(survey: Survey) -> Iterator[str]:
+    """Yield the lines of a table of the tasks: hundreds of them are common."""
+    rows = [("class", "cycle", "tolerance", "task", "program", "language", "bytes", "")]
+    rows += (
+        (
             f"#{row.task_class.number}",
             format_duration(row.task_class.cycle_ns),
             format_duration(row.task_class.tolerance_ns),
@@ -166,7 +162,13 @@ def _tasks(survey: Survey) -> Table:
             "" if row.reasons else str(row.bytes),
             _state(row),
         )
-    return table
+        for row in survey.rows
+    )
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    sides = (*">>>", *"<<<", ">", "<")
+    for row in rows:
+        cells = zip(row, sides, widths, strict=True)
+        yield "  ".join(f"{cell:{side}{width}}" for cell, side, width in cells).rstrip()
 
 
 def _count(stubs: Sequence[StubCall]) -> str:

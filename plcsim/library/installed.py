@@ -79,8 +79,10 @@ def installed() -> Mapping[str, Library]:
         ConfigurationError: a package names a folder that is not there.
     """
     libraries: list[Library] = []
-    for package, folder in (*_own(), *_of_packages()):
-        libraries.append(Library(folder, package, Scopes(libraries)))
+    scopes = Scopes(libraries)
+    libraries += (
+        Library(folder, package, scopes) for package, folder in (*_own(), *_of_packages())
+    )
     return {library.package: library for library in libraries}
 
 

@@ -15,6 +15,7 @@ then.
 
 from __future__ import annotations
 
+import hashlib
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -108,6 +109,16 @@ class Scope:
                     waiting += reversed(scope.outer)
                     last = scope.outer
         return tuple(found)
+
+    @cached_property
+    def identity(self) -> bytes:
+        """A hash of its name, and of the paths and texts of its files."""
+        state = hashlib.blake2b(digest_size=16)
+        sources = [file.tokens.source for file in self.files]
+        for text in (self.name, *(part for one in sources for part in (one.path, one.text))):
+            data = text.encode("utf-8", "surrogatepass")
+            state.update(f"{len(data)} ".encode() + data)
+        return state.digest()
 
     @cached_property
     def _names(self) -> ConstantLookup:

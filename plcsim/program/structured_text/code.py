@@ -13,7 +13,7 @@ from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantPro
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
-from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses
+from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses, variables_in
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
@@ -80,15 +80,16 @@ def compile_program(
     if stored is None:
         check_syntax(files)
         _check_meant(files, meant.name)
-        stored, layout = _compiled(name, [file.parsed for file in files], scope, shared, meant)
+        parsed = [file.parsed for file in files]
+        stored, variables = _compiled(name, parsed, scope, shared, meant)
         keep(cache, key, stored)
     else:
-        layout = VariableLayout(name, _own_scopes(files, scope, meant), scope.chain, shared)
+        variables = variables_in(name, _own_scopes(files, scope, meant))
     keep_possible(stored.code.profile, {file.path: file.source.text for file in files})
     absent = missing(catalogue, scope, stored.code.imports)
     if absent:
         raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
-    return StructuredTextCode(stored.code, scope, layout.variables, stored.warnings)
+    return StructuredTextCode(stored.code, scope, variables, stored.warnings)
 
 
 def _check_meant(files: Sequence[UnitFile], meant: str) -> None:
@@ -120,7 +121,7 @@ def _compiled(
     scope: Scope,
     shared: DeclaredVariables,
     meant: MeantProgram,
-) -> tuple[Stored, VariableLayout]:
+) -> tuple[Stored, DeclaredVariables]:
     program, warnings = checked(name, files, scope, "global" if meant.name else "program", meant)
     if not any(body.kind == "unit" for body in program.bodies):
         raise ConfigurationError(
@@ -131,7 +132,7 @@ def _compiled(
     semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
     module = lower(program, layout.areas, semantics)
     module.name = ".".join(filter(None, (name, *meant)))
-    return Stored(generate(module, MEASURING.options), warnings), layout
+    return Stored(generate(module, MEASURING.options), warnings), layout.variables
 
 
 def checked(

@@ -53,10 +53,11 @@ def key_of(
     """
     state = hashlib.blake2b(compiler(), digest_size=20)
     sources = [file.source for file in files]
-    sources += [file.tokens.source for each in scope.chain for file in each.files]
     for text in (*names, *(part for source in sources for part in (source.path, source.text))):
         state.update(f"{len(text)} ".encode())
         state.update(text.encode("utf-8", "surrogatepass"))
+    for each in scope.chain:
+        state.update(each.identity)
     for kind in shared:
         for member, offset in zip(kind.members, kind.offsets, strict=True):
             state.update(f"{member.name} {offset};".encode())

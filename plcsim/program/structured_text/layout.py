@@ -46,10 +46,7 @@ class VariableLayout:
         self, name: str, own: Sequence[Scope], around: Sequence[Scope], shared: DeclaredVariables
     ) -> None:
         stored = {scope: _stored(scope) for scope in (*own, *around)}
-        placed: dict[str, DeclaredVariable] = {}
-        for scope in own:
-            for variable in stored[scope]:
-                placed.setdefault(variable.name, variable)
+        placed = _placed(own)
         self.variables = variables_of(name, placed.values())
         spots, shared_spots = _spots(OWN, self.variables), _spots(SHARED, shared)
         self.areas: dict[Scope, Mapping[str, Spot]] = {}
@@ -63,6 +60,19 @@ class VariableLayout:
             }
             if places:
                 self.areas[scope] = places
+
+
+def variables_in(name: str, own: Sequence[Scope]) -> DeclaredVariables:
+    """Return the variables of a program, as in `VariableLayout`."""
+    return variables_of(name, _placed(own).values())
+
+
+def _placed(own: Sequence[Scope]) -> dict[str, DeclaredVariable]:
+    """Return the variables of some scopes by name: of two with one name it is the first."""
+    found: dict[str, DeclaredVariable] = {}
+    for variable in (each for scope in own for each in _stored(scope)):
+        found.setdefault(variable.name, variable)
+    return found
 
 
 def _stored(scope: Scope) -> list[DeclaredVariable]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import marshal
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 from plcsim.program.compiled_body import CompiledBody
 from plcsim.program.structured_text.calling import interface_of
 from plcsim.program.structured_text.code import checked
+from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
-from plcsim.program.structured_text.layout import VariableLayout, types_of
+from plcsim.program.structured_text.layout import NOTHING, VariableLayout, types_of
 from plcsim.program.structured_text.linkage import Linkage
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.names import NAME
@@ -25,7 +28,8 @@ if TYPE_CHECKING:
     from plcsim.program.site import Site
     from plcsim.program.structured_text.check.typed import CheckedProgram
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
-    from st_types.resolve.scope import Scope
+    from plcsim.program.structured_text.sources import UnitFile
+    from plcsim.program.variables import DeclaredVariables
 
 
 def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
@@ -34,36 +38,60 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     Raises:
         ConfigurationError: there are errors in them; all are told, with file, line and column.
     """
-    read = read_files(files)
-    check_syntax(read)
-    program, _ = checked(library.name, [file.parsed for file in read], library.scope, "global")
-    whole = CompiledLibrary(program, library.scope, {file.path: file.source.text for file in read})
+    whole = CompiledLibrary(library, read_files(files))
     found: dict[str, Executable] = {}
-    for body in program.bodies:
-        if body.kind == "block":
-            found[body.name] = CompiledBody(whole, f"block {body.name}")
-        elif body.kind == "function":
-            function = library.scope.find_function(body.name)
+    for kind, name in whole.bodies():
+        if kind == "block":
+            found[name] = CompiledBody(whole, f"block {name}")
+        elif kind == "function":
+            function = library.scope.find_function(name)
             assert function is not None
             interface = interface_of(function)
-            found[body.name] = CompiledBody(whole, f"function {body.name}", interface)
+            found[name] = CompiledBody(whole, f"function {name}", interface)
     return found
 
 
 class CompiledLibrary:
     """The Structured Text of a library.
 
+    What is in the cache of compiled programs is neither parsed nor checked again.
+
     Args:
-        program: its bodies, checked.
-        scope: of the library.
-        texts: of its files, by path.
+        library: as above.
+        files: with its bodies.
     """
 
-    def __init__(self, program: CheckedProgram, scope: Scope, texts: dict[str, str]) -> None:
-        self._program = program
-        self._texts = texts
-        self._scope = scope
+    def __init__(self, library: Library, files: Sequence[UnitFile]) -> None:
+        self._name = library.name
+        self._files = files
+        self._scope = library.scope
         self._codes: dict[object, ObjectCode] = {}
+
+    @cached_property
+    def _program(self) -> CheckedProgram:
+        """Its bodies, checked.
+
+        Raises:
+            ConfigurationError: there are errors in them.
+        """
+        check_syntax(self._files)
+        files = [file.parsed for file in self._files]
+        return checked(self._name, files, self._scope, "global")[0]
+
+    def bodies(self) -> list[tuple[str, str]]:
+        """Return kind and name of each body.
+
+        Raises:
+            ConfigurationError: there are errors in them.
+        """
+        cache = code_cache()
+        key = key_of(("bodies of a library", self._name), self._files, self._scope, NOTHING)
+        known = cache.load(key)
+        if known is not None:
+            return [(kind, name) for kind, name in marshal.loads(known)]  # noqa: S302  # from the user's own cache, hashed
+        found: list[tuple[str, str]] = [(body.kind, body.name) for body in self._program.bodies]
+        cache.store(key, marshal.dumps(found))
+        return found
 
     language: Final = NAME
 
@@ -76,7 +104,18 @@ class CompiledLibrary:
         """Return the code for the global variables of a controller."""
         shared = types_of(site.shared)
         if shared not in self._codes:
-            layout = VariableLayout(self._scope.name, (), self._scope.chain, shared)
-            self._codes[shared] = generate(lower(self._program, layout.areas), MEASURING.options)
-            keep_possible(self._codes[shared].profile, self._texts)
+            self._codes[shared] = code = self._stored(shared)
+            texts = {file.path: file.source.text for file in self._files}
+            keep_possible(code.profile, texts)
         return self._codes[shared]
+
+    def _stored(self, shared: DeclaredVariables) -> ObjectCode:
+        names = ("library", self._name, repr(MEASURING.options))
+        cache, key = code_cache(), key_of(names, self._files, self._scope, shared)
+        stored = find(cache, key)
+        if stored is None:
+            layout = VariableLayout(self._name, (), self._scope.chain, shared)
+            code = generate(lower(self._program, layout.areas), MEASURING.options)
+            stored = Stored(code, ())
+            keep(cache, key, stored)
+        return stored.code

@@ -60,9 +60,13 @@ class UnitFile:
         """The parsed file; what is wrong in its text is in its ``diagnostics``."""
         return parse_structured_text(self.source)
 
-    @cached_property
+    @property
     def may_declare(self) -> bool:
         """False where no word in the text could begin a declaration."""
+        return not self._is_silent and self._has_declaring_words
+
+    @cached_property
+    def _has_declaring_words(self) -> bool:
         return _DECLARING.search(without_comments(self.source.text)) is not None
 
     def declarations(self, uses: ProgramUses = NO_USES) -> UnitDeclarations:
@@ -74,24 +78,25 @@ class UnitFile:
         A file that declares nothing, and whose text was parsed without errors before, is not parsed
         for that.
         """
-        if self.may_declare or not self._is_sound():
+        if not self._is_silent:
             made = declarations_of(self.parsed, uses)
             return UnitDeclarations(made.items, "", made.tokens, made.diagnostics, self)
         nothing = Source(self.path, "")
         log = DiagnosticLog(nothing, FindingCode.SYNTAX)
         return UnitDeclarations([], "", Tokens(nothing), log, self)
 
-    def _is_sound(self) -> bool:
-        """Return whether the text has no errors in its syntax; that is kept on disk."""
+    @cached_property
+    def _is_silent(self) -> bool:
+        """Whether it declares nothing, and its syntax has no errors; that is kept on disk."""
         text = self.source.text.encode("utf-8", "surrogatepass")
         key = f"syntax-{hashlib.blake2b(compiler() + text, digest_size=20).hexdigest()}"
         cache = code_cache()
         if cache.load(key) is not None:
             return True
-        is_sound = not self.parsed.diagnostics.records
-        if is_sound:
+        is_silent = not (self._has_declaring_words or self.parsed.diagnostics.records)
+        if is_silent:
             cache.store(key, b"")
-        return is_sound
+        return is_silent
 
 
 @dataclass(slots=True, repr=False)

@@ -33,6 +33,8 @@ _NAME = re.compile(
     re.DOTALL,
 )
 
+_WORD = re.compile(r"[A-Za-z_]\w*")
+
 
 class StubCall(NamedTuple):
     """A name that a program uses and nothing executes.
@@ -98,6 +100,11 @@ def _is_built_in(name: str) -> bool:
     return name.upper() in EDGES | PLACE_FUNCTIONS or rule_of(name) is not None
 
 
+def _has_any(text: str, names: frozenset[str]) -> bool:
+    """Return whether some names stand in a text, comments too: that is told fast."""
+    return bool(names) and not names.isdisjoint(_WORD.findall(text))
+
+
 def _uses(files: Iterable[Path], names: frozenset[str]) -> Iterator[tuple[str, bool, str]]:
     """Yield the names that stand in files, whether a bracket follows, and where."""
     for file in files:
@@ -108,7 +115,7 @@ def _uses(files: Iterable[Path], names: frozenset[str]) -> Iterator[tuple[str, b
             text = Source.read(file).text
         except (OSError, SourceError):
             continue  # the loader tells what cannot be read
-        for found in _NAME.finditer(text):
+        for found in _NAME.finditer(text) if _has_any(text, names) else ():
             if found[1] in names and not (suffix in _COMPILED_TEXT and _is_built_in(found[1])):
                 line = text.count("\n", 0, found.start()) + 1
                 yield found[1], found[2] is not None, f"{file}:{line}"

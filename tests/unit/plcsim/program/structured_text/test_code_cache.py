@@ -2,7 +2,8 @@
 
 import pytest
 
-from plcsim.program.structured_text import code
+from plcsim.core.errors import ConfigurationError
+from plcsim.program.structured_text import code, sources
 
 FILES = {
     "Global.var": "VAR gCount : UDINT; gOther : UDINT; END_VAR\n",
@@ -68,3 +69,56 @@ def test_what_is_damaged_is_compiled_again(run, value, compiled, tmp_path):
         file.write_bytes(b"nonsense")
     assert value(run(FILES), "gOther") == 3
     assert compiled == ["main", "main"]
+
+
+LIBRARY = {
+    "util/util.fun": "FUNCTION Doubled : DINT VAR_INPUT n : DINT; END_VAR END_FUNCTION\n",
+    "util/util.st": "FUNCTION Doubled\nDoubled := n * FACTOR;\nEND_FUNCTION\n",
+    "util/util.var": "VAR CONSTANT FACTOR : DINT := 2; END_VAR\n",
+    "main/Variables.var": "VAR x : DINT := 3; END_VAR\n",
+    "main/Cyclic.st": "PROGRAM _CYCLIC\nx := Doubled(x);\nEND_PROGRAM\n",
+}
+
+
+@pytest.fixture
+def parsed(monkeypatch, tmp_path):
+    """The names of the files with units that are parsed, with a cache of its own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    names = []
+    whole = sources.parse_structured_text
+
+    def noted(source):
+        names.append(source.path.rpartition("/")[2])
+        return whole(source)
+
+    monkeypatch.setattr(sources, "parse_structured_text", noted)
+    return names
+
+
+def test_unchanged_libraries_are_compiled_once(run, value, parsed):
+    for _ in range(3):
+        assert value(run(LIBRARY), "main.x") == 24
+    assert sorted(parsed) == ["Cyclic.st", "util.st"]
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "expected"),
+    [
+        ("util/util.st", "*", "+", 9),
+        ("util/util.var", "2", "3", 81),
+        ("util/util.fun", "Doubled : DINT", "Doubled : INT", 24),
+    ],
+)
+def test_a_change_of_a_library_compiles_it_again(run, value, parsed, name, old, new, expected):
+    run(LIBRARY)
+    changed = LIBRARY | {name: LIBRARY[name].replace(old, new)}
+    assert value(run(changed), "main.x") == expected
+    assert parsed.count("util.st") == 2
+
+
+def test_errors_in_a_library_are_told_each_time(run, parsed):
+    wrong = LIBRARY | {"util/util.st": "FUNCTION Doubled\nDoubled := m;\nEND_FUNCTION\n"}
+    for _ in range(2):
+        with pytest.raises(ConfigurationError, match=r"util\.st:2:12: .*m"):
+            run(wrong)
+    assert parsed.count("util.st") == 2
