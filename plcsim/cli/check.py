@@ -13,7 +13,6 @@ from plcsim.cli.survey import show
 from plcsim.core.duration import format_duration
 from plcsim.core.tag import leaves
 from plcsim.host.processors import missing_cpu
-from plcsim.host.time_limit import last_resort
 from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project
@@ -54,14 +53,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def check(options: argparse.Namespace) -> int:
     """Check the project and print what it consists of."""
     project = read_project(options.project, configuration_of(options))
-    with last_resort(project.load_timeout_ns):
-        return _check(project, everything=options.all)
-
-
-def _check(project: Project, *, everything: bool) -> int:
     if project.automation_studio is not None:
         found = survey(project, project.automation_studio)
-        show(CommandConsole(), project.automation_studio, found, everything=everything)
+        show(CommandConsole(), project.automation_studio, found, everything=options.all)
         return ExitCode.DONE if found.is_right else ExitCode.FAILED
     application = load(project)
     controller = still_controller(application)

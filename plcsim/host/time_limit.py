@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import faulthandler
 import signal
 import sys
 import threading
@@ -30,9 +29,6 @@ HAIL_S = 20e-6
 """Between two exceptions of a hail. One raised in what handles the last, or between two rounds of
 the loop, is not caught; with so many, one soon is."""
 
-PATIENCE_S = 3.0
-"""The last resort comes so much later than the limit."""
-
 SOON_S = 0.001
 """An alarm of somebody else that was due meanwhile comes after this time."""
 
@@ -41,6 +37,11 @@ _NOBODYS = (signal.SIG_DFL, signal.SIG_IGN)
 
 def _late(_number: int, _frame: FrameType | None) -> None:
     """Take an alarm of ours that another thread was handed, which runs after the block's end."""
+
+
+def can_be_limited() -> bool:
+    """Whether this is the main thread, which can be interrupted, and no debugger traces it."""
+    return threading.current_thread() is threading.main_thread() and sys.gettrace() is None
 
 
 @contextmanager
@@ -53,7 +54,7 @@ def time_limit(limit_ns: int) -> Iterator[None]:
     Args:
         limit_ns: time of the host, not of its processor: what waits for ever counts too.
     """
-    if threading.current_thread() is not threading.main_thread() or sys.gettrace() is not None:
+    if not can_be_limited():
         yield
         return
 
@@ -79,19 +80,3 @@ def time_limit(limit_ns: int) -> Iterator[None]:
         if due_s:
             left_s = due_s - (time.monotonic() - start)
             signal.setitimer(signal.ITIMER_REAL, max(SOON_S, left_s), interval_s)
-
-
-@contextmanager
-def last_resort(limit_ns: int) -> Iterator[None]:
-    """End this process when the block has not ended some seconds after `time_limit` would end it.
-
-    No exception reaches code that does not return from one call into a library in C. The stack,
-    with file and line, goes to standard error, and the exit code is 1.
-    """
-    errors = sys.__stderr__  # the process' own: what takes its place may have no descriptor
-    if errors is not None:
-        faulthandler.dump_traceback_later(limit_ns / 1e9 + PATIENCE_S, exit=True, file=errors)
-    try:
-        yield
-    finally:
-        faulthandler.cancel_dump_traceback_later()

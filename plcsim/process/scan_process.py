@@ -160,6 +160,7 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     page.clock = clock
     if order.stays:
         page.will_stay()
+    page.loads()
     application = load(project, watched=True)
     rights = _take_rights(project, order)
     if rights.cpu is not None:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -27,6 +26,7 @@ from plcsim.core.system import State
 from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
 from plcsim.host.processors import keep_off
+from plcsim.host.stack_reader import location_in
 from plcsim.process import watchdog
 from plcsim.process.orphans import Orphans, end_group
 from plcsim.process.output import Output
@@ -35,7 +35,7 @@ from plcsim.process.run_file import Run, announce, withdraw
 from plcsim.process.scan_process import DUMP, HELD_BACK, STALLED, RunOrder, file_of
 from plcsim.process.service_processes import ServiceProcesses
 from plcsim.process.watchdog import Sight, Sign, Watch, Watchdog
-from plcsim.project.assembly import VIRTUAL_IP
+from plcsim.project.assembly import VIRTUAL_IP, not_loaded
 from plcsim.project.extension import in_process
 from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.status_page import StatusPage
@@ -58,7 +58,8 @@ REAP_NS = 1_000_000_000
 DUMP_POLLS = 10
 """How often the watchdog looks for the stack of a program before it kills."""
 
-_FRAME = re.compile(r'File "(.+)", line (\d+)')
+START_NS = 60_000_000_000
+"""Until it loads the programs; Python imports us, which takes its time on a busy host."""
 
 ONE_THREAD: Final = {"OPENBLAS_NUM_THREADS": "1"}
 """Numpy's library takes 32 MB for each processor, all of them real where memory is locked, and its
@@ -276,6 +277,7 @@ class Supervisor:
         return Sight(
             now_ns=now_ns,
             heartbeat=self.page.heartbeat,
+            has_started=self.page.has_started,
             limit_ns=self._limit_ns(active, now_ns),
             has_result=bool(os.fstat(self._result_fd).st_size),
             waits_for_reader=self._output.waits_for_reader,
@@ -283,6 +285,8 @@ class Supervisor:
 
     def _limit_ns(self, active: int | None, now_ns: int) -> int:
         """Return how long it may take what the scan process does now."""
+        if not self.page.has_started:
+            return START_NS
         if self._is_loading:
             return self._project.load_timeout_ns
         if self.page.state is not State.RUN:
@@ -317,8 +321,10 @@ class Supervisor:
         """Return why the scan process is killed, "" where it has left its result."""
         limit = format_duration(self._watchdog.limit_ns)
         match sign:
+            case Sign.OVERDUE if not self.page.has_started:
+                return f"the scan process did not start within {limit}"
             case Sign.OVERDUE:
-                return f"the programs were not loaded within {limit}"
+                return not_loaded(self._project)
             case Sign.DEAF if self.page.active is None:
                 return f"the scan did not go on for {limit}; no program was active"
             case Sign.DEAF:
@@ -409,9 +415,8 @@ class Supervisor:
 
     def _location_of_death(self) -> str:
         """Return "file:line" of the innermost frame of the project's own files."""
-        folder = str(self._project.folder.resolve()) + os.sep
-        frames = _FRAME.findall(_read_all(self._dump_fd).decode("utf-8", "replace"))
-        return next((f"{file}:{line}" for file, line in frames if file.startswith(folder)), "")
+        stack = _read_all(self._dump_fd).decode("utf-8", "replace")
+        return location_in(stack.splitlines(), str(self._project.folder.resolve()))
 
 
 def _start(order: RunOrder, fds: tuple[int, ...], output: ChildOutput) -> subprocess.Popen[bytes]:

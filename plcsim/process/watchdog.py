@@ -23,7 +23,8 @@ container that was frozen for example, has not seen that the scan did not go on.
 class Watch(Enum):
     """How the scan process stands with its parent."""
 
-    LOADING = "nothing of the programs has run yet"
+    STARTING = "the process starts"
+    LOADING = "the programs are being loaded"
     RUNNING = "the heartbeat grows"
     STALLED = "the active program has been interrupted"
     ENDING = "the result is there, the process is about to end"
@@ -33,6 +34,7 @@ class Watch(Enum):
 class Sign(Enum):
     """What is seen of the scan process, or asked of it."""
 
+    LOADS = "it has begun to load the programs"
     BEAT = "the heartbeat has grown"
     OVERDUE = "it has not grown for too long"
     DEAF = "nothing came of the interruption"
@@ -42,6 +44,12 @@ class Sign(Enum):
 
 
 TRANSITIONS: Final[dict[Watch, dict[Sign, Watch]]] = {
+    Watch.STARTING: {
+        Sign.LOADS: Watch.LOADING,
+        Sign.RESULT: Watch.ENDING,
+        Sign.OVERDUE: Watch.KILLED,
+        Sign.GIVEN_UP: Watch.KILLED,
+    },
     Watch.LOADING: {
         Sign.BEAT: Watch.RUNNING,
         Sign.RESULT: Watch.ENDING,
@@ -65,6 +73,9 @@ TRANSITIONS: Final[dict[Watch, dict[Sign, Watch]]] = {
 """Every transition; a sign that is not there changes nothing."""
 
 
+_ONCE_LIMITED: Final = (Watch.STARTING, Watch.LOADING, Watch.RUNNING)
+
+
 class Sight(NamedTuple):
     """What is to be seen of the scan process at one moment.
 
@@ -72,6 +83,7 @@ class Sight(NamedTuple):
         now_ns: when, on a clock that never jumps.
         heartbeat: of the status page.
         limit_ns: how long what it does now may take.
+        has_started: it has begun to load the programs, or it has loaded them.
         has_result: it has left its result.
         waits_for_reader: it prints, and nobody takes it: that is no fault of the scan.
     """
@@ -79,6 +91,7 @@ class Sight(NamedTuple):
     now_ns: int
     heartbeat: int
     limit_ns: int
+    has_started: bool
     has_result: bool = False
     waits_for_reader: bool = False
 
@@ -92,7 +105,7 @@ class Watchdog:
     """
 
     def __init__(self) -> None:
-        self.watch = Watch.LOADING
+        self.watch = Watch.STARTING
         self.limit_ns = 0
         self._heartbeat = 0
         self._silent_ns = 0
@@ -106,7 +119,7 @@ class Watchdog:
             to interrupt the active program, in KILLED to kill the process.
         """
         self._count_silence(sight)
-        if self.watch in (Watch.LOADING, Watch.RUNNING):
+        if self.watch in _ONCE_LIMITED:
             self.limit_ns = sight.limit_ns
         return self._enter(self._sign(sight))
 
@@ -124,12 +137,14 @@ class Watchdog:
         """Return what the sight means, None where it means nothing new."""
         if sight.has_result and self.watch is not Watch.ENDING:
             return Sign.RESULT
+        if self.watch is Watch.STARTING and sight.has_started:
+            return Sign.LOADS
         if sight.heartbeat != self._heartbeat:
             self._heartbeat = sight.heartbeat
             self._silent_ns = 0
             return Sign.BEAT
         match self.watch:
-            case Watch.LOADING | Watch.RUNNING if self._silent_ns > sight.limit_ns:
+            case Watch.STARTING | Watch.LOADING | Watch.RUNNING if self._silent_ns > sight.limit_ns:
                 return Sign.OVERDUE
             case Watch.STALLED if self._silent_ns > PATIENCE_NS:
                 return Sign.DEAF

@@ -7,7 +7,7 @@ controller of a project gets it here, so that a project is the same thing everyw
 from __future__ import annotations
 
 import itertools
-from contextlib import nullcontext
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
@@ -17,6 +17,7 @@ from plcsim.core.duration import format_duration
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
 from plcsim.core.logbook import Severity
 from plcsim.host.garbage import collect_while_idle
+from plcsim.host.last_resort import last_resort
 from plcsim.host.time_limit import time_limit
 from plcsim.library.fileio.settings import MadeDevices
 from plcsim.network import VirtualNetwork
@@ -36,7 +37,7 @@ from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageWriter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Controller, Heartbeat
@@ -108,7 +109,7 @@ class ImageFile:
     wake_fds: Sequence[int] = ()
 
 
-def load(project: Project, *, watched: bool = False) -> Application:
+def load(project: Project, *, watched: bool = False, errors_fd: int = 2) -> Application:
     """Load the programs of a project.
 
     Where the project says "keep going", those that can run are loaded.
@@ -117,6 +118,8 @@ def load(project: Project, *, watched: bool = False) -> Application:
         project: as plc.toml has it.
         watched: another process ends this one when it does not return within the project's
             ``init_timeout``; otherwise loading is ended here.
+        errors_fd: where it is told that this process has to be ended, because a program does not
+            return from a call into a library in C.
 
     Raises:
         ConfigurationError: programs are missing, cannot be loaded or do not return, or a library
@@ -127,18 +130,28 @@ def load(project: Project, *, watched: bool = False) -> Application:
     usable = {name: place for name, place in layout.programs.items() if name not in wrong}
     loader = ProgramLoader(replace(layout, programs=usable))
     try:
-        with nullcontext() if watched else time_limit(project.load_timeout_ns):
+        with nullcontext() if watched else _limit(project, errors_fd):
             return _load(project, loader, wrong)
     except CycleTimeViolation as error:
         loader.unload()
-        limit = format_duration(project.load_timeout_ns)
         location = location_of(_first(error)) or project.folder
-        raise ConfigurationError(
-            f"{location}: the programs were not loaded within {limit}"
-        ) from None
+        raise ConfigurationError(f"{location}: {not_loaded(project)}") from None
     except BaseException:
         loader.unload()
         raise
+
+
+def not_loaded(project: Project) -> str:
+    """Return what is told of programs that do not return while they are loaded."""
+    return f"the programs were not loaded within {format_duration(project.load_timeout_ns)}"
+
+
+@contextmanager
+def _limit(project: Project, errors_fd: int) -> Iterator[None]:
+    """End loading after its time: by an exception or, where none comes through, with us."""
+    limit_ns, folder = project.load_timeout_ns, project.folder.resolve()
+    with last_resort(limit_ns, folder, not_loaded(project), errors_fd), time_limit(limit_ns):
+        yield
 
 
 def _first(error: BaseException) -> BaseException:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 MAGIC = 0x504C_4353_494D_0001
 SIZE = 4096
 
-_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME, _LOST, _CPU, _PAUSED, _STAYS = range(9)
+_MAGIC, _HEARTBEAT, _STATE, _ACTIVE, _TIME, _LOST, _CPU, _PAUSED, _STAYS, _LOADS = range(10)
 _CLASSES = 16
 _FIELDS_PER_CLASS = 16
 _CELL_OF_CAUSE = {
@@ -145,6 +145,10 @@ class StatusPage:
         """Note that STOPPED and SERVICE do not end the run."""
         self._cells[_STAYS] = True
 
+    def loads(self) -> None:
+        """Note that the process has started and loads the programs."""
+        self._cells[_LOADS] = True
+
     # a service's side
 
     def note_service(self, number: int, state: ServiceState) -> None:
@@ -163,6 +167,11 @@ class StatusPage:
     def has_served(self, number: int) -> bool:
         """Return True once service ``number`` was there for its clients."""
         return bool(self._cells[_SERVICES + number * _CELLS_PER_SERVICE + 1])
+
+    @property
+    def has_started(self) -> bool:
+        """Whether the process has begun to load the programs."""
+        return bool(self._cells[_LOADS])
 
     @property
     def heartbeat(self) -> int:

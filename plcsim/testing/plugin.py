@@ -1,7 +1,7 @@
 """The pytest plugin, on wherever plcsim is installed.
 
-It is imported in every run of pytest, so it imports nothing of plcsim before a test asks for the
-fixture ``plc``. What it does then is in `plcsim.testing.session`.
+It is imported in every run of pytest, so it imports nothing large of plcsim before a test asks for
+the fixture ``plc``. What it does then is in `plcsim.testing.session`.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import pytest
+
+from plcsim.testing import terminal
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Iterator
@@ -93,6 +95,7 @@ def pytest_runtest_teardown() -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Make the markers known; take up the report and the seed."""
+    terminal.keep()
     for marker in MARKERS:
         config.addinivalue_line("markers", marker)
     seed = config.getoption("--plc-seed")

@@ -11,6 +11,7 @@ from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.project.assembly import Application, load
 from plcsim.project.plc_toml import read_project
 from plcsim.project.project_file import FILE_NAME, project_file
+from plcsim.testing import terminal
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.plc import Plc
 
@@ -45,7 +46,7 @@ def project_target(folder: Path) -> Application:
     Raises:
         ConfigurationError: it does not load; file and field are named.
     """
-    return load(read_project(folder))
+    return load(read_project(folder), errors_fd=terminal.errors_fd)
 
 
 def program_target(

@@ -25,10 +25,12 @@ class Scan:
         self.now_ns = 10_000 * MS
         self.heartbeat = 0
 
-    def look(self, step_ns=LOOK_NS, *, beats=0, limit_ns=LIMIT_NS, **sight):
+    def look(self, step_ns=LOOK_NS, *, beats=0, limit_ns=LIMIT_NS, has_started=True, **sight):
         self.now_ns += step_ns
         self.heartbeat += beats
-        return self.watchdog.look(Sight(self.now_ns, self.heartbeat, limit_ns, **sight))
+        return self.watchdog.look(
+            Sight(self.now_ns, self.heartbeat, limit_ns, has_started, **sight)
+        )
 
     def silent_until(self, sign, **sight):
         """Look until the watchdog gives a sign; return the silence in ms."""
@@ -48,13 +50,24 @@ def scan():
 
 @pytest.fixture
 def running(scan):
+    assert scan.look() is Sign.LOADS
+    assert scan.watchdog.watch is Watch.LOADING
     assert scan.look(beats=1) is Sign.BEAT
     assert scan.watchdog.watch is Watch.RUNNING
     return scan
 
 
-def test_programs_that_are_never_loaded(scan):
-    assert scan.silent_until(Sign.OVERDUE) == 540  # the first look only begins to count
+def test_a_process_that_never_starts(scan):
+    overdue_ms = scan.silent_until(Sign.OVERDUE, has_started=False)
+    assert overdue_ms == 540  # the first look only begins to count
+    assert scan.watchdog.watch is Watch.KILLED
+
+
+def test_programs_that_are_never_loaded_have_the_limit_since_loading_began(scan):
+    for _ in range(100):
+        assert scan.look(limit_ns=10_000 * MS, has_started=False) is None
+    assert scan.look() is Sign.LOADS
+    assert scan.silent_until(Sign.OVERDUE) == 520
     assert scan.watchdog.watch is Watch.KILLED
     assert scan.watchdog.limit_ns == LIMIT_NS
 
@@ -97,7 +110,7 @@ def test_a_result_is_more_than_silence(scan):
     assert scan.watchdog.watch is Watch.ENDING
 
 
-@pytest.mark.parametrize("watch", [Watch.LOADING, Watch.RUNNING, Watch.STALLED])
+@pytest.mark.parametrize("watch", [Watch.STARTING, Watch.LOADING, Watch.RUNNING, Watch.STALLED])
 def test_somebody_who_gives_up_has_it_killed(scan, watch):
     scan.watchdog.watch = watch
     assert scan.watchdog.give_up() is Sign.GIVEN_UP

@@ -278,7 +278,7 @@ def test_a_run_without_plc_tests_imports_nothing_of_plcsim():
         "import sys, plcsim.testing.plugin\n"
         "loaded = [m for m in sys.modules if m.startswith(('plcsim', 'st_types'))]\n"
         "assert sorted(loaded) == ['plcsim', 'plcsim.core', 'plcsim.core.lazy', 'plcsim.testing',"
-        " 'plcsim.testing.plugin'], loaded\n"
+        " 'plcsim.testing.plugin', 'plcsim.testing.terminal'], loaded\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 
@@ -314,3 +314,16 @@ def test_the_report_tells_what_lines_cost(compiled_suite, pytester):
 def test_lines_without_a_report_are_an_error_of_use(compiled_suite):
     result = compiled_suite("--plc-lines")
     result.stderr.fnmatch_lines(["*--plc-lines: goes with --plc-report DIR*"])
+
+
+def test_a_project_that_stays_in_one_call_into_c_ends_pytest_and_is_named(pytester):
+    pytester.makefile(
+        ".toml", plc='[plc]\ninit_timeout = "10ms"\n[task_class.1]\nprograms = ["cell"]\n'
+    )
+    main = pytester.mkdir("cell") / "main.py"
+    main.write_text("from itertools import repeat\nall(repeat(1))\n")
+    pytester.makeconftest("from plcsim.host import last_resort\nlast_resort.PATIENCE_S = 0.02")
+    pytester.makepyfile("def test_nothing(plc):\n    pass\n")
+    result = pytester.runpytest_subprocess(*QUICK, timeout=60)
+    assert result.ret == 1
+    assert f"plcsim: {main}:2: the programs were not loaded within 10 ms" in result.errlines

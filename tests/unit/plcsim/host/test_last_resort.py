@@ -1,0 +1,63 @@
+"""A process whose code does not return from a call into C is ended, and it is told where."""
+
+import os
+import subprocess
+import sys
+
+PREPARED = """
+import sys
+from itertools import repeat
+from pathlib import Path
+from plcsim.host import last_resort
+last_resort.PATIENCE_S = 0.02
+"""
+
+ENDLESS_CALL = f"""{PREPARED}
+with last_resort.last_resort(10**12, Path(sys.argv[1]), "was left alone"):
+    pass
+with last_resort.last_resort(10_000_000, Path(sys.argv[1]), "does not return"):
+    sys.path.insert(0, sys.argv[1])
+    import endless
+"""
+
+
+def run(text, *arguments, **options):
+    return subprocess.run(
+        [sys.executable, "-c", text, *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        check=False,
+        **options,
+    )
+
+
+def test_the_line_is_told_and_the_process_ends(tmp_path):
+    folder = tmp_path / 'größe "1"'
+    folder.mkdir()
+    module = folder / "endless.py"
+    module.write_text("from itertools import repeat\n\nall(repeat(1))\n")
+    done = run(ENDLESS_CALL, str(folder), env={**os.environ, "PYTHONIOENCODING": "utf-8"})
+    assert done.stderr == f"plcsim: {module}:3: does not return\n"
+    assert done.returncode == 1
+
+
+def test_it_is_told_where_it_is_asked_for(tmp_path):
+    (tmp_path / "endless.py").write_text("from itertools import repeat\nall(repeat(1))\n")
+    other = os.memfd_create("errors")
+    text = ENDLESS_CALL.replace('return")', f'return", {other})')
+    done = run(text, str(tmp_path), pass_fds=(other,))
+    told = os.pread(other, 1000, 0).decode()
+    os.close(other)
+    assert (done.stderr, told) == ("", f"plcsim: {tmp_path}/endless.py:2: does not return\n")
+
+
+WITHOUT_LIMIT = f"""{PREPARED}
+sys.settrace(lambda *_: None)
+with last_resort.last_resort(10_000_000, Path("/"), "does not return"):
+    assert not last_resort._readers
+"""
+
+
+def test_who_is_debugged_is_left_alone():
+    assert run(WITHOUT_LIMIT).stderr == ""
