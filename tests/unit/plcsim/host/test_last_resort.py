@@ -4,20 +4,23 @@ import os
 import subprocess
 import sys
 
-PREPARED = """
+ENDLESS = """
 import sys
 from itertools import repeat
 from pathlib import Path
-from plcsim.host import last_resort
-last_resort.PATIENCE_S = 0.02
+from plcsim.host.last_resort import last_resort
+with last_resort(0, Path(sys.argv[1]), "does not return"): all(repeat(1))
 """
 
-ENDLESS_CALL = f"""{PREPARED}
+ENDLESS_CALL = """
+import sys
+from pathlib import Path
+from plcsim.host import last_resort
+last_resort.PATIENCE_S = 0.02
 with last_resort.last_resort(10**12, Path(sys.argv[1]), "was left alone"):
     pass
-with last_resort.last_resort(10_000_000, Path(sys.argv[1]), "does not return"):
-    sys.path.insert(0, sys.argv[1])
-    import endless
+sys.path.insert(0, sys.argv[1])
+import endless
 """
 
 
@@ -36,25 +39,27 @@ def test_the_line_is_told_and_the_process_ends(tmp_path):
     folder = tmp_path / 'größe "1"'
     folder.mkdir()
     module = folder / "endless.py"
-    module.write_text("from itertools import repeat\n\nall(repeat(1))\n")
+    module.write_text(ENDLESS)
     done = run(ENDLESS_CALL, str(folder), env={**os.environ, "PYTHONIOENCODING": "utf-8"})
-    assert done.stderr == f"plcsim: {module}:3: does not return\n"
+    assert done.stderr == f"plcsim: {module}:6: does not return\n"
     assert done.returncode == 1
 
 
 def test_it_is_told_where_it_is_asked_for(tmp_path):
-    (tmp_path / "endless.py").write_text("from itertools import repeat\nall(repeat(1))\n")
     other = os.memfd_create("errors")
-    text = ENDLESS_CALL.replace('return")', f'return", {other})')
-    done = run(text, str(tmp_path), pass_fds=(other,))
+    (tmp_path / "endless.py").write_text(ENDLESS.replace('return")', f'return", {other})'))
+    done = run(ENDLESS_CALL, str(tmp_path), pass_fds=(other,))
     told = os.pread(other, 1000, 0).decode()
     os.close(other)
-    assert (done.stderr, told) == ("", f"plcsim: {tmp_path}/endless.py:2: does not return\n")
+    assert (done.stderr, told) == ("", f"plcsim: {tmp_path}/endless.py:6: does not return\n")
 
 
-WITHOUT_LIMIT = f"""{PREPARED}
+WITHOUT_LIMIT = """
+import sys
+from pathlib import Path
+from plcsim.host import last_resort
 sys.settrace(lambda *_: None)
-with last_resort.last_resort(10_000_000, Path("/"), "does not return"):
+with last_resort.last_resort(10**12, Path("/"), "does not return"):
     assert not last_resort._readers
 """
 
