@@ -328,7 +328,7 @@ def keep(_timeout, **options):
 
 faulthandler.dump_traceback_later = keep
 """
-"""The last resort comes soon after a program has asked for it, however long it took to get there."""
+"""The last resort comes soon after a program has asked for it, however long that took."""
 
 
 def test_a_project_that_stays_in_one_call_into_c_ends_pytest_and_is_named(pytester):
