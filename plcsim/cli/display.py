@@ -12,6 +12,7 @@ from rich.text import Text
 from plcsim.cli.console import CommandConsole
 from plcsim.cli.live_logbook import is_by_host, line_of
 from plcsim.core.duration import format_duration
+from plcsim.core.text import escaped
 from plcsim.project.extension import extensions
 from plcsim.shared_image.status_page import ServiceState
 
@@ -37,7 +38,7 @@ def _pair(first_ns: int, second_ns: int) -> str:
 
 def _programs(number: int, names: Iterable[str]) -> Text:
     """Return a line below the table: as a column, names would not fit into 80 columns."""
-    return Text(f"#{number}: {', '.join(names)}")
+    return Text(escaped(f"#{number}: {', '.join(names)}"))
 
 
 class LiveTable:
@@ -70,7 +71,10 @@ class LiveTable:
         state = self._page.state.name
         elapsed = f"{self._page.elapsed_ns / 1e9:.1f} s{self._goal}"
         head = Text.assemble(
-            (self._project.name, "bold"), "  ", (state, _STATE_STYLES[state]), f"  {elapsed}"
+            (escaped(self._project.name), "bold"),
+            "  ",
+            (state, _STATE_STYLES[state]),
+            f"  {elapsed}",
         )
         table = _table("class", "cycle", "cycles", "missed", "viol.", "exec. / max", "late / max")
         for c in self._project.classes:
@@ -91,7 +95,7 @@ class LiveTable:
         for name, state in self._services().items():
             where = extensions()[name].endpoint(self._project.extensions[name])
             style = "bold red" if state is ServiceState.FAILING else ""
-            yield Text.assemble(f"[{name}] ", (state.name.lower(), style), f"  {where}")
+            yield Text.assemble(f"[{name}] ", (state.name.lower(), style), f"  {escaped(where)}")
 
 
 def print_summary(
@@ -110,7 +114,7 @@ def print_summary(
     clock = "virtual clock" if result.get("clock") == "virtual" else rights
     console.print(
         Text.assemble(
-            (result["project"], "bold"),
+            (escaped(result["project"]), "bold"),
             "  ",
             (state, _STATE_STYLES[state]),
             f"  after {elapsed}  ({clock})",
@@ -125,7 +129,7 @@ def print_summary(
             console.print(blame)
     fault = _fault_text(result["fault"]) if result["fault"] else ""
     if fault:
-        text = Text(f"SERVICE: {fault}", style="bold red")
+        text = Text(escaped(f"SERVICE: {fault}"), style="bold red")
         console.print(text, soft_wrap=True)  # so that no file name is cut
         console.print(source_line(result["fault"]["location"]), end="", soft_wrap=True)
     entries = [

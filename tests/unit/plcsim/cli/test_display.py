@@ -39,6 +39,13 @@ def test_a_run_that_stopped(summary, task_class, program_of, clock):
     assert names == "#1: a, b"
 
 
+def test_names_do_nothing_to_the_terminal(summary, task_class, program_of):
+    name = "\x1b[2Jcell\x9b31m"
+    shown = summary(task_class(1, 10, **{name: program_of()}), name=name)
+    assert shown.count("\\x1b[2Jcell\\x9b31m") == 2
+    assert not {"\x1b", "\x9b"} & set(shown)
+
+
 def test_violations_are_shown_with_their_causes(summary, task_class, program_of, clock):
     settings = {"policy": Policy.LOG}
     shown = summary(task_class(1, 10, settings, p=program_of(lambda _: clock.spend_ns(25 * MS))))
