@@ -32,7 +32,9 @@ that the reader writes to."""
 
 
 @contextmanager
-def last_resort(limit_ns: int, folder: Path, text: str, errors_fd: int = 2) -> Iterator[None]:
+def last_resort(
+    limit_ns: int, folder: Path, text: str, errors_fd: int | None = 2
+) -> Iterator[None]:
     """End this process, with exit code 1, some seconds after the limit of the block.
 
     There is no limit where `time_limit` has none.
@@ -41,9 +43,9 @@ def last_resort(limit_ns: int, folder: Path, text: str, errors_fd: int = 2) -> I
         limit_ns: of the `time_limit` that would end the block before.
         folder: of the project; its innermost frame is told.
         text: what is told then, behind "plcsim: FILE:LINE: ".
-        errors_fd: the standard error it is told on.
+        errors_fd: the standard error it is told on; None lets the block be.
     """
-    if not can_be_limited():
+    if errors_fd is None or not can_be_limited():
         yield
         return
     pipe = _reader(errors_fd)

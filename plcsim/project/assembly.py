@@ -109,7 +109,7 @@ class ImageFile:
     wake_fds: Sequence[int] = ()
 
 
-def load(project: Project, *, watched: bool = False, errors_fd: int = 2) -> Application:
+def load(project: Project, *, watched: bool = False, errors_fd: int | None = 2) -> Application:
     """Load the programs of a project.
 
     Where the project says "keep going", those that can run are loaded.
@@ -119,7 +119,7 @@ def load(project: Project, *, watched: bool = False, errors_fd: int = 2) -> Appl
         watched: another process ends this one when it does not return within the project's
             ``init_timeout``; otherwise loading is ended here.
         errors_fd: where it is told that this process has to be ended, because a program does not
-            return from a call into a library in C.
+            return from a call into a library in C; None where somebody else sees to that.
 
     Raises:
         ConfigurationError: programs are missing, cannot be loaded or do not return, or a library
@@ -147,7 +147,7 @@ def not_loaded(project: Project) -> str:
 
 
 @contextmanager
-def _limit(project: Project, errors_fd: int) -> Iterator[None]:
+def _limit(project: Project, errors_fd: int | None) -> Iterator[None]:
     """End loading after its time: by an exception or, where none comes through, with us."""
     limit_ns, folder = project.load_timeout_ns, project.folder.resolve()
     with last_resort(limit_ns, folder, not_loaded(project), errors_fd), time_limit(limit_ns):

@@ -95,7 +95,7 @@ def pytest_runtest_teardown() -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Make the markers known; take up the report and the seed."""
-    terminal.keep()
+    terminal.keep(config)
     for marker in MARKERS:
         config.addinivalue_line("markers", marker)
     seed = config.getoption("--plc-seed")

@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
-errors_fd = 2
+if TYPE_CHECKING:
+    import pytest
+
+STDERR = 2
+
+errors_fd: int | None = STDERR
+"""None where pytest tells the stack of a test that hangs, for which there is one timer only."""
 
 
-def keep() -> None:
-    """Keep the standard error of this process; called once, before pytest captures anything."""
+def keep(config: pytest.Config) -> None:
+    """Keep the standard error of this process, before pytest captures anything."""
     global errors_fd  # noqa: PLW0603  # there is one in a process
-    if errors_fd == 2:  # standard error
-        errors_fd = os.dup(2)
+    if _tells_stacks(config):
+        errors_fd = None
+    elif errors_fd == STDERR:
+        errors_fd = os.dup(STDERR)
+
+
+def _tells_stacks(config: pytest.Config) -> bool:
+    return config.pluginmanager.hasplugin("faulthandler") and bool(
+        float(config.getini("faulthandler_timeout") or 0)
+    )

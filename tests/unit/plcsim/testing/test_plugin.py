@@ -349,3 +349,17 @@ def test_a_project_that_stays_in_one_call_into_c_ends_pytest_and_is_named(pytest
     )
     assert done.returncode == 1
     assert done.stderr == f"plcsim: {main}:2: the programs were not loaded within 10 s\n"
+
+
+@pytest.mark.parametrize("own_s", ["0", "1000"])
+def test_who_lets_pytest_tell_stacks_of_hanging_tests_keeps_that(pytester, own_s):
+    pytester.makeini(f"[pytest]\nfaulthandler_timeout = {own_s}\n")
+    pytester.makepyfile(
+        f"""
+        from plcsim.testing import terminal
+
+        def test_terminal():
+            assert (terminal.errors_fd is None) is ({own_s} > 0)
+        """
+    )
+    pytester.runpytest_subprocess(*QUICK).assert_outcomes(passed=1)
