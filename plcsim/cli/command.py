@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 OWN_COMMANDS: Final = {
     "new": "new",
+    "import-as": "import_as",
     "check": "check",
     "run": "run",
     "watch": "watch",

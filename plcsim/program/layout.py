@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.library.library import PLAIN, SUFFIXES_OF_C, CBuild, files_in, sources_in
+from plcsim.library.library import NESTED, PLAIN, SUFFIXES_OF_C, CBuild, files_in, sources_in
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -138,7 +138,10 @@ class SourceLayout:
 
 
 def folder_layout(
-    folder: Path, sources: Sequence[str] = (), libraries: Sequence[Path] = ()
+    folder: Path,
+    sources: Sequence[str] = (),
+    libraries: Sequence[Path] = (),
+    stubs: Iterable[str] = (),
 ) -> SourceLayout:
     """Return the layout of a project of folders.
 
@@ -146,6 +149,8 @@ def folder_layout(
         folder: where plc.toml lies.
         sources: folders of its programs, as plc.toml names them.
         libraries: folders of libraries outside it.
+        stubs: names of libraries in which what has no body is idle; one without sources is a
+            vendor's.
 
     Raises:
         ConfigurationError: two libraries have one name, or a folder cannot be read.
@@ -155,7 +160,27 @@ def folder_layout(
     inside = library_folders(folder, [place.folder for place in programs.values()])
     found = [_library(path, ".".join(path.relative_to(folder).parts)) for path in inside]
     others = [each for each in outside_libraries(libraries) if each.folder not in inside]
-    return SourceLayout(folder, _place(folder), programs, (*found, *others))
+    idle = frozenset(name.lower() for name in stubs)
+    places = tuple(_as_vendors(place, idle) for place in (*found, *others))
+    return SourceLayout(folder, _place(folder), programs, places, stubs=idle)
+
+
+def _as_vendors(place: LibraryPlace, stubs: Collection[str]) -> LibraryPlace:
+    """Return a library as a vendor's, where it is among ``stubs`` and has no sources."""
+    name = _name_of(place)
+    if name.lower() not in stubs or _has_sources(place):
+        return place
+    return place._replace(name=name, is_vendor=True)
+
+
+def _name_of(place: LibraryPlace) -> str:
+    """Return the name that a library gets (`plcsim.library.library.Library`)."""
+    interfaces = [file.stem for file in place.files if file.suffix.lower() == ".fun"]
+    return place.name or (interfaces[0] if len(interfaces) == 1 else place.folder.name)
+
+
+def _has_sources(place: LibraryPlace) -> bool:
+    return any(file.suffix.lower() in (*NESTED, ".py") for file in place.files)
 
 
 def program_places(folder: Path, sources: Iterable[str]) -> dict[str, ProgramPlace]:

@@ -27,12 +27,11 @@ from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_contr
 from plcsim.project.automation_studio import problems
 from plcsim.project.automation_studio.file_devices import file_devices
 from plcsim.project.automation_studio.io_channels import (
-    NO_MAPS,
-    Maps,
     channels_type,
     connect,
     variable_type,
 )
+from plcsim.project.automation_studio.mapping import NO_MAPS, Maps
 from plcsim.project.extension import extensions, in_process, services_of
 from plcsim.shared_image import ImageWriter
 
@@ -246,8 +245,7 @@ def _load(
         loaded = loader.load_each() if project.keep_going else Loaded(loader.load(), (), {})
     findings.check()
     left_out = {**wrong, **loaded.failures}
-    found = project.automation_studio
-    maps = NO_MAPS if found is None else Maps(found.channels, found.copies)
+    maps = project.maps
     sources = {entry.name.upper(): entry.source for entry in project.programs}
     setup = _setup(project, loaded.codes)
     return Application(
@@ -268,7 +266,7 @@ def _load(
         catalogue.stubbed,
         [*project.left_out, *_notes(project, left_out), *_stub_notes(catalogue)],
         maps,
-        () if found is None else tuple(pv.tag for pv in found.permanent),
+        tuple(pv.tag for pv in maps.permanent),
         loader.unload,
     )
 

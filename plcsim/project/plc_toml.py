@@ -21,6 +21,7 @@ from plcsim.library.library import PLAIN, files_in
 from plcsim.program.layout import folder_layout, outside_libraries, program_places
 from plcsim.project.automation_studio.layout import ALL_VENDORS, layout_of
 from plcsim.project.automation_studio.logical_view import project_file as automation_studio_file
+from plcsim.project.automation_studio.mapping import NO_MAPS, Maps, read_maps
 from plcsim.project.automation_studio.reader import read_automation_studio
 from plcsim.project.automation_studio.task_classes import task_classes, tasks_to_run, tick_ns
 from plcsim.project.extension import extensions
@@ -28,6 +29,7 @@ from plcsim.project.project_file import FILE_NAME, find_project
 from plcsim.project.tables import (
     AutomationStudioTable,
     CTable,
+    IoTable,
     LibrariesTable,
     PlcSettings,
     ProjectKey,
@@ -58,7 +60,7 @@ COMPILING_NS: Final = 900_000_000_000
 """Loading an Automation Studio project, or C, may take so long at least, on a slow host too."""
 
 _OWN_TABLES: Final = (
-    *("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate", "c"),
+    *("plc", "task_class", "library", "libraries", PROJECT, "as", "simulate", "c", "io"),
 )
 
 
@@ -75,6 +77,7 @@ class Project:
         libraries: tables [library.NAME] by NAME; a library knows what it may be told.
         extensions: settings of the extensions whose table is there, by table.
         automation_studio: the Automation Studio project that this is, None where it is none.
+        maps: of variables to I/O channels and other variables.
         keep_going: what cannot run is left out, and the rest runs.
         left_out: what was left out already, and why.
     """
@@ -87,6 +90,7 @@ class Project:
     libraries: Mapping[str, Table] = field(default_factory=dict)
     extensions: Mapping[str, Any] = field(default_factory=dict)
     automation_studio: AutomationStudioProject | None = None
+    maps: Maps = NO_MAPS
     keep_going: bool = False
     left_out: tuple[str, ...] = ()
 
@@ -193,7 +197,7 @@ class _Parts:
         automation_studio = self._automation_studio_folder()
         if automation_studio is not None:
             return self._of_automation_studio(automation_studio)
-        for name in ("as", "simulate", PROJECT):
+        for name in ("as", PROJECT):
             if name in self._top:
                 raise self._top.error(name, "there is no Automation Studio project here")
         classes = self._classes()
@@ -202,10 +206,29 @@ class _Parts:
             entries.append(self._plc.exception_program)
         folder = self._file.parent
         sources = [*dict.fromkeys(entry.source for entry in entries)]
-        layout = folder_layout(folder, sources, self._folders.folders)
-        layout = replace(layout, c_build=self._c_build(PLAIN), dialect=self._plc.dialect)
+        stubs = self._folders.stub or ()
+        layout = folder_layout(folder, sources, self._folders.folders, stubs)
+        layout = replace(
+            layout,
+            c_build=self._c_build(PLAIN),
+            dialect=self._plc.dialect,
+            simulate=_simulated(self._top.table("simulate")),
+        )
         name = self._plc.name or folder.resolve().name
-        return Project(folder, name, self._plc, classes, layout, self._libraries)
+        maps = self._maps()
+        return Project(folder, name, self._plc, classes, layout, self._libraries, maps=maps)
+
+    def _maps(self) -> Maps:
+        """Return what the files of [io] say.
+
+        Raises:
+            ConfigurationError: a line of them is none.
+        """
+        files = self._top.table("io").read(IoTable)
+        maps, findings = read_maps(files.channels, files.copies, files.permanent)
+        if findings:
+            raise ConfigurationError(*map(str, findings))
+        return maps
 
     def _classes(self) -> tuple[TaskClassEntry, ...]:
         """Return the task classes of plc.toml, else those of a CONFIGURATION beside it."""
@@ -229,6 +252,8 @@ class _Parts:
         return here if automation_studio_file(here) is not None else None
 
     def _of_automation_studio(self, folder: Path) -> Project:
+        if "io" in self._top:
+            raise self._top.error("io", "the maps of an Automation Studio project are its own")
         findings = Findings()
         settings, tables = AutomationStudioTable(), {}
         with findings.gathered():
@@ -260,6 +285,7 @@ class _Parts:
             self._with_own(layout, tables),
             self._libraries,
             automation_studio=found,
+            maps=found.maps,
         )
 
     def _c_build(self, given: CBuild) -> CBuild:

@@ -149,11 +149,26 @@ class LibrariesTable:
     Attributes:
         folders: of libraries outside the project; a relative path begins at the project's folder.
         stub: libraries in which what has no body is idle; None for all of an Automation Studio
-            project that come without source.
+            project that come without source, and for none of another project.
     """
 
     folders: tuple[Annotated[Path, PathTo("folder")], ...] = ()
     stub: tuple[str, ...] | None = None
+
+
+@settings
+class IoTable:
+    """Table [io]: maps as Automation Studio writes them; relative paths begin at the project.
+
+    Attributes:
+        channels: files as IoMap.iom: variables by I/O channel.
+        copies: files as PvMap.vvm: variables by variable.
+        permanent: files as Cpu.per: variables that outlive a cold restart.
+    """
+
+    channels: tuple[Annotated[Path, PathTo("file")], ...] = ()
+    copies: tuple[Annotated[Path, PathTo("file")], ...] = ()
+    permanent: tuple[Annotated[Path, PathTo("file")], ...] = ()
 
 
 @settings

@@ -54,7 +54,9 @@ def compile_program(source: ProgramSource) -> LinkedModule:
     c_build = source.declarations.layout.c_build
     folders = [source.folder, *c_build.include_folders, *brought, headers]
     static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
-    order = BuildOrder(source.name, source.files, folders, _options(c_build), [*static, UNIT_TEST])
+    order = BuildOrder(
+        source.name, source.files, folders, compiler_options(c_build), [*static, UNIT_TEST]
+    )
     return _compiled(order)
 
 
@@ -83,10 +85,12 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     )
     option = f"-D_{library.name.upper()}_EXPORT"
     folders = [library.folder, *library.c_build.include_folders, headers]
-    return _compiled(BuildOrder(library.name, files, folders, [option, *_options(library.c_build)]))
+    return _compiled(
+        BuildOrder(library.name, files, folders, [option, *compiler_options(library.c_build)])
+    )
 
 
-def _options(c_build: CBuild) -> list[str]:
+def compiler_options(c_build: CBuild) -> list[str]:
     """Return what a project says to the compiler, and which compiler its sources think it is."""
     parts = c_build.gcc_version.split(".")
     names = ("__GNUC__", "__GNUC_MINOR__", "__GNUC_PATCHLEVEL__")

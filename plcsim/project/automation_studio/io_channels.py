@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
     from plcsim.program.declarations import Declarations
-    from plcsim.project.automation_studio.mapping import Channel, Pv, PvMapLine
+    from plcsim.project.automation_studio.mapping import Channel, Maps, Pv, PvMapLine
     from st_types.types.elementary import DataType
 
 _WIDTHS: Final[Mapping[str, ElementaryType[bool] | ElementaryType[int]]] = {
@@ -34,21 +34,6 @@ _WIDTHS: Final[Mapping[str, ElementaryType[bool] | ElementaryType[int]]] = {
 
 _NAME = re.compile(r"\w+")
 _NO_NAME = re.compile(r"\W")
-
-
-class Maps(NamedTuple):
-    """What IoMap.iom and PvMap.vvm of a configuration say.
-
-    Attributes:
-        channels: of I/O modules.
-        copies: of variables to variables.
-    """
-
-    channels: Sequence[Channel] = ()
-    copies: Sequence[PvMapLine] = ()
-
-
-NO_MAPS: Final = Maps()
 
 
 def names_of(channel: Channel) -> tuple[str, str]:

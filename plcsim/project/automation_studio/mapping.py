@@ -16,8 +16,11 @@ from plcsim.project.automation_studio.finding import Finding
 from st_types.syntax.source import read_at_most
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from pathlib import Path
+    from typing import TypeVar
+
+    T = TypeVar("T")
 
 MAX_BYTES: Final = 16 << 20
 """Bytes of a file that are read; real ones stay below 1 MiB."""
@@ -91,6 +94,23 @@ class PvMapLine(NamedTuple):
     line: int
 
 
+class Maps(NamedTuple):
+    """What the maps of a configuration say.
+
+    Attributes:
+        channels: of I/O modules.
+        copies: of variables to variables.
+        permanent: variables that outlive a cold restart.
+    """
+
+    channels: Sequence[Channel] = ()
+    copies: Sequence[PvMapLine] = ()
+    permanent: Sequence[Pv] = ()
+
+
+NO_MAPS: Final = Maps()
+
+
 class _Line(NamedTuple):
     """A line of a map: the variable, what stands after ``AT %``, and where.
 
@@ -100,6 +120,31 @@ class _Line(NamedTuple):
     pv: Pv | None
     place: str
     number: int
+
+
+def read_maps(
+    channels: Iterable[Path], copies: Iterable[Path], permanent: Iterable[Path]
+) -> tuple[Maps, list[Finding]]:
+    """Read the files of a configuration's maps, and what is wrong in them."""
+    findings: list[Finding] = []
+    return Maps(
+        _all(read_channels, channels, findings),
+        _all(read_copies, copies, findings),
+        _all(read_permanent, permanent, findings),
+    ), findings
+
+
+def _all(
+    read: Callable[[Path], tuple[Sequence[T], list[Finding]]],
+    files: Iterable[Path],
+    findings: list[Finding],
+) -> tuple[T, ...]:
+    result: list[T] = []
+    for file in files:
+        found, wrong = read(file)
+        result += found
+        findings += wrong
+    return tuple(result)
 
 
 def read_channels(file: Path) -> tuple[list[Channel], list[Finding]]:

@@ -30,24 +30,13 @@ from plcsim.project.automation_studio.logical_view import (
     read_logical_view,
 )
 from plcsim.project.automation_studio.mapp import MappVariable, read_mapp_variables
-from plcsim.project.automation_studio.mapping import (
-    Channel,
-    Pv,
-    PvMapLine,
-    read_channels,
-    read_copies,
-    read_permanent,
-)
+from plcsim.project.automation_studio.mapping import Maps, read_maps
 from plcsim.project.automation_studio.names import FileNames
 from plcsim.project.automation_studio.software import Software, TaskLine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
-    from typing import TypeVar
-
-    T = TypeVar("T")
-
 
 ALL_PROGRAMS_CLASS: Final = 4
 """Task class of all programs of a project without a configuration; Cyclic#4 is where a new task
@@ -87,9 +76,7 @@ class AutomationStudioProject:
         configuration: the one that was read.
         tasks: in the order of Cpu.sw.
         mapp_variables: global variables that the configuration makes.
-        channels: of IoMap.iom.
-        copies: of PvMap.vvm.
-        permanent: variables of Cpu.per.
+        maps: of the configuration.
         has_preprocessor: whether Structured Text may have ``#ifdef``.
         findings: what is wrong in all of this.
     """
@@ -101,9 +88,7 @@ class AutomationStudioProject:
     configuration: Configuration
     tasks: tuple[ProgramTask, ...]
     mapp_variables: tuple[MappVariable, ...]
-    channels: tuple[Channel, ...]
-    copies: tuple[PvMapLine, ...]
-    permanent: tuple[Pv, ...]
+    maps: Maps
     has_preprocessor: bool
     findings: tuple[Finding, ...]
 
@@ -136,6 +121,8 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
     tasks = _tasks(chosen, view.root, findings)
     mapp_variables, found = read_mapp_variables(chosen.folder) if chosen.name else ([], [])
     findings += found
+    maps, found = read_maps(*(chosen.files_of_kind(kind) for kind in (IO_MAP, PV_MAP, PERMANENT)))
+    findings += found
     return AutomationStudioProject(
         folder,
         folder.resolve().name if file.is_dir() else file.stem,
@@ -144,25 +131,10 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
         chosen,
         tuple(tasks),
         tuple(mapp_variables),
-        tuple(_all(read_channels, chosen.files_of_kind(IO_MAP), findings)),
-        tuple(_all(read_copies, chosen.files_of_kind(PV_MAP), findings)),
-        tuple(_all(read_permanent, chosen.files_of_kind(PERMANENT), findings)),
+        maps,
         has_preprocessor,
         tuple(findings),
     )
-
-
-def _all(
-    read: Callable[[Path], tuple[Sequence[T], list[Finding]]],
-    files: Sequence[Path],
-    findings: list[Finding],
-) -> list[T]:
-    result: list[T] = []
-    for file in files:
-        found, wrong = read(file)
-        result += found
-        findings += wrong
-    return result
 
 
 def _has_preprocessor(file: Path, findings: list[Finding]) -> bool:

@@ -19,7 +19,11 @@ def test_everything_that_a_project_says(bottling):
     assert [(each.name, each.data_type) for each in found.mapp_variables] == [
         ("gAlarmCore", "MpComIdentType")
     ]
-    assert (len(found.channels), len(found.copies), len(found.permanent)) == (5, 2, 1)
+    assert (len(found.maps.channels), len(found.maps.copies), len(found.maps.permanent)) == (
+        5,
+        2,
+        1,
+    )
     assert [each.missing for each in found.findings] == ["Manual.pdf"]
     station = found.tasks[1].program
     assert [file.name for file in station.files] == [
