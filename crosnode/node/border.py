@@ -18,12 +18,13 @@ class Border:
         topic: what they go over.
     """
 
-    __slots__ = ("_followers", "_topic", "_traffic")
+    __slots__ = ("_followers", "_number", "_topic", "_traffic")
 
     def __init__(self, traffic: Traffic | None, topic: Topic) -> None:
         self._traffic = traffic
         self._followers = () if traffic is None else traffic.followers
         self._topic = topic
+        self._number = 0 if traffic is None else traffic.number_of(topic)
 
     def open(self, inlet: Callable[[bytes], None]) -> None:
         """Take messages that are handed in, past the network."""
@@ -37,5 +38,6 @@ class Border:
 
     def cross(self, body: bytes | memoryview) -> None:
         """Tell of a message; its bytes must not change afterwards."""
+        crossing = self._number, body
         for told in self._followers:
-            told(self._topic, body)
+            told(crossing)

@@ -34,22 +34,36 @@ class Topic(NamedTuple):
     is_latching: bool
 
 
+Crossing = tuple[int, "bytes | memoryview"]
+"""A message that crosses the border: the number of its topic, and its bytes. They do not change."""
+
+
 class Traffic:
     """The messages of one controller.
 
     Attributes:
-        followers: called with topic and bytes of every message, which do not change afterwards.
+        topics: what messages go over; the number of a topic is its place.
+        followers: called with every message that crosses.
         hand_in_followers: called with node, topic and bytes of every message that is handed in.
         inlets: take a message as if it had come over the network, by the names of the node that
             receives it and of the topic.
     """
 
-    __slots__ = ("followers", "hand_in_followers", "inlets")
+    __slots__ = ("_numbers", "followers", "hand_in_followers", "inlets", "topics")
 
     def __init__(self) -> None:
-        self.followers: list[Callable[[Topic, bytes | memoryview], None]] = []
+        self.topics: list[Topic] = []
+        self._numbers: dict[Topic, int] = {}
+        self.followers: list[Callable[[Crossing], object]] = []
         self.hand_in_followers: list[Callable[[str, str, bytes], None]] = []
         self.inlets: dict[tuple[str, str], Callable[[bytes], None]] = {}
+
+    def number_of(self, topic: Topic) -> int:
+        """Return the number of a topic, a new one where it was never seen."""
+        number = self._numbers.setdefault(topic, len(self.topics))
+        if number == len(self.topics):
+            self.topics.append(topic)
+        return number
 
     def hand_in(self, node: str, topic: str, body: bytes) -> bool:
         """Give a message to a node, between two cycles; return whether the node is one of here."""

@@ -18,6 +18,7 @@ _HEAD = struct.Struct("<IIQq")
 """Bytes of the record, itself and padding included; kind and bytes of padding; number; time."""
 
 _HEAD_SIZE = _HEAD.size
+_pack_head = _HEAD.pack_into
 
 _SIZE = struct.Struct("<I")
 """The first field; 0 for what fills the end of the ring."""
@@ -68,9 +69,11 @@ class StreamWriter:
         if 2 * size > self._size:
             self._cells[self._at_too_long] += 1
             return
-        start = self._make_room(size)
+        start = self._head % self._size
+        if start + size > self._size or self._tail < self._head + size - self._size:
+            start = self._make_room(size)
         ring, cells, records = self._ring, self._cells, self._records
-        _HEAD.pack_into(ring, start, size, padding << _KIND_BITS | kind, records, time_ns)
+        _pack_head(ring, start, size, padding << _KIND_BITS | kind, records, time_ns)
         start += _HEAD_SIZE
         ring[start : start + count] = data
         self._records = cells[self._at_records] = records + 1

@@ -109,7 +109,9 @@ class ImageWriter:
         bank_size = self.directory.bank_size
         regions = layout.regions(len(directory), bank_size, streams)
         os.ftruncate(fd, regions.size)
-        view = memoryview(mmap.mmap(fd, regions.size))
+        # all pages now: a stream comes to a new one every few cycles otherwise
+        flags = mmap.MAP_SHARED | mmap.MAP_POPULATE
+        view = memoryview(mmap.mmap(fd, regions.size, flags))
         self._cells = cells = view[: layout.HEADER_SIZE].cast("Q")
         view[layout.HEADER_SIZE : layout.HEADER_SIZE + len(directory)] = directory
         banks = [view[at : at + bank_size] for at in regions.banks]

@@ -15,7 +15,7 @@ from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.core.controller import Controller
-    from plcsim.core.traffic import Topic
+    from plcsim.core.traffic import Crossing, Topic
     from plcsim.shared_image.stream import StreamWriter
 
 PERIOD_NS: Final = 1_000_000_000
@@ -45,8 +45,10 @@ class BorderReport:
         self._controller.context.traffic.followers.append(self.count)
         self._controller.scan.idlers.append(self.idle)
 
-    def count(self, topic: Topic, message: bytes | memoryview) -> None:
+    def count(self, crossing: Crossing) -> None:
         """Count a message."""
+        number, message = crossing
+        topic = self._controller.context.traffic.topics[number]
         key = topic.node, topic.name, topic.is_sent
         found = self._topics.get(key)
         if found is None:

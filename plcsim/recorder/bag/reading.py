@@ -151,7 +151,6 @@ class BagReader:
                     cycle.clock,
                     cycle.network,
                     cycle.writes,
-                    b"",
                     before if cycle.step == CYCLE else cycle.variables,
                 ),
             )

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import find_tag
-from plcsim.core.traffic import Topic
 from plcsim.recorder.bag.changes import changes
 from plcsim.recorder.bag.files import active, create
 from plcsim.recorder.bag.head import head_text
@@ -24,16 +22,17 @@ from plcsim.recorder.bag.types import (
     messages_of,
     text_message,
 )
-from plcsim.recorder.journal.record import CYCLE, packets
+from plcsim.recorder.journal.record import CYCLE
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.core.logbook import Entry
     from plcsim.core.tag import Tag
+    from plcsim.core.traffic import Topic
     from plcsim.recorder.bag.files import Bag
     from plcsim.recorder.bag.head import Head
-    from plcsim.recorder.journal.record import JournalMessage, JournalRecord
+    from plcsim.recorder.journal.record import JournalRecord
 
 FIRST_NS: Final = 1
 """ROS takes 0 for "no time"."""
@@ -154,28 +153,29 @@ class Writing:
             variables,
         )
         self._bag.write(self._cycles, bag_ns, message.to_bytes())
-        for packet in packets(record.messages):
-            self._write_packet(bag_ns, packet)
+        for topic_number, topic in record.topics:
+            self._describe(topic_number, topic)
+        for topic_number, data in record.messages:
+            self._write_crossing(bag_ns, topic_number, data)
         if is_cycle and record.variables:
             self._before = record.variables
             if with_tags:
                 self._write_tags(bag_ns, record.variables)
 
-    def _write_packet(self, bag_ns: int, packet: JournalMessage) -> None:
-        """Write a message of a topic, or note what comes over it."""
-        number = packet.topic
-        if packet.is_topic:
-            topic = Topic(**json.loads(packet.data))
-            if self._topics.get(number) != topic:
-                self._topics[number] = topic
-                self._borders.pop(number, None)
-            return
+    def _describe(self, number: int, topic: Topic) -> None:
+        """Note what the messages of a number go over."""
+        if self._topics.get(number) != topic:
+            self._topics[number] = topic
+            self._borders.pop(number, None)
+
+    def _write_crossing(self, bag_ns: int, number: int, data: bytes) -> None:
+        """Write a message of a topic."""
         if number not in self._topics:  # described in a record that was lost
             self.lost_messages += 1
             return
         if number not in self._borders:
             self._borders[number] = self._bag.add_foreign(self._topics[number])
-        self._bag.write(self._borders[number], bag_ns, packet.data)
+        self._bag.write(self._borders[number], bag_ns, data)
 
     def _write_tags(self, bag_ns: int, variables: bytes) -> None:
         shown = self._shown

@@ -2,44 +2,28 @@
 
 from __future__ import annotations
 
-import json
-import struct
-from typing import TYPE_CHECKING, Final
+from marshal import dumps
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.recorder.journal.record import (
     HAND_IN,
     JournalStore,
     hand_in_data,
-    packet_head,
-    record_head,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.core.control import Ending
-    from plcsim.core.traffic import Topic
+    from plcsim.core.traffic import Crossing, Topic
 
-TOPIC_EVERY: Final = 1000
-"""Messages of a topic after which it is described again."""
+TOPICS_EVERY: Final = 1000
+"""Records after which all topics are described again."""
 
+_FORMAT: Final = 2
+"""Of marshal; later ones look for what is the same twice."""
 
-def topic_text(topic: Topic) -> bytes:
-    """Return a topic as JSON."""
-    return json.dumps(topic._asdict()).encode()
-
-
-class _Known:
-    """A topic that has a number; it is found by its identity, which takes a tenth of the time."""
-
-    __slots__ = ("head", "left", "number", "size", "topic")
-
-    def __init__(self, topic: Topic, number: int) -> None:
-        self.topic = topic  # as long as it is here, no other one has its identity
-        self.number = number
-        self.left = 0
-        self.size = 0
-        self.head = packet_head(number, 0)
+_NONE: Final = ()
 
 
 class Journal:
@@ -48,16 +32,29 @@ class Journal:
     Attributes:
         clock: answers of the clock.
         network: answers of the network.
+        messages: that programs sent and received; to add one is all that it costs the program.
+        topics: what they go over, by number.
     """
 
-    __slots__ = ("_latches", "_messages", "_topics", "_writes", "clock", "network")
+    __slots__ = (
+        "_described",
+        "_latches",
+        "_left",
+        "_writes",
+        "clock",
+        "messages",
+        "network",
+        "topics",
+    )
 
     def __init__(self) -> None:
         self.clock: list[int] = []
         self.network = bytearray()
         self._writes = bytearray()
-        self._messages: list[bytes | memoryview] = []
-        self._topics: dict[int, _Known] = {}
+        self.messages: list[Crossing] = []
+        self.topics: list[Topic] = []
+        self._described = 0
+        self._left = TOPICS_EVERY
         self._latches = 0
 
     def latched(self) -> None:
@@ -76,26 +73,12 @@ class Journal:
         """Note that the run shall end after this cycle: from here on nothing preempts it."""
         self._writes += JournalStore(len(self.clock), ending.value, b"").to_bytes()
 
-    def crossed(self, topic: Topic, body: bytes | memoryview) -> None:
-        """Note a message; now and then what it goes over, for a recorder that came later."""
-        found = self._topics.get(id(topic))
-        if found is None or not found.left:
-            found = self._described(topic, found)
-        found.left -= 1
-        size = len(body)
-        if size != found.size:
-            found.size = size
-            found.head = packet_head(found.number, size)
-        self._messages += found.head, body
-
-    def _described(self, topic: Topic, found: _Known | None) -> _Known:
-        """Note a topic; return what is known of it."""
-        if found is None:
-            found = self._topics[id(topic)] = _Known(topic, len(self._topics))
-        found.left = TOPIC_EVERY
-        text = topic_text(topic)
-        self._messages += packet_head(found.number, len(text), is_topic=True), text
-        return found
+    def _descriptions(self) -> list[tuple[int, tuple[object, ...]]]:
+        """Return the topics that are new; now and then all, for a recorder that came later."""
+        first = self._described if self._left else 0
+        self._left = self._left or TOPICS_EVERY
+        self._described = len(self.topics)
+        return [(n, tuple(topic)) for n, topic in enumerate(self.topics)][first:]
 
     def take(
         self,
@@ -114,15 +97,16 @@ class Journal:
             time_ns: see there.
             variables: see there, in pieces.
         """
-        clock, network, writes = self.clock, self.network, self._writes
-        messages = b"".join(self._messages)
-        sizes = (8 * len(clock), len(network), len(writes), len(messages))
-        head = record_head(step, task_class, sizes, cycle, time_ns)
-        numbers = struct.pack(f"<{len(clock)}q", *clock)
-        data = b"".join((head, numbers, network, writes, messages, *variables))
+        self._left -= 1
+        is_known = self._left and len(self.topics) == self._described
+        topics = _NONE if is_known else self._descriptions()
+        clock, network, writes, messages = self.clock, self.network, self._writes, self.messages
+        gathered: Any = clock, network, writes, topics, messages, variables
+        # one call, for after each sleep the caches are cold, and new code costs most
+        data = dumps((step, task_class, cycle, time_ns, *gathered), _FORMAT)
         clock.clear()  # the lists stay the same: clock and network hold on to them
         network.clear()
         writes.clear()
-        self._messages.clear()
+        messages.clear()
         self._latches = 0
         return data

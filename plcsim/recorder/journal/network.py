@@ -43,6 +43,7 @@ _SEND, _RECV, _SHUTDOWN = map(heads, (b"s", b"r", b"d"))
 _SET_OPTION, _OPTION, _SET_LINGER = map(heads, (b"t", b"p", b"i"))
 _CLOSE, _LISTENING, _LOCAL, _PEER, _LINGER = b"x", b"n", b"h", b"e", b"g"
 _LOOK = b"k"
+_NO_NEWS = _LOOK + NOTHING + U32.pack(0)
 _OPEN_DATAGRAMS = heads(OPEN)
 
 
@@ -66,7 +67,11 @@ class RecordedNetwork:
 
     def look(self) -> list[RecordedSocket]:
         """See `plcsim.network.Network`; a socket is told by its place among those made."""
-        found = [self._made[each] for each in self._network.look() if each in self._made]
+        news = self._network.look()
+        if not news:  # as nearly always
+            self.answers += _NO_NEWS
+            return []
+        found = [self._made[each] for each in news if each in self._made]
         self.answers += _LOOK + NOTHING + U32.pack(len(found))
         for each in found:
             self.answers += U32.pack(each.number)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import marshal
 import struct
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.control import Ending
+from plcsim.core.traffic import Topic
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 CYCLE: Final = 0
 """`JournalRecord.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
@@ -16,9 +18,7 @@ CYCLE: Final = 0
 LIMITS: Final = struct.Struct("<qq")
 """``variables`` of the step RUN: its end on the clock and its cycles, 0 for none."""
 
-_HEAD: Final = struct.Struct("<BBxxIIIIqq")
 _ENTRY: Final = struct.Struct("<III")
-_PACKET: Final = struct.Struct("<H?xI")
 
 
 class JournalRecord(NamedTuple):
@@ -33,8 +33,9 @@ class JournalRecord(NamedTuple):
             `numbers_of`.
         network: answers of the network, as `plcsim.recorder.journal.network` writes them.
         writes: what was written and forced from outside, see `entries`.
-        messages: that programs sent and received, see `packets`.
         variables: all variables afterwards, empty where they are too many; of a step see `LIMITS`.
+        topics: that are described here, by their numbers; none in what is read from a bag.
+        messages: that programs sent and received, with the numbers of their topics; as above.
     """
 
     step: int
@@ -44,71 +45,33 @@ class JournalRecord(NamedTuple):
     clock: bytes
     network: bytes
     writes: bytes
-    messages: bytes
     variables: bytes
-
-
-def record_head(
-    step: int, task_class: int, sizes: tuple[int, int, int, int], cycle: int, time_ns: int
-) -> bytes:
-    """Return what stands before clock, network, writes, messages and variables of a record.
-
-    Args:
-        step: as of `JournalRecord`; task_class, cycle, time_ns too.
-        task_class: see there.
-        sizes: bytes of clock, network, writes and messages.
-        cycle: see there.
-        time_ns: see there.
-    """
-    return _HEAD.pack(step, task_class, *sizes, cycle, time_ns)
+    topics: Sequence[tuple[int, Topic]] = ()
+    messages: Sequence[tuple[int, bytes]] = ()
 
 
 def record_of(data: bytes) -> JournalRecord:
     """Return the record of `plcsim.recorder.journal.journal.Journal.take`."""
-    step, task_class, *sizes, cycle, time_ns = _HEAD.unpack_from(data)
-    at = _HEAD.size
-    parts = []
-    for size in sizes:
-        parts.append(data[at : at + size])
-        at += size
-    clock, network, writes, messages = parts
+    step, task_class, cycle, time_ns, clock, network, writes, topics, messages, variables = (
+        marshal.loads(data)  # noqa: S302  # from the scan, through its own memory
+    )
     return JournalRecord(
-        step, task_class, cycle, time_ns, clock, network, writes, messages, data[at:]
+        step,
+        task_class,
+        cycle,
+        time_ns,
+        struct.pack(f"<{len(clock)}q", *clock),
+        network,
+        writes,
+        b"".join(variables),
+        [(number, Topic(*each)) for number, each in topics],
+        messages,
     )
 
 
 def numbers_of(clock: bytes) -> tuple[int, ...]:
     """Return `JournalRecord.clock` as numbers."""
     return struct.unpack(f"<{len(clock) // 8}q", clock)
-
-
-class JournalMessage(NamedTuple):
-    """A message that crossed the border, or what it goes over.
-
-    Attributes:
-        topic: number of the topic.
-        is_topic: ``data`` is the `plcsim.core.traffic.Topic` as JSON, not a message.
-        data: the bytes.
-    """
-
-    topic: int
-    is_topic: bool
-    data: bytes
-
-
-def packet_head(topic: int, size: int, *, is_topic: bool = False) -> bytes:
-    """Return what stands before the ``size`` bytes of a `JournalMessage`."""
-    return _PACKET.pack(topic, is_topic, size)
-
-
-def packets(messages: bytes) -> Iterator[JournalMessage]:
-    """Return the packets of `JournalRecord.messages`."""
-    at = 0
-    while at < len(messages):
-        topic, is_topic, size = _PACKET.unpack_from(messages, at)
-        at += _PACKET.size
-        yield JournalMessage(topic, is_topic, messages[at : at + size])
-        at += size
 
 
 class JournalStore(NamedTuple):

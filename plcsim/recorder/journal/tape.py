@@ -44,8 +44,10 @@ class Tape:
         controller.forces.follow(self._forced)
         controller.follow_steps(self._stepped)
         controller.follow_endings(journal.asked_to_end)
-        controller.context.traffic.followers.append(journal.crossed)
-        controller.context.traffic.hand_in_followers.append(journal.handed_in)
+        traffic = controller.context.traffic
+        journal.topics = traffic.topics
+        traffic.followers.append(journal.messages.append)
+        traffic.hand_in_followers.append(journal.handed_in)
 
     def _latch(self, _task_class: TaskClass) -> None:
         self._journal.latched()

@@ -1,4 +1,4 @@
-from plcsim.core.traffic import Traffic
+from plcsim.core.traffic import Topic, Traffic
 
 
 def test_a_message_is_handed_to_the_node_that_receives_the_topic() -> None:
@@ -14,3 +14,13 @@ def test_a_message_is_handed_to_the_node_that_receives_the_topic() -> None:
 
     assert taken == [b"hello"]
     assert told == [("/cell", "/in", b"hello")]
+
+
+def test_equal_topics_have_the_same_number() -> None:
+    traffic = Traffic()
+    speed = Topic("/speed", "std_msgs/Float64", "0" * 32, "float64 data", "/cell", True, False)
+
+    numbers = [traffic.number_of(t) for t in (speed, speed._replace(name="/b"), Topic(*speed))]
+
+    assert numbers == [0, 1, 0]
+    assert [topic.name for topic in traffic.topics] == ["/speed", "/b"]

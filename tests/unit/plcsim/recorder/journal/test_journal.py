@@ -1,8 +1,6 @@
-import json
-
 from plcsim.core.traffic import Topic
-from plcsim.recorder.journal.journal import TOPIC_EVERY, Journal
-from plcsim.recorder.journal.record import JournalStore, entries, numbers_of, packets, record_of
+from plcsim.recorder.journal.journal import TOPICS_EVERY, Journal
+from plcsim.recorder.journal.record import JournalStore, entries, numbers_of, record_of
 
 TOPIC = Topic("/chatter", "std_msgs/String", "0" * 32, "string data", "/plc", True, False)
 
@@ -21,25 +19,28 @@ def test_a_record_has_what_came_since_the_last_one() -> None:
     assert (numbers_of(record.clock), record.network) == ((5, 6), b"net")
     assert record.variables == b"all"
     assert list(entries(record.writes)) == [JournalStore(0, 100, b"x"), JournalStore(1, 200, b"y")]
-    assert (again.clock, again.network, again.writes, again.messages) == (b"", b"", b"", b"")
+    assert (again.clock, again.network, again.writes, again.messages) == (b"", b"", b"", [])
 
 
-def test_a_topic_is_described_before_its_first_message_and_now_and_then() -> None:
+def test_topics_are_described_once_and_now_and_then() -> None:
+    journal, other = Journal(), TOPIC._replace(name="/other")
+    journal.topics = [TOPIC]
+    described = {}
+    for number in range(TOPICS_EVERY + 1):
+        if number == 5:
+            journal.topics.append(other)
+        if topics := record_of(journal.take(0, 1, 1, 1, [])).topics:
+            described[number] = topics
+
+    assert described == {
+        0: [(0, TOPIC)],
+        5: [(1, other)],
+        TOPICS_EVERY - 1: [(0, TOPIC), (1, other)],
+    }
+
+
+def test_messages_keep_their_order() -> None:
     journal = Journal()
-    for _ in range(TOPIC_EVERY + 1):
-        journal.crossed(TOPIC, b"hello")
+    journal.messages += [(0, b"a"), (1, memoryview(b"b")), (0, b"c")]
 
-    sent = list(packets(record_of(journal.take(0, 1, 1, 1, [])).messages))
-
-    described = [number for number, each in enumerate(sent) if each.is_topic]
-    assert described == [0, TOPIC_EVERY + 1]
-    assert Topic(**json.loads(sent[0].data)) == TOPIC
-    assert {each.data for each in sent if not each.is_topic} == {b"hello"}
-
-
-def test_topics_have_numbers_of_their_own() -> None:
-    journal = Journal()
-    journal.crossed(TOPIC, b"a")
-    journal.crossed(TOPIC._replace(name="/other"), b"b")
-
-    assert {p.topic for p in packets(record_of(journal.take(0, 1, 1, 1, [])).messages)} == {0, 1}
+    assert record_of(journal.take(0, 1, 1, 1, [])).messages == [(0, b"a"), (1, b"b"), (0, b"c")]
