@@ -208,7 +208,7 @@ def replay(folder: Path, seconds: int) -> dict[str, float]:
     topics = [bag.add(f"/out_{n}", "std_msgs/msg/Float64") for n in range(TOPICS)]
     for number in range(100 * seconds):
         for topic in topics:
-            bag.write(topic, 10**9 + number * 10_000_000, struct.pack("<d", number))
+            bag.write(10**9 + number * 10_000_000, [(topic, struct.pack("<d", number))])
     bag.close()
     plc = Plc(program_target([Hears]))
     ros = Ros(plc)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
-from plcsim.recorder.bag.files import SUFFIXES
+from plcsim.recorder.bag.names import SUFFIXES
 from plcsim.recorder.bag.writing import Limits
 from plcsim.settings import Duration, Size, Whole, settings
 

@@ -23,6 +23,9 @@ _pack_head = _HEAD.pack_into
 _SIZE = struct.Struct("<I")
 """The first field; 0 for what fills the end of the ring."""
 
+PIECE = 1 << 18
+"""Bytes that a reader copies at once, where one record is not longer."""
+
 _KIND_BITS = 28
 _KIND = (1 << _KIND_BITS) - 1
 
@@ -149,7 +152,9 @@ class StreamReader:
             if position >= head:
                 return []
             start = position % self._size
-            data = bytes(self._ring[start : min(self._size, start + head - position)])
+            (first,) = _SIZE.unpack_from(self._ring, start)  # overwritten, perhaps: see ``passed``
+            piece = min(head - position, self._size - start, max(first, PIECE))
+            data = bytes(self._ring[start : start + piece])
             passed = max(0, cells[at.tail] - position)  # what was overwritten while we copied
             found = self._parse(data, position, passed, most)
             if found:
@@ -161,7 +166,9 @@ class StreamReader:
         while at < len(data) and len(found) < most:
             (size,) = _SIZE.unpack_from(data, at)
             if not size:
-                at = len(data)
+                at = self._size - position % self._size
+                break
+            if at + size > len(data):
                 break
             size, kind, number, time_ns = _HEAD.unpack_from(data, at)
             end = at + size - (kind >> _KIND_BITS)

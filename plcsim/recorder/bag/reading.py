@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.recorder.bag.changes import changed
-from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
+from plcsim.recorder.bag.names import active
 from plcsim.recorder.bag.types import CYCLES, HEAD, cycle_from, typestore
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE, JournalRecord

@@ -8,24 +8,28 @@ Bags/Format/2.0). A chunk that breaks off, and what is behind it, is left out.
 from __future__ import annotations
 
 import bz2
-import struct
 from collections import defaultdict
 from typing import TYPE_CHECKING, Any, BinaryIO, Final, NamedTuple, TypeAlias
 
-from plcsim.recorder.bag.files import HEADER_SIZE
+from plcsim.recorder.bag.ros1_records import (
+    CHUNK,
+    CONNECTION,
+    INDEX,
+    MAGIC,
+    MESSAGE,
+    PLACE,
+    U32,
+    bag_header,
+    chunk_info,
+    fields_of,
+)
+from plcsim.recorder.bag.ros1_records import record as record_bytes
 from plcsim.recorder.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-MAGIC: Final = b"#ROSBAG V2.0\n"
-
-_MESSAGE, _BAG, _INDEX, _CHUNK, _CHUNK_INFO, _CONNECTION = (bytes([n]) for n in (2, 3, 4, 5, 6, 7))
-"""Values of the field ``op``."""
-
-_U32: Final = struct.Struct("<I")
-_PLACE: Final = struct.Struct("<III")
 _MOST_HEADER: Final = 1 << 20
 _MOST_CHUNK: Final = 1 << 30
 """Bytes; whoever says more is damaged."""
@@ -85,7 +89,7 @@ def reindex(source: Path, target: Path) -> Recovered:
 
 def _copy(old: BinaryIO, new: BinaryIO) -> Recovered:
     """Copy chunk by chunk, then write the index behind them."""
-    new.write(MAGIC + _bag_header(0, 0, 0))
+    new.write(MAGIC + bag_header(0, 0, 0))
     connections: dict[bytes, bytes] = {}
     infos: list[bytes] = []
     messages, end = 0, old.tell()
@@ -95,16 +99,16 @@ def _copy(old: BinaryIO, new: BinaryIO) -> Recovered:
         except _DamagedError:
             break
         infos.append(_info(new.tell(), places))
-        new.write(record.head + _U32.pack(len(record.data)) + record.data)
+        new.write(record.head + U32.pack(len(record.data)) + record.data)
         for connection, each in places.items():
-            fields = _fields(ver=1, conn=connection, count=_U32.pack(len(each)))
-            new.write(_record(_INDEX, fields, b"".join(_PLACE.pack(*place) for place in each)))
+            fields = fields_of(ver=1, conn=connection, count=len(each))
+            new.write(record_bytes(INDEX, fields, b"".join(PLACE.pack(*place) for place in each)))
         messages += sum(map(len, places.values()))
         end = old.tell()
     index = new.tell()
     new.write(b"".join([*connections.values(), *infos]))
     new.seek(len(MAGIC))
-    new.write(_bag_header(index, len(connections), len(infos)))
+    new.write(bag_header(index, len(connections), len(infos)))
     return Recovered(messages, _behind(old, end))
 
 
@@ -115,7 +119,7 @@ def _chunks(file: BinaryIO) -> Iterator[_Record]:
     try:
         while file.tell() < size:
             record = _read(file, size)
-            if record.fields.get(b"op") == _CHUNK:
+            if record.fields.get(b"op") == CHUNK:
                 yield record
     except _DamagedError:
         return
@@ -127,7 +131,7 @@ def _behind(file: BinaryIO, end: int) -> int:
     file.seek(end)
     try:
         while end < size:
-            if _read(file, size).fields.get(b"op") == _CHUNK:
+            if _read(file, size).fields.get(b"op") == CHUNK:
                 break
             end = file.tell()
     except _DamagedError:
@@ -139,15 +143,15 @@ def _read(file: BinaryIO, size: int) -> _Record:
     start = file.tell()
     head = _part(file, size, _MOST_HEADER)
     data = _part(file, size, _MOST_CHUNK)
-    return _Record(_fields_of(head), _U32.pack(len(head)) + head, start, data)
+    return _Record(_fields_of(head), U32.pack(len(head)) + head, start, data)
 
 
 def _part(file: BinaryIO, size: int, most: int) -> bytes:
     """Read a length and so many bytes."""
-    length = file.read(_U32.size)
-    if len(length) < _U32.size:
+    length = file.read(U32.size)
+    if len(length) < U32.size:
         raise _DamagedError
-    count = _U32.unpack(length)[0]
+    count = U32.unpack(length)[0]
     if count > min(most, size - file.tell()):
         raise _DamagedError
     return file.read(count)
@@ -156,8 +160,8 @@ def _part(file: BinaryIO, size: int, most: int) -> bytes:
 def _fields_of(head: bytes) -> dict[bytes, bytes]:
     found, at = {}, 0
     while at < len(head):
-        end = at + _U32.size + _u32(head, at)
-        name, equals, value = head[at + _U32.size : end].partition(b"=")
+        end = at + U32.size + _u32(head, at)
+        name, equals, value = head[at + U32.size : end].partition(b"=")
         if not equals or end > len(head):
             raise _DamagedError
         found[name] = value
@@ -166,9 +170,9 @@ def _fields_of(head: bytes) -> dict[bytes, bytes]:
 
 
 def _u32(data: bytes, at: int) -> int:
-    if at + _U32.size > len(data):
+    if at + U32.size > len(data):
         raise _DamagedError
-    return int.from_bytes(data[at : at + _U32.size], "little")
+    return int.from_bytes(data[at : at + U32.size], "little")
 
 
 def _places(chunk: _Record, connections: dict[bytes, bytes]) -> dict[bytes, list[Place]]:
@@ -176,15 +180,15 @@ def _places(chunk: _Record, connections: dict[bytes, bytes]) -> dict[bytes, list
     data, found = _content(chunk), defaultdict[bytes, list[Place]](list)
     new, at = {}, 0
     while at < len(data):
-        start, behind_head = at, at + _U32.size + _u32(data, at)
-        at = behind_head + _U32.size + _u32(data, behind_head)
+        start, behind_head = at, at + U32.size + _u32(data, at)
+        at = behind_head + U32.size + _u32(data, behind_head)
         if at > len(data):
             raise _DamagedError
-        fields = _fields_of(data[start + _U32.size : behind_head])
+        fields = _fields_of(data[start + U32.size : behind_head])
         connection, time = fields.get(b"conn", b""), fields.get(b"time", b"")
-        if fields.get(b"op") == _CONNECTION and len(connection) == _U32.size:
+        if fields.get(b"op") == CONNECTION and len(connection) == U32.size:
             new[connection] = data[start:at]
-        elif fields.get(b"op") == _MESSAGE and len(connection) == _U32.size and len(time) == 8:
+        elif fields.get(b"op") == MESSAGE and len(connection) == U32.size and len(time) == 8:
             found[connection].append((_u32(time, 0), _u32(time, 4), start))
         else:
             raise _DamagedError
@@ -225,38 +229,5 @@ def _lz4() -> Any:
 def _info(position: int, places: Mapping[bytes, list[Place]]) -> bytes:
     """Return the record that tells of a chunk at the end of the bag."""
     times = [place[:2] for each in places.values() for place in each] or [(0, 0)]
-    counts = b"".join(key + _U32.pack(len(each)) for key, each in places.items())
-    fields = _fields(
-        ver=1,
-        chunk_pos=position.to_bytes(8, "little"),
-        start_time=struct.pack("<II", *min(times)),
-        end_time=struct.pack("<II", *max(times)),
-        count=_U32.pack(len(places)),
-    )
-    return _record(_CHUNK_INFO, fields, counts)
-
-
-def _bag_header(index: int, connections: int, chunks: int) -> bytes:
-    fields = _fields(
-        index_pos=index.to_bytes(8, "little"),
-        conn_count=_U32.pack(connections),
-        chunk_count=_U32.pack(chunks),
-    )
-    size = len(_field(b"op", _BAG)) + len(fields)
-    return _record(_BAG, fields, b" " * (HEADER_SIZE - size))
-
-
-def _fields(**values: bytes | int) -> bytes:
-    return b"".join(
-        _field(name.encode(), _U32.pack(value) if isinstance(value, int) else value)
-        for name, value in values.items()
-    )
-
-
-def _field(name: bytes, value: bytes) -> bytes:
-    return _U32.pack(len(name) + 1 + len(value)) + name + b"=" + value
-
-
-def _record(operation: bytes, fields: bytes, data: bytes) -> bytes:
-    head = _field(b"op", operation) + fields
-    return _U32.pack(len(head)) + head + _U32.pack(len(data)) + data
+    counts = b"".join(key + U32.pack(len(each)) for key, each in places.items())
+    return chunk_info(position, min(times), max(times), counts, len(places))

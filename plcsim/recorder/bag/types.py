@@ -189,14 +189,18 @@ class TagMessages(NamedTuple):
         type_name: such as ``std_msgs/msg/Float32``.
         start: place of its first byte among the recorded variables.
         size: its bytes.
-        encode: makes the message of them.
+        encode: makes the message of them; None where they are the message.
     """
 
     topic: str
     type_name: str
     start: int
     size: int
-    encode: Callable[[bytes], bytes]
+    encode: Callable[[bytes], bytes] | None
+
+    def message(self, data: bytes) -> bytes:
+        """Return the message of its bytes."""
+        return data if self.encode is None else self.encode(data)
 
 
 def messages_of(tag: Tag, start: int) -> Iterator[TagMessages]:
@@ -219,7 +223,7 @@ def _topic(path: str) -> str:
     return f"/{path}"
 
 
-def _std_msgs(kind: DataType[Any]) -> tuple[str, Callable[[bytes], bytes]]:
+def _std_msgs(kind: DataType[Any]) -> tuple[str, Callable[[bytes], bytes] | None]:
     """Return the name of a type of std_msgs, and what makes its message of a value's bytes.
 
     Both store numbers alike, the least byte first.
@@ -228,11 +232,11 @@ def _std_msgs(kind: DataType[Any]) -> tuple[str, Callable[[bytes], bytes]]:
         return "String", lambda data: text_message(str(decode(kind, data)))
     if isinstance(kind, ElementaryType):
         if kind.kind is Kind.BOOL:
-            return "Bool", bytes
+            return "Bool", None
         if kind.kind is Kind.REAL:
-            return _NAMES[kind.code], bytes
+            return _NAMES[kind.code], None
     base = kind.base if isinstance(kind, SubrangeType) else kind
     is_signed = isinstance(kind, EnumerationType)
     if isinstance(base, ElementaryType):
         is_signed = base.code.islower()
-    return f"{'' if is_signed else 'U'}Int{8 * kind.size}", bytes
+    return f"{'' if is_signed else 'U'}Int{8 * kind.size}", None

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import find_tag
 from plcsim.recorder.bag.changes import changes
-from plcsim.recorder.bag.files import active, create
+from plcsim.recorder.bag.files import create
 from plcsim.recorder.bag.head import head_text
+from plcsim.recorder.bag.names import active
+from plcsim.recorder.bag.tag_block import TagBlock, equally_long
 from plcsim.recorder.bag.types import (
     CYCLE_TYPE,
     CYCLES,
@@ -105,13 +107,12 @@ class Writing:
         self.files.append(path)
         self._cycles = self._bag.add(CYCLES, CYCLE_TYPE)
         self._logbook = self._bag.add(LOGBOOK, LOG_TYPE)
-        self._channels: dict[str, Any] = {}
-        self._shown: dict[str, bytes] = {}
+        self._blocks = [TagBlock(tags) for tags in equally_long(self._tags)]
         self._borders: dict[int, Any] = {}
         self._before = b""
         self._since_ns = self._latest_ns
         head = self._bag.add(HEAD, TEXT_TYPE, latching=True)
-        self._bag.write(head, self._latest_ns, text_message(head_text(self._head)))
+        self._bag.write(self._latest_ns, [(head, text_message(head_text(self._head)))])
 
     def _bag_ns(self, time_ns: int) -> int:
         """Return the time in the bag for one of the controller's clock, never going back."""
@@ -152,11 +153,11 @@ class Writing:
             whole,
             variables,
         )
-        self._bag.write(self._cycles, bag_ns, message.to_bytes())
         for topic_number, topic in record.topics:
             self._describe(topic_number, topic)
-        for topic_number, data in record.messages:
-            self._write_crossing(bag_ns, topic_number, data)
+        crossings = [self._crossing(*each) for each in record.messages]
+        written = [(self._cycles, message.to_bytes()), *[each for each in crossings if each]]
+        self._bag.write(bag_ns, written)
         if is_cycle and record.variables:
             self._before = record.variables
             if with_tags:
@@ -168,29 +169,23 @@ class Writing:
             self._topics[number] = topic
             self._borders.pop(number, None)
 
-    def _write_crossing(self, bag_ns: int, number: int, data: bytes) -> None:
-        """Write a message of a topic."""
+    def _crossing(self, number: int, data: bytes) -> tuple[Any, bytes] | None:
+        """Return a message with its connection; None where its topic is not known."""
         if number not in self._topics:  # described in a record that was lost
             self.lost_messages += 1
-            return
+            return None
         if number not in self._borders:
             self._borders[number] = self._bag.add_foreign(self._topics[number])
-        self._bag.write(self._borders[number], bag_ns, data)
+        return self._borders[number], data
 
     def _write_tags(self, bag_ns: int, variables: bytes) -> None:
-        shown = self._shown
-        for tag in self._tags:
-            data = variables[tag.start : tag.start + tag.size]
-            if shown.get(tag.topic) != data:
-                if tag.topic not in shown:
-                    self._channels[tag.topic] = self._bag.add(tag.topic, tag.type_name)
-                shown[tag.topic] = data
-                self._bag.write(self._channels[tag.topic], bag_ns, tag.encode(data))
+        for block in self._blocks:
+            block.write(self._bag, bag_ns, variables)
 
     def entry(self, entry: Entry) -> None:
         """Write an entry of the logbook."""
         bag_ns = self._bag_ns(self._head.origin_ns + entry.time_ns)
-        self._bag.write(self._logbook, bag_ns, log_message(self._logged, bag_ns, entry))
+        self._bag.write(bag_ns, [(self._logbook, log_message(self._logged, bag_ns, entry))])
         self._logged += 1
 
     def flush(self) -> None:

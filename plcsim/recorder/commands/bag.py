@@ -13,7 +13,7 @@ from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.output_file import check_output, write_output
 from plcsim.core.duration import format_duration
 from plcsim.recorder.bag.difference import difference
-from plcsim.recorder.bag.files import ACTIVE
+from plcsim.recorder.bag.names import ACTIVE
 from plcsim.recorder.bag.parquet import write_parquet
 from plcsim.recorder.bag.plot import draw, page
 from plcsim.recorder.bag.reading import open_bag

@@ -111,7 +111,7 @@ class Live:
             if self._last.get(tag.topic) != data:
                 self._last[tag.topic] = data
                 changed.append(tag.topic)
-                message = store.ros1_to_cdr(tag.encode(data), tag.type_name)
+                message = store.ros1_to_cdr(tag.message(data), tag.type_name)
                 self._channels[tag.topic].log(bytes(message), log_time=epoch_ns)
         if followed := [path for path in self._followed if self._topic(path) in changed]:
             self._server.publish_parameter_values(self.parameters(followed))

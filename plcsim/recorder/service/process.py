@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
-from plcsim.recorder.bag.files import active
 from plcsim.recorder.bag.head import head_from
+from plcsim.recorder.bag.names import active
 from plcsim.recorder.bag.writing import Limits, Writing, tag_messages
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE, record_of

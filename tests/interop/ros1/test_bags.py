@@ -12,8 +12,8 @@ import pytest
 from pymodbus.client import ModbusTcpClient
 
 from crosnode.testing import Ros as VirtualRos
-from plcsim.recorder.bag.files import Ros1Bag
 from plcsim.recorder.bag.reindex import reindex
+from plcsim.recorder.bag.ros1_bag import Ros1Bag
 from plcsim.recorder.bag.types import text_message
 from plcsim.testing import Plc
 from plcsim.testing.target import project_target
@@ -85,7 +85,7 @@ def test_rosbag_and_we_find_the_same_in_a_bag_that_is_cut(ros: Ros, tmp_path: Pa
     bag = Ros1Bag(tmp_path / "whole.bag")
     chatter = bag.add("/chatter", "std_msgs/msg/String")
     for number in range(60):
-        bag.write(chatter, 10**9 + number, text_message("hello"))
+        bag.write(10**9 + number, [(chatter, text_message("hello"))])
         if number % 10 == 9:
             bag.flush()
     whole = (tmp_path / "whole.bag.active").read_bytes()

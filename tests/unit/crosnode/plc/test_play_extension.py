@@ -61,7 +61,7 @@ def write(path: Path, *times_ms: int, topic: str = "/in", data: bytes = b"") -> 
     bag = create(path)
     into = bag.add(topic, "std_msgs/msg/String")
     for number, time_ms in enumerate(times_ms):
-        bag.write(into, (50_000 + time_ms) * MS, data or text_message(f"word {number}"))
+        bag.write((50_000 + time_ms) * MS, [(into, data or text_message(f"word {number}"))])
     bag.close()
     return path
 

@@ -44,7 +44,7 @@ def write(path: Path, *times_ms: int, topic: str = "/in") -> Path:
     bag = create(path)
     into = bag.add(topic, TEXT)
     for number, time_ms in enumerate(times_ms):
-        bag.write(into, (1000 + time_ms) * MS, text_message(f"word {number}"))
+        bag.write((1000 + time_ms) * MS, [(into, text_message(f"word {number}"))])
     bag.close()
     return path
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from plcsim.shared_image import layout
-from plcsim.shared_image.stream import StreamReader, StreamRecord, StreamWriter
+from plcsim.shared_image.stream import PIECE, StreamReader, StreamRecord, StreamWriter
 
 AT = layout.EVENT_CELLS
 SIZE = 1024
@@ -128,3 +128,21 @@ def test_beside_a_writer_that_never_waits_no_record_is_torn() -> None:
         counts[which] += len(reader.read(RECORDS))
         assert counts[which] + reader.lost == RECORDS
         assert counts[which] > BIG // 400
+
+
+def test_a_reader_that_is_far_behind_copies_piece_by_piece() -> None:
+    cells, ring = ends(4 * PIECE)
+    writer = StreamWriter(cells, ring, AT)
+    reader = StreamReader(cells, ring, AT)
+    read = 0
+    for turn in range(20):
+        sizes = [PIECE + 5, *[(turn + n) * 7919 % 60_000 for n in range(20)]]
+        for number, size in enumerate(sizes):
+            writer.write(1, number, bytes([number]) * size)
+        for number, size in enumerate(sizes):
+            (record,) = reader.read(1)
+            assert (record.number, record.time_ns) == (read, number)
+            assert record.data == bytes([number]) * size
+            read += 1
+    assert reader.read() == []
+    assert reader.lost == 0

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from rosbags.rosbag1 import Reader, Writer
 
 from plcsim.recorder.bag import chunks
-from plcsim.recorder.bag.files import Ros1Bag
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.ros1_bag import Ros1Bag
 from plcsim.recorder.bag.types import text_message, typestore
 from plcsim.recorder.errors import RecordingError
 
@@ -26,7 +26,7 @@ def write(path: Path, parts: list[list[tuple[int, int]]]) -> None:
     topics = [bag.add(f"/topic_{number}", TEXT) for number in range(3)]
     for part in parts:
         for number, (topic, time_ns) in enumerate(part):
-            bag.write(topics[topic], time_ns, text_message(f"{time_ns} {number}"))
+            bag.write(time_ns, [(topics[topic], text_message(f"{time_ns} {number}"))])
         bag.flush()
     bag.close()
 

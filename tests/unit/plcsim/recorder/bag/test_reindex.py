@@ -3,9 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.recorder.bag.files import Ros1Bag
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.bag.reindex import MAGIC, Recovered, reindex
+from plcsim.recorder.bag.ros1_bag import Ros1Bag
 from plcsim.recorder.bag.types import text_message
 from plcsim.recorder.commands.bag import reindex as command
 from plcsim.recorder.errors import RecordingError
@@ -20,7 +20,7 @@ def make(path: Path) -> tuple[bytes, list[int]]:
     ends = []
     for chunk in range(4):
         for number in range(5):
-            bag.write(chatter, 10**9 + 5 * chunk + number, text_message(f"hello {number}"))
+            bag.write(10**9 + 5 * chunk + number, [(chatter, text_message(f"hello {number}"))])
         bag.flush()
         ends.append(bag.size)
     data = path.with_name(path.name + ".active").read_bytes()
