@@ -155,7 +155,7 @@ def test_replay_refuses_options_of_the_other_kind_of_bag(
     project: Path, bag: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     field = create(tmp_path / "field.bag")
-    field.write(field.add("/chatter", "std_msgs/msg/String"), 1, text_message("hello"))
+    field.write(1, [(field.add("/chatter", "std_msgs/msg/String"), text_message("hello"))])
     field.close()
 
     assert main(["replay", bag, str(project), "--clock"]) == 1
