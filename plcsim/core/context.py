@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from plcsim.core.heap import Heap
 from plcsim.core.system_area import DATE, RELEASE
 from plcsim.core.traffic import Traffic
 
@@ -28,7 +27,6 @@ class Context:
     Attributes:
         memory: where all variables lie.
         network: what blocks that communicate talk over; `plcsim.network.network_of` gives it.
-        heap: what programs reserve while they run.
         traffic: messages that programs send and receive, told to whoever follows them.
         globals: a view of the global variables; None where the project has none.
         run_block: runs a function block whose body is not in Python; given by who knows libraries.
@@ -40,7 +38,6 @@ class Context:
         "_settings",
         "_system",
         "globals",
-        "heap",
         "memory",
         "network",
         "run_block",
@@ -55,7 +52,6 @@ class Context:
         settings: Iterable[object] = (),
     ) -> None:
         self.memory = memory
-        self.heap = Heap(memory)
         self.network = network
         self.globals: Any = None
         self.run_block: Callable[[Any], None] = _no_body
@@ -119,13 +115,12 @@ class Context:
     def restart(self) -> None:
         """Forget the states of all libraries; those with a ``close`` method are closed first.
 
-        What is on the heap and the last violation are forgotten too; the date is kept.
+        The last violation is forgotten too; the date is kept.
         """
         for state in self.libraries():
             if hasattr(state, "close"):
                 state.close()
         self._libraries.clear()
-        self.heap.reset()
         self.violation = None
 
 

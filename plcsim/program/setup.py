@@ -61,7 +61,7 @@ class Setup:
         settings: what libraries find by `Context.settings`.
         shared: the global variables, None where there are none.
         catalogue: the libraries that programs see; by default those that are installed.
-        channels: those of its simulated I/O modules (`plcsim.core.io_image`), None for none.
+        channels: those of its simulated I/O modules, None for none.
         start_date_ns: date of the controller at its start, nanoseconds since 1970; None for that of
             its clock.
     """

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from plcsim.core.heap import Blocks
 from plcsim.library.asmem import interface
 from plcsim.library.asmem.interface import (
     asmemERR_CREATE,
@@ -14,6 +13,7 @@ from plcsim.library.asmem.interface import (
     asmemERR_NOMEM,
 )
 from plcsim.library.block import SynchronousBlock
+from plcsim.library.heap import Blocks, heap_of
 from plcsim.library.idents import Idents
 from plcsim.library.runtime import ERR_OK
 
@@ -54,7 +54,9 @@ class AsMemPartCreate(interface.AsMemPartCreate, _PartitionBlock):
         """Make it."""
         self.ident = 0
         size = self.len & ~7
-        address = self.context.heap.allocate(size) if size and not self.partitions.full else None
+        address = (
+            heap_of(self.context).allocate(size) if size and not self.partitions.full else None
+        )
         if address is None:
             return asmemERR_CREATE
         self.ident = self.partitions.add(Partition(address, Blocks(address, size)))
@@ -69,7 +71,7 @@ class AsMemPartDestroy(interface.AsMemPartDestroy, _PartitionBlock):
         found = self.partitions.remove(self.ident)
         if found is None:
             return asmemERR_DESTROY
-        self.context.heap.release(found.address)
+        heap_of(self.context).release(found.address)
         return ERR_OK
 
 

@@ -13,6 +13,7 @@ from plcsim.library.brsystem.interface import (
     brUSRRAM,
     brUSRROM,
 )
+from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 
 _KINDS: Final = (brDRAM, brUSRRAM, brSYSROM, brUSRROM)
@@ -23,7 +24,7 @@ class MEMInfo(interface.MEMInfo, SynchronousBlock):
 
     def step(self) -> int:
         """Look what is free."""
-        free = self.context.heap.free_bytes
+        free = heap_of(self.context).free_bytes
         self.FreeUSR_Ram = self.FreeSYSTEM = self.FreeTMP_Ram = self.FreeFIX_Ram = free
         self.FreeUSR_Prom = self.FreeSYS_Prom = free
         self.FreeMEMCARD = 0
@@ -38,6 +39,6 @@ class MEMxInfo(interface.MEMxInfo, SynchronousBlock):
         if self.mem_typ not in _KINDS:
             return brERR_INVALID_PARAMETER
         self.MemSize = self.context.memory.size
-        self.FreeMemSize = self.context.heap.free_bytes
-        self.BiggestFreeBlockSize = self.context.heap.largest_free
+        self.FreeMemSize = heap_of(self.context).free_bytes
+        self.BiggestFreeBlockSize = heap_of(self.context).largest_free
         return ERR_OK

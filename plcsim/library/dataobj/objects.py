@@ -25,6 +25,7 @@ from plcsim.library.dataobj.interface import (
     doUSRRAM,
     doUSRROM,
 )
+from plcsim.library.heap import heap_of
 from plcsim.library.idents import Idents
 from plcsim.library.runtime import ERR_OK
 
@@ -81,7 +82,7 @@ class DataObjects(Idents[DataObject]):
             return doERR_DUPOBJECT
         if not size:
             return doERR_ILLEGALLENGTH
-        address = None if self.full else self.context.heap.allocate(size)
+        address = None if self.full else heap_of(self.context).allocate(size)
         if address is None:
             return doERR_NOMEMORY
         return DataObject(name, address, size, memory, option, self.now)
@@ -226,7 +227,7 @@ class DatObjDelete(interface.DatObjDelete, AsynchronousBlock):
         if found.attached:
             return doERR_ILLSTATE
         objects.remove(self.ident)
-        self.context.heap.release(found.address)
+        heap_of(self.context).release(found.address)
         return ERR_OK
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.heap import heap_of
 from plcsim.library.loopconr import interface
 from plcsim.library.loopconr.interface import LCR_ERR_LCRMovAvgFlt_BASE
 from plcsim.library.runtime import ERR_FUB_ENABLE_FALSE, ERR_OK
@@ -83,13 +84,13 @@ class LCRMovAvgFlt(interface.LCRMovAvgFlt):
         self.y = self._taken(self.x)
 
     def _begin(self) -> None:
-        self.p_xold = (self.context.heap.allocate(4 * self.base) if self.base else None) or 0
+        self.p_xold = (heap_of(self.context).allocate(4 * self.base) if self.base else None) or 0
         self.base_old, self.enable_old = self.base, True
         self.i_xold = self.bootkey_old = 0
 
     def _forget(self) -> None:
         if self.enable_old and self.p_xold:
-            self.context.heap.release(self.p_xold)
+            heap_of(self.context).release(self.p_xold)
         self.p_xold, self.enable_old = 0, False
 
     def _taken(self, x: float) -> float:

@@ -6,6 +6,7 @@ import math
 import struct
 from typing import Any, Final
 
+from plcsim.library.heap import heap_of
 from plcsim.library.mtbasics import interface
 from plcsim.library.mtbasics.block import OK, ControlBlock, UpdatedBlock
 from plcsim.library.mtbasics.interface import (
@@ -132,7 +133,7 @@ class MTBasicsTimeDelay(interface.MTBasicsTimeDelay, BasicsBlock):
         """Reserve memory for the values."""
         own = self.Internal
         own.Count, own.Next = self._cycles, 0
-        own.pValues = (self.context.heap.allocate(4 * own.Count) if own.Count else None) or 0
+        own.pValues = (heap_of(self.context).allocate(4 * own.Count) if own.Count else None) or 0
         values = _REAL.pack(self.InitialValue) * own.Count
         if own.pValues:
             self.context.memory.write(own.pValues, values)
@@ -150,7 +151,7 @@ class MTBasicsTimeDelay(interface.MTBasicsTimeDelay, BasicsBlock):
 
     def end(self) -> None:
         """Give the memory back."""
-        self.context.heap.release(self.Internal.pValues)
+        heap_of(self.context).release(self.Internal.pValues)
         self.Internal.pValues = 0
 
 

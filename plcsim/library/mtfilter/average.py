@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from typing import Any, Final
 
+from plcsim.library.heap import heap_of
 from plcsim.library.mtbasics.block import OK, UpdatedBlock
 from plcsim.library.mtfilter import interface
 from plcsim.library.mtfilter.interface import mtBCD_ERR_FILTER_WINDOW_INVALID
@@ -35,9 +36,9 @@ class MTFilterMovingAverage(interface.MTFilterMovingAverage, UpdatedBlock):
     def take(self) -> None:
         """Reserve memory for the values."""
         own = self.Internal
-        self.context.heap.release(own.pValues)
+        heap_of(self.context).release(own.pValues)
         own.WindowLength, own.Count, own.Next = self.WindowLength, 0, 0
-        own.pValues = self.context.heap.allocate(4 * self.WindowLength) or 0
+        own.pValues = heap_of(self.context).allocate(4 * self.WindowLength) or 0
 
     def run(self, _step_s: float) -> None:
         """Take a value."""
@@ -53,5 +54,5 @@ class MTFilterMovingAverage(interface.MTFilterMovingAverage, UpdatedBlock):
 
     def end(self) -> None:
         """Give the memory back."""
-        self.context.heap.release(self.Internal.pValues)
+        heap_of(self.context).release(self.Internal.pValues)
         self.Internal.pValues = 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plcsim.library.executable import function
+from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 from plcsim.library.sys_lib.interface import (
     ERR_BUR_ILLPTR,
@@ -22,7 +23,7 @@ def _allocate(context: Context, size: int, p_address: int, failed: int) -> int:
     if not p_address:
         return ERR_BUR_ILLPTR
     context.memory.check(p_address, 4)
-    address = context.heap.allocate(size) if size else None
+    address = heap_of(context).allocate(size) if size else None
     context.memory.write(p_address, (address or 0).to_bytes(4, "little"))
     return failed if address is None else ERR_OK
 
@@ -36,7 +37,7 @@ def allocate(context: Context, size: int, p_address: int) -> int:
 @function("TMP_free")
 def release(context: Context, _size: int, address: int) -> int:
     """Give memory back; return a status."""
-    return ERR_OK if context.heap.release(address) else ERR_BUR_TMP_FREE
+    return ERR_OK if heap_of(context).release(address) else ERR_BUR_TMP_FREE
 
 
 @function("MEM_alloc")
@@ -48,4 +49,4 @@ def allocate_for_long(context: Context, size: int, p_address: int) -> int:
 @function("MEM_free")
 def release_after_long(context: Context, _size: int, address: int) -> int:
     """Give memory back, as TMP_free does."""
-    return ERR_OK if context.heap.release(address) else ERR_BUR_MEM_FREE
+    return ERR_OK if heap_of(context).release(address) else ERR_BUR_MEM_FREE

@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.core.io_image import IoImage, Line, VariableCopy
 from plcsim.core.tag import CHANNELS
+from plcsim.project.automation_studio.io_image import IoImage, Line, VariableCopy
 from st_types.types.derived import Member, StructType, resolve_alias
 from st_types.types.elementary import BOOL, UDINT, UINT, ULINT, USINT, ElementaryType
 from st_types.types.paths import find

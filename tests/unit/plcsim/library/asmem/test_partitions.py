@@ -10,6 +10,7 @@ from plcsim.library.asmem import (
     asmemERR_INFO,
     asmemERR_NOMEM,
 )
+from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 
 
@@ -69,10 +70,10 @@ def test_a_block_that_moves_keeps_its_bytes(plc, ident):
 
 def test_a_partition_that_was_given_back(plc, ident):
     destroy = plc.new(asmem.AsMemPartDestroy)
-    before = plc.context.heap.free_bytes
+    before = heap_of(plc.context).free_bytes
     destroy(enable=True, ident=ident)
     assert destroy.status == ERR_OK
-    assert plc.context.heap.free_bytes == before + 1024
+    assert heap_of(plc.context).free_bytes == before + 1024
     assert plc.call(asmem.AsMemPartDestroy, ident=ident).status == asmemERR_DESTROY
     assert plc.call(asmem.AsMemPartInfo, ident=ident).status == asmemERR_INFO
     assert plc.call(asmem.AsMemPartFree, ident=ident, mem=0).status == asmemERR_FREE

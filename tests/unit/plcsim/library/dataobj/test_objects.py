@@ -20,6 +20,7 @@ from plcsim.library.dataobj import (
     doUSRRAM,
     objects,
 )
+from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 
 NEW_YEAR_2000 = 946_684_800
@@ -115,7 +116,7 @@ def test_null_and_wild_pointers(plc):
 
 def test_deleting_gives_the_memory_back(plc, made):
     assert plc.finish(objects.DatObjDelete, ident=made.ident).status == ERR_OK
-    assert plc.context.heap.size_of(made.pDatObjMem) is None
+    assert heap_of(plc.context).size_of(made.pDatObjMem) is None
     assert plc.finish(objects.DatObjDelete, ident=made.ident).status == doERR_ILLOBJECT
     assert info(plc, "recipe").status == doERR_MODULNOTFOUND
     assert make(plc).status == ERR_OK

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from plcsim.library import loopconr
+from plcsim.library.heap import heap_of
 from plcsim.library.loopconr import LCR_ERR_LCRMovAvgFlt_BASE
 from plcsim.library.runtime import ERR_FUB_ENABLE_FALSE, ERR_OK
 
@@ -79,7 +80,7 @@ def test_no_base_and_no_memory(plc):
     block = plc.new(loopconr.LCRMovAvgFlt)
     block(enable=True, x=1.0)
     assert block.status == LCR_ERR_LCRMovAvgFlt_BASE
-    while plc.context.heap.allocate(10_000):
+    while heap_of(plc.context).allocate(10_000):
         pass
     block(base=10_000)
     assert block.status == LCR_ERR_LCRMovAvgFlt_BASE
@@ -88,9 +89,9 @@ def test_no_base_and_no_memory(plc):
 def test_its_memory_is_given_back(plc):
     block = plc.new(loopconr.LCRMovAvgFlt)
     block(enable=True, x=1.0, base=8)
-    before = plc.context.heap.free_bytes
+    before = heap_of(plc.context).free_bytes
     for base in (8, 4, 8, 16, 8):
         block(base=base)
-    assert plc.context.heap.free_bytes == before
+    assert heap_of(plc.context).free_bytes == before
     block(enable=False)
-    assert plc.context.heap.free_bytes == before + 32
+    assert heap_of(plc.context).free_bytes == before + 32

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from plcsim.library.heap import heap_of
 from plcsim.library.mtbasics import (
     mtBCD_ERR_MAX_NEG_SLEW_RATE_NEG,
     mtBCD_ERR_MAX_POS_SLEW_RATE_NEG,
@@ -70,9 +71,9 @@ def test_a_delay(plc, run):
     block = plc.new(MTBasicsTimeDelay)
     found = run(block, [1, 2, 3, 4, 5, 6], DelayTime=0.03, InitialValue=-1)
     assert found == [-1, -1, -1, 1, 2, 3]
-    before = plc.context.heap.free_bytes
+    before = heap_of(plc.context).free_bytes
     block(Enable=False)
-    assert plc.context.heap.free_bytes > before
+    assert heap_of(plc.context).free_bytes > before
     assert run(block, [7], DelayTime=0.0) == [7]
 
 

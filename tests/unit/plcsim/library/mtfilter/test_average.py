@@ -2,6 +2,7 @@
 
 import pytest
 
+from plcsim.library.heap import heap_of
 from plcsim.library.mtfilter import average, mtBCD_ERR_FILTER_WINDOW_INVALID
 
 
@@ -37,6 +38,6 @@ def test_lengths_that_cannot_be(plc, length):
 def test_its_memory_is_given_back(plc):
     block = plc.new(average.MTFilterMovingAverage)
     run(block, [1], WindowLength=8)
-    before = plc.context.heap.free_bytes
+    before = heap_of(plc.context).free_bytes
     block(Enable=False)
-    assert plc.context.heap.free_bytes == before + 32
+    assert heap_of(plc.context).free_bytes == before + 32

@@ -3,6 +3,7 @@
 import pytest
 
 from plcsim.core.errors import PageFault
+from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 from plcsim.library.sys_lib import (
     ERR_BUR_ILLPTR,
@@ -38,10 +39,10 @@ def test_memory_is_reserved_and_given_back(tasks, kind, no_memory, not_reserved)
 
 
 def test_nothing_is_reserved_for_a_wild_pointer(tasks):
-    before = tasks.context.heap.free_bytes
+    before = heap_of(tasks.context).free_bytes
     with pytest.raises(PageFault):
         tasks.function("TMP_alloc")(8, 0x7000_0000)
-    assert tasks.context.heap.free_bytes == before
+    assert heap_of(tasks.context).free_bytes == before
 
 
 def test_a_restart_frees_all(tasks):

@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from plcsim.core.heap import CHUNK, Blocks, FreeRanges, Heap
+from plcsim.core.context import Context
 from plcsim.core.memory import PAGE, Memory
+from plcsim.library.heap import CHUNK, Blocks, FreeRanges, Heap, heap_of
 
 
 def test_ranges_that_touch_are_one():
@@ -96,3 +97,13 @@ def test_a_restart_frees_everything_without_taking_more():
 def test_every_block_has_an_address_of_its_own(size):
     heap = Heap(Memory(PAGE * 4))
     assert heap.allocate(size) != heap.allocate(size)
+
+
+def test_a_restart_frees_everything_and_takes_no_more_memory():
+    context = Context(Memory(16 * PAGE), None)
+    first = heap_of(context).allocate(100)
+    assert heap_of(context).allocate(100) != first
+    used = context.memory.used
+    context.restart()
+    assert heap_of(context).allocate(100) == first
+    assert context.memory.used == used

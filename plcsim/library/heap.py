@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from st_types.types.layout import align_up
 
 if TYPE_CHECKING:
+    from plcsim.core.context import Context
     from plcsim.core.memory import Memory
 
 UNIT: Final = 8
@@ -160,3 +161,19 @@ class Heap:
         self._blocks = Blocks()
         for start, size in self._chunks:
             self._blocks.free.add(start, size)
+
+
+class _HeapInUse:
+    """The heap between two starts of a controller; the memory that it has taken stays its own."""
+
+    def __init__(self, context: Context) -> None:
+        self.heap = context.settings(Heap) or Heap(context.memory)
+        context.give_settings(self.heap)
+
+    def close(self) -> None:
+        self.heap.reset()
+
+
+def heap_of(context: Context) -> Heap:
+    """Return the heap of a controller, which all its libraries share."""
+    return context.library(_HeapInUse).heap

@@ -4,9 +4,9 @@ import pytest
 
 from plcsim import Program
 from plcsim.core.clock import VirtualClock
-from plcsim.core.io_image import IoImage, Line, VariableCopy
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from plcsim.project.automation_studio.io_image import IoImage, Line, VariableCopy
 from st_types import BOOL, UINT, var
 from st_types.types.derived import Member, StructType
 
