@@ -19,6 +19,7 @@ from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
 from plcsim.program.python.blocks import give_views
 from plcsim.program.python.bodies import PythonBodies
+from plcsim.program.python.kept_objects import kept_objects
 from plcsim.program.python.language import PYTHON
 from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
@@ -198,6 +199,7 @@ class ProgramLoader:
             else:
                 codes[name] = code
                 self.warnings += code.warnings
+        self.warnings += kept_objects(self.package)
         return Loaded(codes, (*declared.common, *common.texts), failures)
 
     def _load_all(self, names: Sequence[str]) -> Mapping[str, ProgramCode | tuple[str, ...]]:
