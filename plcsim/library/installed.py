@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final, overload
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.library.library import Library, declarations_of, files_in
+from st_types.resolve.dialect import IEC
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 GROUP: Final = "plcsim.libraries"
 
 _OWN: Final = Path(__file__).parent
+
+_OF_THE_NORM: Final = "plcsim.library.iec"
+"""The library that is no controller's: it has types that Automation Studio does not know."""
 
 
 class Scopes(Sequence["Scope"]):
@@ -83,6 +87,9 @@ def installed() -> Mapping[str, Library]:
     libraries += (
         Library(folder, package, scopes) for package, folder in (*_own(), *_of_packages())
     )
+    for library in libraries:
+        if library.package == _OF_THE_NORM:
+            library.dialect = IEC
     return {library.package: library for library in libraries}
 
 

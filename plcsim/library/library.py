@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
 from st_types.errors import DiagnosticSeverity, SourceError
+from st_types.resolve.dialect import AUTOMATION_STUDIO
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
     from types import ModuleType
 
+    from st_types.resolve.dialect import Dialect
     from st_types.resolve.index import NameSpace
     from st_types.syntax.tree import DeclarationFile, Item
 
@@ -85,6 +87,7 @@ class Library:
         dependencies: likewise.
         beside: likewise.
         c_build: how its sources in C are compiled.
+        dialect: of its declarations and of its bodies in Structured Text.
         is_strict: as above.
 
     Raises:
@@ -103,6 +106,7 @@ class Library:
         beside: Library | None = None,
         strict: bool = False,
     ) -> None:
+        self.dialect: Dialect = AUTOMATION_STUDIO
         self.folder = folder
         self.is_strict = strict
         self.package = package
@@ -129,7 +133,7 @@ class Library:
             declared = self.beside.scope.index
             known = {each for space in _SPACES for each in declared.names(space)}
             files, name = [_without(file, known) for file in files], f"{name}_more"
-        return Scope(name, files, self._outer, strict=self.is_strict)
+        return Scope(name, files, self._outer, dialect=self.dialect, strict=self.is_strict)
 
     @property
     def module(self) -> ModuleType:

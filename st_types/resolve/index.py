@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final, Literal
 
 from st_types.syntax.tree import (
+    Declaration,
     EnumerationSpecification,
     FunctionBlockDeclaration,
     FunctionDeclaration,
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from st_types.resolve.file_resolver import FileResolver
     from st_types.resolve.scope import Scope
     from st_types.syntax.expressions import Node
-    from st_types.syntax.tree import Declaration
     from st_types.types.elementary import DataType
 
 NameSpace = Literal["types", "functions", "variables", "constants"]
@@ -117,6 +117,7 @@ class ScopeIndex:
         self.types: list[TypeEntry | PouEntry] = []
         self.functions: list[PouEntry] = []
         self.variables: list[VariableEntry] = []
+        self._inline: list[TypeEntry] = []
         self._names: dict[NameSpace, dict[str, IndexEntry]] = {}
         self._spellings: dict[NameSpace, Spellings] = {}
         for resolver in resolvers:
@@ -139,6 +140,11 @@ class ScopeIndex:
         self.variables += [
             VariableEntry(resolver, node, block, is_constant=is_constant)
             for node in block.declarations
+        ]
+        self._inline += [
+            TypeEntry(resolver, Declaration(node.at, node.name, node.specification))
+            for node in block.declarations
+            if type(node.specification) is EnumerationSpecification
         ]
 
     def names(self, space: NameSpace) -> dict[str, IndexEntry]:
@@ -168,7 +174,7 @@ class ScopeIndex:
         for entry in self.variables:
             if entry.is_constant:
                 found.setdefault(entry.node.name, entry)
-        for each in self.types:
+        for each in (*self.types, *self._inline):
             if type(each) is TypeEntry:
                 specification = each.node.specification
                 if type(specification) is EnumerationSpecification:

@@ -16,12 +16,11 @@ from plcsim.program.structured_text.coverage import MEASURING, keep_possible
 from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses, variables_in
 from plcsim.program.structured_text.linkage import Linkage, missing
 from plcsim.program.structured_text.lower.module import lower
-from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO, IEC
+from plcsim.program.structured_text.lower.semantics import semantics_of
 from plcsim.program.structured_text.program_uses import program_uses
 from plcsim.program.structured_text.sources import UnitDeclarations, check_syntax
 from plcsim.program.structured_text.syntax.tree import ProgramUnit
 from st_types.errors import DiagnosticSeverity
-from st_types.resolve import dialect as dialects
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -129,8 +128,7 @@ def _compiled(
             "one of them holds PROGRAM _CYCLIC ... END_PROGRAM"
         )
     layout = VariableLayout(name, program.scopes, scope.chain, shared)
-    semantics = IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO
-    module = lower(program, layout.areas, semantics)
+    module = lower(program, layout.areas, semantics_of(scope))
     module.name = ".".join(filter(None, (name, *meant)))
     return Stored(generate(module, MEASURING.options), warnings), layout.variables
 

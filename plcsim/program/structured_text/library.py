@@ -15,6 +15,7 @@ from plcsim.program.structured_text.coverage import MEASURING, keep_possible
 from plcsim.program.structured_text.layout import NOTHING, VariableLayout, types_of
 from plcsim.program.structured_text.linkage import Linkage
 from plcsim.program.structured_text.lower.module import lower
+from plcsim.program.structured_text.lower.semantics import semantics_of
 from plcsim.program.structured_text.names import NAME
 from plcsim.program.structured_text.sources import check_syntax, read_files
 
@@ -110,12 +111,13 @@ class CompiledLibrary:
         return self._codes[shared]
 
     def _stored(self, shared: DeclaredVariables) -> ObjectCode:
-        names = ("library", self._name, repr(MEASURING.options))
+        names = ("library", self._name, self._scope.dialect.name, repr(MEASURING.options))
         cache, key = code_cache(), key_of(names, self._files, self._scope, shared)
         stored = find(cache, key)
         if stored is None:
             layout = VariableLayout(self._name, (), self._scope.chain, shared)
-            code = generate(lower(self._program, layout.areas), MEASURING.options)
+            module = lower(self._program, layout.areas, semantics_of(self._scope))
+            code = generate(module, MEASURING.options)
             stored = Stored(code, ())
             keep(cache, key, stored)
         return stored.code

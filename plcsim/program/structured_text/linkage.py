@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.compiled import CompiledPrograms, no_function_body
 from plcsim.program.site import no_body
+from plcsim.program.structured_text.check import located
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.coverage import MEASURING, CountedModule
 from plcsim.program.structured_text.fault import locator
 from plcsim.program.structured_text.layout import SHARED, addresses
+from plcsim.program.structured_text.lower.memory import DIRECT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -68,6 +70,8 @@ class Linkage:
         for segment in code.segments:
             if segment.data is not None:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
+            elif segment.name == DIRECT:
+                places[DIRECT] = self._direct
         self._compiled.locate_by(code.name, locator(code.lines))
         instance = self._linker.link(code, places, partial(self._provide, scope))
         if code.profile is not None:
@@ -76,6 +80,11 @@ class Linkage:
             self._site.machine.deduct(module.overhead)
             MEASURING.link(module)
         return instance
+
+    @cached_property
+    def _direct(self) -> int:
+        """The address of the direct addresses, which all programs share."""
+        return self._site.memory.keep(bytes(located.SIZE), 8)
 
     def library(self, key: object, link: Callable[[], Instance]) -> Instance | None:
         """Return the module of a library; None while it is being linked.

@@ -80,7 +80,7 @@ def converted(name: str, arguments: Sequence[Value]) -> Value | None:
         is_text = source in (STRING_80, WSTRING_80)
         if is_text is not (kind in (TypeKind.STRING, TypeKind.WSTRING)):
             return None
-    return Convert(target, name.upper(), value)
+    return Convert(target, name.upper().removeprefix("ANY_"), value)
 
 
 def _result_of(kinds: frozenset[TypeKind]) -> Callable[[str, Sequence[Value]], Value | None]:
@@ -280,7 +280,12 @@ RULES: Final[dict[str, Rule]] = {
         for name, bits in product(_BCD_NUMBERS, _BITS)
     },
     **{name: Rule(2, 2, _calculated, ("IN1", "IN2")) for name in _TIME_FUNCTIONS},
-    **{name: Rule(2, MANY if name in _EXTENSIBLE else 2, _operator) for name in _OPERATORS},
+    **{name: Rule(2, MANY, _operator) for name in _EXTENSIBLE},
+    **{
+        name: Rule(2, 2, _operator, ("IN1", "IN2"))
+        for name in _OPERATORS
+        if name not in _EXTENSIBLE
+    },
 }
 """Built-in functions by name in capitals, but for conversions and those of a place in memory."""
 

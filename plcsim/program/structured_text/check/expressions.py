@@ -96,7 +96,13 @@ class ExpressionChecker:
             found = self.names.value(node)
         if found is None and self.this is not None:
             found = self._of_this(node)
+        if found is None and node.name.upper() == "NULL" and self._is_standard:
+            found = Constant(UDINT, 0)
         return self.unknown_name(node) if found is None else found
+
+    @property
+    def _is_standard(self) -> bool:
+        return not self.names.scope.dialect.case_sensitive
 
     def _of_this(self, node: syntax.Name) -> Value | None:
         """Return what THIS, SUPER, or a property of the function block itself means."""
@@ -146,6 +152,8 @@ class ExpressionChecker:
         if found is not None:
             return found
         hint = "declare a variable AT this address"
+        if not self.names.scope.dialect.case_sensitive:
+            hint = "%IX0.0, %QB1, %MW2, %MD3, %ML4 and the like are known, up to byte 65535"
         self.error(
             node, FindingCode.NOT_SUPPORTED, f"{node.text} in a statement is not supported", hint
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text.check.kinds import VOID, TypeKind, kind_of, plain
+from plcsim.program.structured_text.check.located import DirectAddresses, direct_place, place_of
 from plcsim.program.structured_text.check.typed import (
     Bit,
     Constant,
@@ -22,7 +23,7 @@ from st_types.syntax.expressions import Name
 from st_types.types.derived import ReferenceType
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from plcsim.program.structured_text.check.classes import Classes, ClassInterface
     from plcsim.program.structured_text.check.findings import FileFindings
@@ -61,6 +62,21 @@ class Symbols:
         self.interfaces: dict[Type, ClassInterface] = {}
         self.namespaces: set[str] = set()
         self._symbols: dict[VariableEntry, Symbol] = {}
+        self._addresses: DirectAddresses | None = None
+
+    def addresses(self, around: Sequence[Scope]) -> DirectAddresses:
+        """Return the direct addresses as the program sees them.
+
+        Args:
+            around: scopes that a body sees.
+        """
+        if self._addresses is None:
+            self._addresses = DirectAddresses(dict.fromkeys([*self.storages, *around]))
+        return self._addresses
+
+    def name_addresses(self) -> bool:
+        """Return whether a body names a direct address, or a variable AT one."""
+        return self._addresses is not None and self._addresses.used
 
     def of(self, entry: VariableEntry) -> Symbol | None:
         """Return the variable of a declaration, None if its type has no layout."""
@@ -184,6 +200,9 @@ class ScopeNames:
             )
             return NOTHING
         symbol.used = True
+        direct = self.direct(entry)
+        if direct is not None:
+            return direct
         if entry.is_constant and kind_of(symbol.type) < TypeKind.STRING:
             return self._constant(node, entry, symbol)
         return named(symbol)
@@ -199,14 +218,29 @@ class ScopeNames:
             return named(symbol)
         return Constant(symbol.type, value.value)
 
+    def direct(self, entry: VariableEntry) -> Value | None:
+        """Return the place that a variable of a standard file is AT, None where it is at none."""
+        if not entry.node.address or self.scope.dialect.case_sensitive:
+            return None
+        place, symbol = place_of(entry), self.symbols.of(entry)
+        if place is None or symbol is None:
+            return None
+        return self.symbols.addresses(self.scope.chain).value(place, symbol.type)
+
     def located(self, node: DirectAddress) -> Value | None:
-        """Return the variable that is declared AT an address, None where there is none."""
+        """Return what an address means, None where it means nothing here.
+
+        That is the variable which is declared AT it; in a standard file, without one, the place.
+        """
         text = node.text.upper()
         for scope in self.scope.chain:
             for entry in scope.index.variables:
                 if entry.node.address.upper() == text:
                     return self._variable(Name(node.at, entry.name), entry)
-        return None
+        place = direct_place(text)
+        if place is None or self.scope.dialect.case_sensitive:
+            return None
+        return self.symbols.addresses(self.scope.chain).value(place)
 
     def is_namespace(self, name: str) -> bool:
         """Return whether a name is that of a namespace, of a library or of a list of variables."""

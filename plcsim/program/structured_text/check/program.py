@@ -26,11 +26,11 @@ from plcsim.program.structured_text.check.programs import (
     MeantProgram,
     as_block,
     call_of,
-    connections,
     instance_of,
     is_shared,
 )
 from plcsim.program.structured_text.check.statements import StatementChecker
+from plcsim.program.structured_text.check.surroundings import Surroundings
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.program_uses import NO_USES, UNITS, program_uses
 from plcsim.program.structured_text.syntax.tree import (
@@ -393,9 +393,37 @@ class _ProgramChecker:
                 findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
                 message = f"nothing calls the action {job.name}; it is not compiled"
                 findings.warning(job.unit, FindingCode.NEVER_CALLED, message)
+        for job in self._jobs:
+            if job.body is not None and job.kind in ("unit", "block"):
+                found += self._surrounded(job, job.body)
         self._check_recursion()
         self._check_used()
         return found
+
+    def _surrounded(self, job: _Job, body: typed.CheckedBody) -> list[typed.CheckedBody]:
+        """Surround a body by what happens before and after it; it becomes an action then.
+
+        Returns:
+            that action, where there is anything.
+        """
+        around = Surroundings(body.line)
+        if self.symbols.name_addresses():
+            findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
+            names = ScopeNames(job.owner.scope, self.symbols, findings)
+            is_once = job.kind == "unit" or job.name.upper() in self.uses.named
+            own = (job.owner.scope,) if job.kind == "block" else job.owner.scope.chain
+            around.add_addresses(names, own, is_once=is_once)
+        has_own = job.kind == "unit" and job.owner.scope is not self._scope
+        if has_own and self.connected is not None:
+            file, program = self.connected
+            findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
+            inner = self._checker(job.owner, findings)
+            around.add_connections(program, inner, self._checker(self._program, findings))
+        return around.of(body)
+
+    def _checker(self, owner: _Owner, findings: FileFindings) -> StatementChecker:
+        """Return what checks statements that stand elsewhere than the bodies of an owner."""
+        return StatementChecker(ScopeNames(owner.scope, self.symbols, findings), findings, {})
 
     def _is_called_outside(self, job: _Job) -> bool:
         """Return whether an action of a function block is called by an instance of it."""
@@ -452,8 +480,6 @@ class _ProgramChecker:
         body.result = result
         if job.kind in ("function", "block", "method"):
             body.parameters, body.locals = self._variables(owner.scope)
-        if job.kind == "unit" and self.connected is not None and owner.scope is not self._scope:
-            into.append(self._connected(body, checker))
         into.append(body)
         job.body, job.calls = body, checker.called_functions
         called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
@@ -461,17 +487,6 @@ class _ProgramChecker:
         for action in found:
             action.is_needed = True
         return [*found, *self._called_methods(checker.called_methods)]
-
-    def _connected(self, body: typed.CheckedBody, inner: StatementChecker) -> typed.CheckedBody:
-        """Surround the body of a PROGRAM by its connections; return it as an action of its own."""
-        assert self.connected is not None
-        file, program = self.connected
-        findings = FileFindings(file.tokens, file.diagnostics, self._hidden)
-        outer = StatementChecker(ScopeNames(self._scope, self.symbols, findings), findings, {})
-        before, after = connections(program, inner, outer)
-        own = replace(body, name=f"body of {program.type_name}", kind="action")
-        body.statements = [*before, typed.CallAction(body.line, own.name), *after]
-        return own
 
     def _called_methods(self, methods: Mapping[str, ClassMethod]) -> Iterator[_Job]:
         """Yield the methods that are called for the first time."""

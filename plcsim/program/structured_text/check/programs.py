@@ -10,15 +10,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.program.structured_text.check import typed
-from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.tree import (
     Configuration,
     ExpressionStatement,
     FunctionBlockUnit,
     ProgramUnit,
 )
-from st_types.resolve.index import VariableEntry
 from st_types.syntax import expressions as syntax
 from st_types.syntax.tree import (
     Declaration,
@@ -30,11 +27,8 @@ from st_types.syntax.tree import (
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from plcsim.program.structured_text.check.statements import StatementChecker
-    from plcsim.program.structured_text.check.typed import Statement
     from plcsim.program.structured_text.program_uses import ProgramUses
     from plcsim.program.structured_text.syntax.tree import ProgramConfiguration, StructuredTextFile
-    from st_types.resolve.scope import Scope
 
 
 class MeantProgram(NamedTuple):
@@ -97,45 +91,3 @@ def _instances_in(
             if isinstance(unit, Configuration):
                 for each in (unit, *unit.resources):
                     yield from ((file, program) for program in each.programs)
-
-
-def connections(
-    connected: ProgramConfiguration, inner: StatementChecker, outer: StatementChecker
-) -> tuple[list[Statement], list[Statement]]:
-    """Return what happens before and after the body of a PROGRAM.
-
-    Args:
-        connected: what its CONFIGURATION says.
-        inner: knows the names of the PROGRAM.
-        outer: knows those of the CONFIGURATION, and takes what is wrong.
-    """
-    line = outer.findings.line(connected)
-    before: list[Statement] = []
-    after: list[Statement] = []
-    inputs = (e for e in inner.names.scope.index.variables if e.block.section == "VAR_INPUT")
-    for argument in connected.arguments:
-        name = argument.name or next((entry.name for entry in inputs), "")
-        wanted = "VAR_OUTPUT" if argument.is_output else "VAR_INPUT"
-        if _section_of(name, inner.names.scope) != wanted or argument.value is None:
-            kind = "output" if argument.is_output else "input"
-            message = f"{connected.type_name} has no {kind} {name}"
-            outer.error(argument, FindingCode.UNKNOWN_PARAMETER, message)
-            continue
-        variable = inner.value(syntax.Name(connected.at, name))
-        if argument.is_output:
-            target = outer.assigned(argument.value)
-            outer.check_fit(argument.value, variable, target.type)
-            after.append(typed.Assign(line, target, variable))
-        else:
-            value = outer.value(argument.value)
-            before.append(outer.assignment(argument.value, variable, value, line))
-    return before, after
-
-
-def _section_of(name: str, scope: Scope) -> str:
-    """Return the section of a variable of a PROGRAM, "" where it has none of this name."""
-    hit = scope.lookup("variables", name)
-    entry: object = None if hit is None else hit.entry
-    if isinstance(entry, VariableEntry) and entry.resolver.scope is scope:
-        return entry.block.section
-    return ""

@@ -18,9 +18,10 @@ if TYPE_CHECKING:
     from st_types.resolve.scope import Scope
     from st_types.types.derived import ArrayType, DataBlockType
 
-Storage = Literal["program", "global", "instance", "frame", "hidden"]
+Storage = Literal["program", "global", "instance", "frame", "hidden", "direct"]
 """Where a variable lies: among those of the program or of the controller, in the data block of a
-function block, in a call (of a function, or as VAR_TEMP), among those that only the code knows."""
+function block, in a call (of a function, or as VAR_TEMP), among those that only the code knows, at
+a direct address."""
 
 
 @dataclass(slots=True, eq=False)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text import ir
+from plcsim.program.structured_text.check import located
 from plcsim.program.structured_text.check.kinds import ANY_REAL, TypeKind, kind_of
 from st_types.types.elementary import (
     BOOL,
@@ -41,6 +42,9 @@ _WIDTHS: Final[Mapping[Type, ir.Width]] = {
     REAL: "f32",
     **dict.fromkeys((LREAL, ANY_REAL), "f64"),
 }
+DIRECT: Final = "direct addresses"
+"""The segment that all programs of a controller share."""
+
 MAX_HIDDEN: Final = 1 << 24
 """Bytes of a variable that lives for one call, or of a constant that is no single value."""
 
@@ -131,6 +135,9 @@ class VariablePlaces:
     Args:
         areas: where the variables of scopes lie.
         hidden: takes what is declared nowhere.
+
+    Attributes:
+        direct: the segment of direct addresses, once one of them is named.
     """
 
     def __init__(self, areas: Areas, hidden: Hidden) -> None:
@@ -138,6 +145,7 @@ class VariablePlaces:
         self._hidden = hidden
         self._places: dict[Symbol, ir.Place] = {}
         self._roots = 0
+        self.direct: ir.Segment | None = None
 
     def new_root(self) -> int:
         """Return the number of a variable that overlaps no other."""
@@ -156,6 +164,9 @@ class VariablePlaces:
         if scope is not None and scope in self._areas and symbol.storage != "frame":
             spot = self._areas[scope].get(symbol.name)
         is_own = symbol.storage != "global" and not symbol.has_address
+        if symbol.storage == "direct":
+            self.direct = self.direct or ir.Segment(DIRECT, located.SIZE, alignment=8)
+            spot = Spot(self.direct, 0)
         if spot is None:
             if symbol.type.size > MAX_HIDDEN:
                 message = f"{symbol.name} has {symbol.type.size} bytes"

@@ -45,6 +45,8 @@ def lower(
     functions = [_function(module, body, files.index(body.path)) for body in program.bodies]
     segments = list({spot.segment: None for area in areas.values() for spot in area.values()})
     segments.append(module.hidden.finish())
+    if module.variables.direct is not None:
+        segments.append(module.variables.direct)
     return ir.Module(program.name, functions, module.imports, segments, files)
 
 

@@ -9,7 +9,9 @@ from plcsim.program.structured_text.check import typed
 from plcsim.program.structured_text.check.builtins import conversion_of
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
+    ANY_REAL,
     BOOL,
+    DINT,
     VOID,
     TypeKind,
     kind_of,
@@ -29,6 +31,7 @@ from st_types.types.elementary import (
     LDATE_AND_TIME,
     LONG_TIMES,
     LTIME_OF_DAY,
+    REAL,
     TIME,
     TIME_OF_DAY,
 )
@@ -163,7 +166,7 @@ class ScalarLowering(ValueLowering):
         source = node.operand
         found = conversion_of(node.name)
         assert found is not None
-        declared = found[0] or source.type
+        declared = found[0] or _TYPES_OF_NUMBERS.get(source.type, source.type)
         is_text = kind_of(source.type) in _TEXTS
         value = self.address(source) if is_text else self.argument(source, declared)
         if isinstance(node.type, StringType | WStringType):
@@ -221,8 +224,12 @@ class ScalarLowering(ValueLowering):
 
 
 def _type_name(data_type: Type) -> str:
+    data_type = _TYPES_OF_NUMBERS.get(data_type, data_type)
     return number_type(data_type).name if is_scalar(data_type) else data_type.name.partition("[")[0]
 
+
+_TYPES_OF_NUMBERS: Final[dict[Type, Type]] = {ANY_INT: DINT, ANY_REAL: REAL}
+"""What a number in the text is where a name needs a type."""
 
 _NANOSECONDS: Final[dict[Type, int]] = {
     **dict.fromkeys((TIME, TIME_OF_DAY), 1_000_000),

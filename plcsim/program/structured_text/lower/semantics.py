@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+from st_types.resolve import dialect as dialects
+
+if TYPE_CHECKING:
+    from st_types.resolve.scope import Scope
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,3 +46,8 @@ IEC: Final = Semantics(
     copies_inputs=True,
     checks_bounds=True,
 )
+
+
+def semantics_of(scope: Scope) -> Semantics:
+    """Return the rules of what is written in a scope."""
+    return IEC if scope.dialect is dialects.IEC else AUTOMATION_STUDIO

@@ -83,6 +83,27 @@ def test_a_whole_file_gives_what_was_worked_out_by_hand(load_text, title, text, 
     assert {name: value(name) for name in wanted} == wanted
 
 
+def test_what_changes_a_variable_from_outside_goes_to_its_address(load_text):
+    text = "PROGRAM p VAR a AT %IW2 : INT; f AT %IX0.1 : BOOL; n : INT; g : BOOL; END_VAR "
+    controller, value = run(load_text(f"{text} n := %IW2; g := %IX0.1; END_PROGRAM"), 1)
+    controller.tags.write(controller.tags.find("p.a"), 12)
+    controller.tags.write(controller.tags.find("p.f"), True)
+    controller.run(cycles=2)
+    assert (value("p.n"), value("p.g"), value("p.a")) == (12, True, 12)
+
+
+@pytest.mark.parametrize("address", ["%MW40000", "%MX1.8", "%MW1.2.3", "%MW*", "%XW1"])
+def test_addresses_that_lead_nowhere_are_refused_by_name(load_text, address):
+    with pytest.raises(ConfigurationError, match="error ST"):
+        load_text(f"PROGRAM p VAR n : INT; END_VAR n := {address}; END_PROGRAM")
+
+
+def test_large_arrays_at_an_address_are_refused(load_text):
+    text = "PROGRAM p VAR a AT %MW0 : ARRAY[0..1024] OF INT; END_VAR a[1] := 2; END_PROGRAM"
+    with pytest.raises(ConfigurationError, match="a has more than 1024 values: not supported AT"):
+        load_text(text)
+
+
 def test_without_a_configuration_every_program_runs_in_class_1(load_text):
     text = PLANT[: PLANT.index("CONFIGURATION")] + "VAR_GLOBAL level : INT; END_VAR\n"
     controller, value = run(load_text(text, cycle_ns=5 * MS), 2)
