@@ -5,11 +5,12 @@ from pathlib import Path
 from plcsim.core.memory import Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
+from plcsim.program.structured_text.check import located
 from plcsim.program.structured_text.check.program import check_program, declarations_of
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.codes import FindingCode
-from plcsim.program.structured_text.lower.memory import Spot
+from plcsim.program.structured_text.lower.memory import DIRECT, Spot
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
@@ -21,7 +22,7 @@ from st_types.types.derived import Member, StructType
 from st_types.types.paths import find
 from st_types.types.values import decode, encode
 
-SIZE = 1 << 16
+SIZE = 1 << 20
 NOT_STORED = ("VAR_EXTERNAL", "VAR_TEMP")
 
 
@@ -105,6 +106,8 @@ class Running:
             address = self.memory.allocate(max(s.size, 1))
             self.memory.write(address, encode(s, None))
             self.addresses[segments[each].name] = address
+        if any(segment.name == DIRECT for segment in self.module.segments):
+            self.addresses[DIRECT] = self.memory.allocate(located.SIZE)
         hidden = next(s for s in self.module.segments if s.name == "hidden")
         self.addresses["hidden"] = self.memory.allocate(max(hidden.size, 1))
         self.memory.write(self.addresses["hidden"], hidden.data)
