@@ -18,7 +18,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     """Add the command and its sub-commands."""
     parser = subparsers.add_parser(
         "st",
-        help="check, run and format programs in Structured Text",
+        help="check, run, format and look into programs in Structured Text",
         description="Work with Structured Text: programs of B&R projects and standard files.",
         epilog=EPILOG,
     )
@@ -26,6 +26,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     _add_check(commands)
     _add_run(commands)
     _add_format(commands)
+    _add_wat(commands)
 
 
 def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -37,10 +38,20 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         examples=(
             ("plcsim st check my_plc", "all .st files of a folder"),
             ("plcsim st check --syntax Main.st", "without the declarations around it"),
+            ("plcsim st check --show ST5002 my_plc", "unused variables, too"),
         ),
         epilog=EPILOG,
     )
     parser.add_argument("--syntax", action="store_true", help="do not look at names and types")
+    parser.add_argument(
+        "--hide", default="", metavar="CODE,...", help="warnings that are not wanted, as ST5006"
+    )
+    parser.add_argument(
+        "--show",
+        default="",
+        metavar="CODE,...",
+        help="warnings that are told on demand: ST5002 unused variables, ST5005 narrowing",
+    )
     parser.add_argument(
         "-D",
         dest="defines",
@@ -126,6 +137,19 @@ def _add_format(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         help="file, or folder with all .st files below it",
     )
     parser.set_defaults(func=_run, act="format")
+
+
+def _add_wat(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "wat",
+        help="show the WebAssembly that a file becomes",
+        description="Print the programs of a file as WebAssembly text. Comments tell lines of the "
+        "source, and of addresses the segment of variables with the bytes from its start.",
+        examples=(("plcsim st wat Main.st", ""),),
+        epilog=epilog(DONE="", FAILED="the file is wrong", WRONG_USAGE=""),
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="an .st file")
+    parser.set_defaults(func=_run, act="wat")
 
 
 def _count(text: str) -> int:

@@ -20,7 +20,7 @@ from plcsim.cli.declaration_scopes import (
     library_scopes,
     read_declarations,
 )
-from plcsim.program.structured_text.check.program import check_program, declarations_of
+from plcsim.program.structured_text.check.program import QUIET, check_program, declarations_of
 from plcsim.program.structured_text.check.programs import MeantProgram
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.program_uses import program_uses
@@ -30,9 +30,10 @@ from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.resolve.scope import Scope
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
     from plcsim.program.structured_text.check.typed import Storage
+    from plcsim.program.structured_text.codes import FindingCode
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile, Unit
     from st_types.syntax.tree import DeclarationFile
 
@@ -56,7 +57,11 @@ class _Group(NamedTuple):
     is_library: bool = False
 
 
-def check_files(paths: Sequence[Path], files: Sequence[StructuredTextFile]) -> list[str]:
+def check_files(
+    paths: Sequence[Path],
+    files: Sequence[StructuredTextFile],
+    hidden: Collection[FindingCode] = QUIET,
+) -> list[str]:
     """Check parsed files; findings go to their ``diagnostics``.
 
     Files with errors in their syntax are left out.
@@ -65,6 +70,7 @@ def check_files(paths: Sequence[Path], files: Sequence[StructuredTextFile]) -> l
         paths: as the user named them. A file that lies in no project sees the declarations of its
             folder, and of none below.
         files: at and below these paths.
+        hidden: codes of warnings that are not wanted.
 
     Returns:
         errors in the declarations around them.
@@ -86,7 +92,7 @@ def check_files(paths: Sequence[Path], files: Sequence[StructuredTextFile]) -> l
     scopes = [*own, *scopes]
     sound = {Path(f.path).resolve(): f for f in files if not f.diagnostics.error_count}
     for group in _groups(sound, scopes):
-        _check(group)
+        _check(group, hidden)
     return [*failures, *_errors(own)]
 
 
@@ -107,7 +113,7 @@ def _errors(scopes: Iterable[NamedScope]) -> Iterator[str]:
     return iter(dict.fromkeys(told))
 
 
-def _check(group: _Group) -> None:
+def _check(group: _Group, hidden: Collection[FindingCode]) -> None:
     dialect = IEC if any(map(is_standard, group.files)) else AUTOMATION_STUDIO
     uses = program_uses(file.tokens.source.text for file in group.files)
     declared = [declarations_of(file, uses) for file in group.files]
@@ -122,7 +128,7 @@ def _check(group: _Group) -> None:
                     group.name, group.files, scope, storage="global", meant=MeantProgram(only)
                 )
         else:
-            check_program(group.name, group.files, scope, storage=storage)
+            check_program(group.name, group.files, scope, hidden=hidden, storage=storage)
 
 
 def _is_program(unit: Unit) -> TypeGuard[ProgramUnit]:

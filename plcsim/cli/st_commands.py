@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from plcsim.cli.declaration_files import find_files, shown_progress
+from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.st_check import check_files
 from plcsim.cli.st_format import format_files
 from plcsim.cli.st_run import run
 from plcsim.core.errors import PlcError
+from plcsim.program.structured_text.check.program import QUIET
+from plcsim.program.structured_text.code import StructuredTextCode
+from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.names import SUFFIXES
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from plcsim.program.structured_text.syntax.tree import (
@@ -18,6 +22,7 @@ from plcsim.program.structured_text.syntax.tree import (
     FunctionUnit,
     ProgramUnit,
 )
+from plcsim.project.structured_text_file import load_file
 from st_types.errors import SourceError
 from st_types.syntax.source import Source
 
@@ -27,6 +32,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
+
+WARNINGS: Final = frozenset(str(code) for code in FindingCode if code.startswith("ST5"))
+"""Codes that may be hidden."""
 
 _NOUNS = {
     ProgramUnit: "program unit",
@@ -43,8 +51,9 @@ def check(options: argparse.Namespace) -> int:
         raise PlcError(f"{', '.join(map(str, options.paths))}: no .st file was found.")
     counts: Counter[str] = Counter()
     defines = _defines(options.defines)
+    hidden = (QUIET | _warnings(options.hide)) - _warnings(options.show)
     files = [file for path in shown_progress(paths) if (file := _read(path, defines, counts))]
-    told = [] if options.syntax else check_files(options.paths, files)
+    told = [] if options.syntax else check_files(options.paths, files, hidden)
     for line in told:
         print(line)
     counts["error"] += len(told)
@@ -56,6 +65,32 @@ def check(options: argparse.Namespace) -> int:
         f"{_count(counts['error'], 'error')}, {_count(counts['warning'], 'warning')}"
     )
     return 1 if counts["error"] else 0
+
+
+def show_wat(options: argparse.Namespace) -> int:
+    """Print the WebAssembly of the programs of a file."""
+    application = load_file(options.file)
+    codes = [each.code for group in application.setup.classes for each in group.programs]
+    for code in dict.fromkeys(codes):
+        if not isinstance(code, StructuredTextCode):
+            raise PlcError(f"{options.file}: is not written in Structured Text.")
+        for line in code.wat():
+            print(line)
+    return ExitCode.DONE
+
+
+def _warnings(text: str) -> frozenset[FindingCode]:
+    """Return the warnings of ``--hide`` and ``--show``.
+
+    Raises:
+        PlcError: a code is none of a warning.
+    """
+    found = set()
+    for name in filter(None, map(str.strip, text.upper().split(","))):
+        if name not in WARNINGS:
+            raise PlcError(f"{name} is no warning; there are {', '.join(sorted(WARNINGS))}.")
+        found.add(FindingCode(name))
+    return frozenset(found)
 
 
 def _count(number: int, noun: str) -> str:
@@ -116,5 +151,6 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": check,
     "format": format_files,
     "run": run,
+    "wat": show_wat,
 }
 """What each command runs; the results are exit codes."""

@@ -12,6 +12,7 @@ from plcsim.program.structured_text.check.program import check_program, unit_sco
 from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate
+from plcsim.program.structured_text.codegen.text import text_of
 from plcsim.program.structured_text.coverage import MEASURING, keep_possible
 from plcsim.program.structured_text.layout import OWN, VariableLayout, addresses, variables_in
 from plcsim.program.structured_text.linkage import Linkage, missing
@@ -23,7 +24,7 @@ from plcsim.program.structured_text.syntax.tree import ProgramUnit
 from st_types.errors import DiagnosticSeverity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from plcsim.library.catalogue import Catalogue
     from plcsim.machine import Instance, Machine
@@ -180,6 +181,10 @@ class StructuredTextCode:
     def imported(self) -> frozenset[str]:
         """Names of the blocks and functions of libraries that it calls."""
         return frozenset(each.name for each in self._code.imports)
+
+    def wat(self) -> Iterator[str]:
+        """Yield the lines of its WebAssembly as text; addresses are told by their segments."""
+        return text_of(self._code)
 
     def task(self, name: str, site: Site) -> Task:
         """Return a task with variables of its own."""

@@ -1,3 +1,4 @@
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -80,3 +81,35 @@ def test_a_folder_without_programs_is_an_error(run: Run, tmp_path: Path) -> None
         run("check", "--syntax", tmp_path)
     with pytest.raises(PlcError, match="no such file or folder"):
         run("check", "--syntax", tmp_path / "nowhere")
+
+
+UNUSED = "PROGRAM p VAR n, unused : INT; d : DINT; END_VAR n := d; RETURN; n := 1; END_PROGRAM\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ((), ["ST5003"]),
+        (("--show", "ST5002"), ["ST5002", "ST5003"]),
+        (("--show", "st5002, ST5005"), ["ST5002", "ST5005", "ST5003"]),
+        (("--hide", "ST5003"), []),
+    ],
+)
+def test_warnings_are_chosen_by_their_codes(run, tmp_path, options, told):
+    (tmp_path / "p.st").write_text(UNUSED)
+    code, out = run("check", *options, tmp_path / "p.st")
+    assert code == 0
+    assert re.findall(r"warning (ST\d+)", out) == told
+
+
+def test_only_warnings_can_be_hidden(run, project):
+    with pytest.raises(PlcError, match="ST1001 is no warning; there are ST5001"):
+        run("check", "--hide", "ST1001", project)
+
+
+def test_the_webassembly_of_a_file_names_its_lines_and_variables(run, tmp_path):
+    (tmp_path / "p.st").write_text("PROGRAM p VAR a, b : DINT; END_VAR\nb := 7;\nEND_PROGRAM\n")
+    code, out = run("wat", tmp_path / "p.st")
+    assert code == 0
+    assert f"    i32.const 0  ;; variables+4  {tmp_path / 'p.st'}:2\n" in out
+    assert out.startswith('(module\n  (import "env" "memory" (memory 0))\n')
