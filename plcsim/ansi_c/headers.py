@@ -12,7 +12,7 @@ import re
 import tempfile
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from st_types.writers.c_header import C_TYPES, Header, c_header
 
@@ -38,6 +38,9 @@ _SAME: Final = ("plc.h", "globalTYP.h", "globalVAR.h", "Libraries.h")
 """Names by which Automation Studio has parts of what `DEFAULT` brings."""
 
 _FIRST: Final = "#include <bur/plctypes.h>\n"
+
+_DECLARATION = re.compile(r"^[\w *]+?[ *](\w+)\([^#]*?\)[^;{]*;", re.MULTILINE)
+_TYPE_OF_HEADER = re.compile(r"\b(?!size_t\b|wchar_t\b)(?:\w+_t|va_list|FILE|struct)\b")
 
 _PROTOTYPE = re.compile(r"^_BUR_PUBLIC [^(]*?\b(\w+)\(.*$", re.MULTILINE)
 
@@ -133,19 +136,46 @@ def _without_standard(text: str) -> str:
     if not found:
         return text
     text = _PROTOTYPE.sub(lambda m: f"/* {m[1]}: of C */" if m[1] in found else m[0], text)
-    includes = "".join(f"#include <{name}>\n" for name in sorted({standard[f] for f in found}))
-    return text.replace(_FIRST, f"{_FIRST}{includes}", 1)
+    return text.replace(_FIRST, f"{_FIRST}{_of_c([standard[name] for name in sorted(found)])}", 1)
+
+
+class StandardFunction(NamedTuple):
+    """A function that C itself has.
+
+    Attributes:
+        header: that declares it.
+        declaration: its text.
+    """
+
+    header: str
+    declaration: str
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether the declaration needs no type of its header."""
+        return _TYPE_OF_HEADER.search(self.declaration) is None
+
+
+def _of_c(functions: Sequence[StandardFunction]) -> str:
+    """Return what declares functions of C.
+
+    Their headers would bring names that a project may have given to something else (``random``);
+    C++ does not do without them, and has name spaces.
+    """
+    headers = [f"#include <{name}>\n" for name in sorted({each.header for each in functions})]
+    rest = sorted({each.header for each in functions if not each.is_plain})
+    known = [f"#include <{name}>\n" for name in ("stddef.h", *rest)]
+    plain = [f"{each.declaration}\n" for each in functions if each.is_plain]
+    return "".join(["#ifdef __cplusplus\n", *headers, "#else\n", *known, *plain, "#endif\n"])
 
 
 @cache
-def standard_functions() -> Mapping[str, str]:
-    """Return the header of each function that C itself has, by its name."""
-    found: dict[str, str] = {}
+def standard_functions() -> Mapping[str, StandardFunction]:
+    """Return the functions that C itself has, by their names."""
+    found: dict[str, StandardFunction] = {}
     for file in sorted(INCLUDE.glob("*.h")):
-        for name in re.findall(
-            r"^[\w *]+?[ *](\w+)\([^#]*?\)[^;{]*;", file.read_text("utf-8"), re.M
-        ):
-            found.setdefault(name, file.name)
+        for match in _DECLARATION.finditer(file.read_text("utf-8")):
+            found.setdefault(match[1], StandardFunction(file.name, match[0]))
     return found
 
 
