@@ -42,6 +42,11 @@ _FIRST: Final = "#include <bur/plctypes.h>\n"
 _DECLARATION = re.compile(r"^[\w *]+?[ *](\w+)\([^#]*?\)[^;{]*;", re.MULTILINE)
 _TYPE_OF_HEADER = re.compile(r"\b(?!size_t\b|wchar_t\b)(?:\w+_t|va_list|FILE|struct)\b")
 
+_PLAIN_PROTOTYPE = re.compile(
+    r"^_BUR_PUBLIC ([\w ]+?) (\w+)\(((?:(?:un)?signed \w+ \w+(?:, )?)+)\);$", re.MULTILINE
+)
+"""A function of numbers."""
+
 _PROTOTYPE = re.compile(r"^_BUR_PUBLIC [^(]*?\b(\w+)\(.*$", re.MULTILINE)
 
 
@@ -64,8 +69,10 @@ def _library_headers(libraries: tuple[Scope, ...]) -> tuple[Mapping[str, str], S
     known: list[Header] = []
     for library in libraries:
         known.append(_header(library, known))
-        text = c_header(known[-1], library.name)
-        headers[f"{library.name}.h"] = _including(headers, _without_standard(text))
+        text = _without_standard(c_header(known[-1], library.name))
+        if not library.strict:  # a library's own sources need what they declare, and no more
+            text += _taking_pointers(text, library.name)
+        headers[f"{library.name}.h"] = _including(known[:-1], text)
     return headers, known
 
 
@@ -96,16 +103,46 @@ def body_headers(library: Scope, libraries: Sequence[Scope]) -> dict[str, str]:
     """
     known: list[Header] = []
     headers = library_headers([each for each in libraries if each is not library], known)
-    known.append(_header(library, known))
-    text = c_header(known[-1], library.name)
-    headers[f"{library.name}.h"] = _including(headers, text)
+    text = c_header(_header(library, known), library.name)
+    headers[f"{library.name}.h"] = _including(known, text)
     return _of_files([library]) | headers | _bringing_all(headers)
 
 
-def _including(headers: Iterable[str], text: str) -> str:
-    """Return a header that brings what it may rest on, as Automation Studio's do."""
-    includes = "".join(f"#include <{name}>\n" for name in headers)
+def _including(known: Iterable[Header], text: str) -> str:
+    """Return a header that brings what it may rest on, as Automation Studio's do.
+
+    Nothing rests on a library that declares nothing; its own header may hold C++.
+    """
+    names = [header.scope.name for header in known if header.scope.files]
+    includes = "".join(f"#include <{name}.h>\n" for name in names)
     return text.replace(_FIRST, f"{_FIRST}{includes}", 1)
+
+
+def _taking_pointers(text: str, name: str) -> str:
+    """Return overloads for C++ of functions that take addresses as numbers.
+
+    Vendors' headers declare pointers there (``void **``), so that C++ passes them without a cast.
+
+    Args:
+        text: of a library's header.
+        name: of the library.
+    """
+    overloads = []
+    for result, function, given in _PLAIN_PROTOTYPE.findall(text):
+        kinds = [each.strip().rpartition(" ")[0] for each in given.split(",")]
+        if "unsigned long" in kinds:
+            types = ", ".join(f"class T{n}" for n in range(len(kinds)))
+            taken = ", ".join(f"T{n} a{n}" for n in range(len(kinds)))
+            passed = ", ".join(f"({kind})a{n}" for n, kind in enumerate(kinds))
+            overloads.append(
+                f"template <{types}> inline {result} {function}({taken})\n"
+                f"{{ return {function}({passed}); }}\n"
+            )
+    if not overloads:
+        return ""
+    guard = f"PLCSIM_POINTERS_{name}"
+    head = f"\n#if defined(__cplusplus) && !defined({guard})\n#define {guard}\n"
+    return f'{head}extern "C++" {{\n{"".join(overloads)}}}\n#endif\n'
 
 
 def _of_files(scopes: Iterable[Scope]) -> dict[str, str]:

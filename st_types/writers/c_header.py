@@ -135,6 +135,7 @@ class Header:
         c_types: C type of each elementary type.
 
     Attributes:
+        scope: the declarations.
         names: typedef name of each type that is written or included.
     """
 
@@ -146,7 +147,7 @@ class Header:
         variables: str = GLOBAL,
         c_types: Mapping[str, str] = C_TYPES,
     ) -> None:
-        self._scope = scope
+        self.scope = scope
         self._storage = variables
         self._c_types = c_types
         self._taken: set[str] = set(_RESERVED)
@@ -164,7 +165,7 @@ class Header:
 
     def lines(self) -> Iterator[str]:
         """Yield the lines between the head and the tail of the header."""
-        types = list(self._scope.data_types())
+        types = list(self.scope.data_types())
         for data_type in types:
             self._name(data_type)
         for data_type in types:
@@ -177,8 +178,8 @@ class Header:
         yield from self._prototypes(types)
 
     def _used_types(self) -> Iterator[DataType[object] | None]:
-        yield from (variable.data_type for variable in self._scope.variables)
-        for function in self._scope.functions:
+        yield from (variable.data_type for variable in self.scope.variables)
+        for function in self.scope.functions:
             yield function.result
             yield from (variable.data_type for variable in parameters_of(function))
 
@@ -197,7 +198,7 @@ class Header:
         return name
 
     def _constants(self) -> Iterator[str]:
-        found = [v for v in self._scope.variables if v.is_constant and v.data_type is not None]
+        found = [v for v in self.scope.variables if v.is_constant and v.data_type is not None]
         named = [(self._free(v.name), v) for v in found]
         simple = [(name, v) for name, v in named if _value(v)]
         others = [(name, v) for name, v in named if not _value(v)]
@@ -217,7 +218,7 @@ class Header:
         return f"{mark} {self._declarator(variable.data_type, name)};"
 
     def _variables(self) -> Iterator[str]:
-        found = [v for v in self._scope.variables if not v.is_constant and v.data_type is not None]
+        found = [v for v in self.scope.variables if not v.is_constant and v.data_type is not None]
         if not found or not self._storage:
             return
         yield from ("", "/* Variables */")
@@ -351,7 +352,7 @@ class Header:
 
     def _prototypes(self, types: Sequence[DataType[object]]) -> Iterator[str]:
         blocks = [data_type for data_type in types if isinstance(data_type, DataBlockType)]
-        functions = self._scope.functions
+        functions = self.scope.functions
         if blocks or functions:
             yield from ("", "/* Prototypes */")
         for block in blocks:

@@ -250,9 +250,10 @@ class _Reader:
 
     def _path_of(self, folder: Path, item: _Object) -> Path | None:
         """Return where the object of a list in ``folder`` lies, None if it does not."""
-        if item.is_reference:
-            return self._names.referenced(folder, item.name)
-        return self._names.below(folder, item.name)
+        look = self._names.referenced if item.is_reference else self._names.below
+        found = look(folder, item.name)
+        is_wrong = found is not None and item.kind == "File" and found.is_dir()
+        return None if is_wrong else found
 
 
 def _missing(file: Path, item: _Object) -> Finding:

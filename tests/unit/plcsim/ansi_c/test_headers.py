@@ -90,11 +90,52 @@ def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, sour
     library = scope("asstring", text)
     headers = program_headers([scope("p", "")], [library])
     assert "mine(" in headers["asstring.h"]
-    assert "strcpy(" not in headers["asstring.h"]
+    assert "UDINT strcpy(" not in headers["asstring.h"]
     folder = written_headers("x", lambda: headers, tmp_path / "include")
     file = source("main.c", "#include <AsDefault.h>\nchar *f(char *a) { return strcpy(a, a); }")
     built = build(BuildOrder("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
     assert built.warnings == []
+
+
+def test_what_c_has_and_a_library_does_not_name_is_free(each_toolchain, source, tmp_path):
+    text = "FUNCTION atoi : DINT VAR_INPUT pText : UDINT; END_VAR END_FUNCTION"
+    headers = program_headers([scope("p", "")], [scope("asstring", text)])
+    folder = written_headers("x", lambda: headers, tmp_path / "include")
+    c = '#include <AsDefault.h>\nsigned short random(void) { return atoi("4"); }\nint rand_r;'
+    file = source("main.c", c)
+    built = build(BuildOrder("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
+    assert built.warnings == []
+
+
+def test_cpp_passes_pointers_as_numbers(each_toolchain, source, tmp_path):
+    text = """
+    FUNCTION TMP_alloc : UINT VAR_INPUT size : UDINT; place : UDINT; END_VAR END_FUNCTION
+    """
+    headers = program_headers([scope("p", "")], [scope("sys_lib", text)])
+    folder = written_headers("x", lambda: headers, tmp_path / "include")
+    cpp = """extern "C" {
+#include <AsDefault.h>
+}
+static char *area;
+int f() { return TMP_alloc(sizeof(area), (void **)&area) + TMP_alloc(4, (UDINT)&area); }
+"""
+    build(
+        BuildOrder("p", [source("main.cpp", cpp)], [folder, INCLUDE]),
+        each_toolchain,
+        CodeCache(None),
+    )
+
+
+def test_a_library_that_declares_nothing_is_brought_by_asdefault_alone():
+    empty, other = (
+        Scope("UnitTest", ()),
+        scope("Motion", "TYPE A : STRUCT x : INT; END_STRUCT; END_TYPE"),
+    )
+    last = scope("Last", "TYPE B : STRUCT y : INT; END_STRUCT; END_TYPE")
+    headers = program_headers([scope("p", "")], [empty, other, last])
+    assert "Motion.h" in headers["Last.h"]
+    assert "UnitTest.h" not in headers["Last.h"]
+    assert "UnitTest.h" in headers["AsDefault.h"]
 
 
 def test_types_are_those_of_the_32_bit_target(each_toolchain, source):

@@ -127,8 +127,12 @@ def test_what_is_not_there_is_told_and_the_rest_is_read(write: Write) -> None:
     folder = write(
         {
             "Package.pkg": listing(
-                entry("File", "gone.typ"), entry("Program", "Empty"), entry("File", "here.typ")
+                entry("File", "gone.typ"),
+                entry("File", "folder.typ"),
+                entry("Program", "Empty"),
+                entry("File", "here.typ"),
             ),
+            "folder.typ/x": "",
             "Empty/x.var": "",
             "here.typ": "",
         }
@@ -137,6 +141,7 @@ def test_what_is_not_there_is_told_and_the_rest_is_read(write: Write) -> None:
     assert [file.name for file in view.root.files] == ["here.typ"]
     assert [(each.file, each.message) for each in view.findings] == [
         (folder / "Package.pkg", "File gone.typ is listed and not there"),
+        (folder / "Package.pkg", "File folder.typ is listed and not there"),
         (folder / "Empty", "there is no IEC.prg or ANSIC.prg"),
     ]
 
