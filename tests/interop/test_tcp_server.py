@@ -16,7 +16,7 @@ import pytest
 from tests.ports import free_port
 
 PROGRAMS = Path(__file__).parents[2] / "programs"
-TIMEOUT_S = 20.0
+TIMEOUT_S = 100.0
 
 
 class Running:

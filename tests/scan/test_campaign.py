@@ -125,7 +125,7 @@ def test_an_interrupted_campaign_goes_on_where_it_was(folder: Path) -> None:
     )
     wait_for(lambda: list((folder / "ramps.results").glob("part-*.parquet")))
     os.killpg(running.pid, signal.SIGINT)
-    assert "the same command goes on from here" in running.communicate(timeout=60)[0]
+    assert "the same command goes on from here" in running.communicate(timeout=200)[0]
     assert running.returncode == 130
     done = plcsim(folder, "ramps.py")
     assert "runs are done already" in done.stdout

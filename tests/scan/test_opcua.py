@@ -83,14 +83,14 @@ def line(tmp_path_factory):
         told.append(text)
     yield folder, f"opc.tcp://127.0.0.1:{port}", text
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=20)
+    process.communicate(timeout=100)
 
 
 def talk(line, act, **login):
     """Let a client act."""
 
     async def run():
-        client = Client(line[1], timeout=20)
+        client = Client(line[1], timeout=100)
         if login:
             client.set_user(login["user"])
             client.set_password(login["password"])
@@ -149,7 +149,7 @@ def test_unit_and_range_of_the_tag_map(line):
 def test_a_write_is_in_the_program_and_in_the_audit_log(line):
     async def act(_client, node):
         await node("line.motors[1].speed").write_value(21.5, ua.VariantType.Float)
-        deadline = time.monotonic() + 10
+        deadline = time.monotonic() + 100
         while await node("line.doubled").read_value() != 43 and time.monotonic() < deadline:
             await asyncio.sleep(0.01)
         return await node("line.doubled").read_value()
@@ -208,7 +208,7 @@ def test_a_subscription_sees_every_change_and_ends_without_a_trace(line):
         await subscription.subscribe_data_change([node("gText"), node("gCount")])
         for text in ("one", "two"):
             await node("gText").write_value(text, ua.VariantType.String)
-            deadline = time.monotonic() + 10
+            deadline = time.monotonic() + 100
             while text not in seen.values and time.monotonic() < deadline:
                 await asyncio.sleep(0.01)
         await subscription.delete()

@@ -95,7 +95,7 @@ def finish(start):
 
     def finish(*arguments):
         process = start(*arguments)
-        out, err = process.communicate(timeout=30)
+        out, err = process.communicate(timeout=100)
         return process.returncode, out, err
 
     return finish
@@ -115,7 +115,7 @@ def line_of(folder, text):
 def test_an_endless_loop_ends_in_service_within_a_second(program, start):
     folder = program(plc="", cyclic="while True: pass")
     process = start("run", folder, "--report", folder / "report.json")
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=100)
     assert process.returncode == 3
     assert "program main did not return" in " ".join(err.split())
     report = json.loads((folder / "report.json").read_text())
@@ -162,7 +162,7 @@ def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit
 def test_a_killed_program_is_exit_code_3(program, start):
     folder = program(cyclic="sum(range(10**15))")
     process = start("run", folder, "--report", folder / "report.json")
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=100)
     assert process.returncode == 3
     assert "main CYCLIC: did not return within 100 ms and could not be interrupted" in " ".join(
         err.split()
@@ -292,7 +292,7 @@ def test_ctrl_c_runs_the_exits(program, start):
     process = start("run", program(cyclic=IN, exit="print('bye')"))
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    out, err = process.communicate(timeout=100)
     assert process.returncode == 0
     assert out.endswith("bye\n")
     assert "STOPPED" in err
@@ -309,7 +309,7 @@ def test_in_service_a_run_that_stays_is_watched_until_ctrl_c(program, start, cyc
     assert page.state is State.SERVICE
     page.close()
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=20)
+    process.communicate(timeout=100)
     assert process.returncode == 3
     with pytest.raises(PlcError, match="is not running"):
         find_run(folder)
@@ -329,7 +329,7 @@ def test_a_termination_that_reaches_both_processes_is_one_stop(program, start):
     scan = int(process.stdout.readline())
     os.kill(scan, signal.SIGTERM)
     process.send_signal(signal.SIGTERM)
-    out, _ = process.communicate(timeout=20)
+    out, _ = process.communicate(timeout=100)
     assert process.returncode == 0
     assert out.endswith("leaving\nleft\n")
 
@@ -339,7 +339,7 @@ def test_ctrl_c_in_a_long_init_stops_after_it(program, start):
     process = start("run", folder)
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    out, _ = process.communicate(timeout=20)
+    out, _ = process.communicate(timeout=100)
     assert (process.returncode, out) == (0, "out\nbye\n")
 
 
@@ -349,7 +349,7 @@ def test_a_second_ctrl_c_ends_a_program_that_hangs(program, start):
     process.send_signal(signal.SIGINT)
     assert "in\n" in iter(process.stdout.readline, "")
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=100)
     assert process.returncode == 3
     assert "main EXIT: stopped by SIGINT" in " ".join(err.split())
 
@@ -372,7 +372,7 @@ def test_ctrl_c_while_loading_stops(program, start):
     process = start("run", program(plc=SLOW, before=f"{IN}\nwhile True: pass"))
     process.stdout.readline()
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=100)
     assert process.returncode == 0
     assert "STOPPED" in err
 
@@ -381,7 +381,7 @@ def test_the_scan_process_dies_with_its_parent(program, start):
     process = start("run", program(cyclic=IN))
     process.stdout.readline()
     process.kill()
-    out, _ = process.communicate(timeout=20)  # ends when nobody can write to it any more
+    out, _ = process.communicate(timeout=100)  # ends when nobody can write to it any more
     assert set(out.split()) <= {"in"}
 
 
@@ -425,7 +425,7 @@ FLOOD = "for _ in range(200): print('x' * 1_000)"  # 2 MB in 10 cycles: more tha
 def test_a_program_that_prints_to_a_blocked_pipe_goes_on(program, start):
     process = start("run", program(cyclic=FLOOD), "--cycles", "30")
     err = process.stderr.read()
-    assert process.wait(20) == 0
+    assert process.wait(100) == 0
     assert "STOPPED" in err
     (lost,) = [line for line in err.splitlines() if "are lost" in line]
     assert int(lost.split()[0].replace(",", "")) + len(process.stdout.read()) == 30 * 200 * 1_001
@@ -438,7 +438,7 @@ def test_on_the_virtual_clock_a_program_waits_for_its_reader(program, start):
         process.wait(2)
     assert len(process.stdout.read()) == 30 * 200 * 1_001
     assert "are lost" not in process.stderr.read()
-    assert process.wait(20) == 0
+    assert process.wait(100) == 0
 
 
 def test_a_reader_that_has_seen_enough_does_not_end_the_run(program, start):
@@ -447,7 +447,7 @@ def test_a_reader_that_has_seen_enough_does_not_end_the_run(program, start):
     process.stdout.close()
     process.stdout = None
     assert "lost" not in process.stderr.read()
-    assert process.wait(20) == 0
+    assert process.wait(100) == 0
 
 
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
@@ -457,7 +457,7 @@ def test_closed_standard_descriptors_do_not_matter(program, closed, tmp_path):
     report = tmp_path / "report.json"
     command = f'"{sys.executable}" -P -m plcsim run "$1" --cycles 5 --report "$2" {closed}'
     done = subprocess.run(
-        ["sh", "-c", command, "sh", folder, report], capture_output=True, timeout=30, check=False
+        ["sh", "-c", command, "sh", folder, report], capture_output=True, timeout=100, check=False
     )
     assert done.returncode == 0
     assert json.loads(report.read_text())["state"] == "STOPPED"

@@ -54,7 +54,7 @@ class Screen:
             try:
                 data = os.read(self._fd, 65536)
             except OSError:  # EIO: the other end has been closed
-                return self.process.wait(20)
+                return self.process.wait(100)
             self.seen += data.decode()
 
     def close(self):

@@ -18,7 +18,7 @@ from tests.ports import free_port
 
 HERE = Path(__file__).parent
 TANK = HERE.parents[2] / "programs" / "tank"
-TIMEOUT_S = 20.0
+TIMEOUT_S = 100.0
 
 
 class Running:

@@ -42,7 +42,7 @@ def tank(tmp_path_factory):
         assert text
     yield folder, f"opc.tcp://127.0.0.1:{port}"
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=30)
+    process.communicate(timeout=100)
 
 
 def client(tank, *arguments):

@@ -28,6 +28,8 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 PROGRAMS = ROOT / "programs"
 NS_PER_MS = 1_000_000
+PATIENCE_S = 100.0
+"""So long what should come is waited for, however busy the host is; it is no claim."""
 
 
 class Process:
@@ -105,7 +107,7 @@ class Ros:
             "plcsim": [sys.executable, "-m", "plcsim.cli.main", "master", "-p", str(self.port)],
         }
         self.master = self.start(commands[self.kind])
-        deadline = time.monotonic() + 15
+        deadline = time.monotonic() + PATIENCE_S
         while time.monotonic() < deadline:
             ip = self.hosts.get(self.host, self.host)
             with contextlib.suppress(OSError), socket.create_connection((ip, self.port)):
@@ -121,7 +123,7 @@ class Ros:
     def rospy(self, *arguments: str) -> Process:
         return self.start([PYTHON, str(HERE / "peers" / "rospy_peer.py"), *arguments])
 
-    def tool(self, name: str, *arguments: str, seconds: float = 20) -> str:
+    def tool(self, name: str, *arguments: str, seconds: float = PATIENCE_S) -> str:
         """Run a command-line tool of ROS while our nodes go on; return what it says."""
         process = self.start(["timeout", str(seconds), PYTHON, f"/usr/bin/{name}", *arguments])
         self.until(lambda: not process.is_running, seconds + 5)
@@ -168,7 +170,7 @@ class Ros:
             time.sleep(max(0, release_ns - time.monotonic_ns()) / 1e9)
         raise AssertionError(f"not so within {most} cycles")
 
-    def until(self, condition: Callable[[], Any], seconds: float = 15) -> float:
+    def until(self, condition: Callable[[], Any], seconds: float = PATIENCE_S) -> float:
         """Run until something is so; return the seconds it took."""
         start = time.monotonic()
         while not condition():

@@ -37,7 +37,7 @@ def provider():
 
 
 def caller():
-    rospy.wait_for_service("switch", timeout=10)
+    rospy.wait_for_service("switch", timeout=100)
     for persistent in (False, True):
         switch = rospy.ServiceProxy("switch", SetBool, persistent=persistent)
         say(switch(True).message)

@@ -53,7 +53,7 @@ def test_a_rospy_client_drives_our_arm(ros: Ros, tmp_path: Path) -> None:
     text = tmp_path / "action.txt"
     text.write_text(arm.node.types.message(f"{FOLLOW}Action").full_text)
     client = peer(ros, "client", str(text), "/arm/follow")
-    ros.until(lambda: not client.is_running, 40)
+    ros.until(lambda: not client.is_running)
     # actionlib of rospy complains where an answer is faster than its own send_goal returns
     told = [line for line in client.text.splitlines() if "not tracking" not in line]
     assert told == [
@@ -69,7 +69,7 @@ def test_our_client_drives_a_rospy_server(ros: Ros) -> None:
     client = ActionClient(node, "/test", "actionlib/Test")
     ros.steps.append(client.step)
     peer(ros, "server", "/test")
-    ros.until(lambda: client.is_connected, 20)
+    ros.until(lambda: client.is_connected)
     goal = client.send(goal=21)
     ros.until(lambda: goal.is_over)
     assert goal.result is not None
@@ -103,7 +103,7 @@ def test_a_roscpp_client_drives_our_server(ros: Ros, roscpp: Path) -> None:
 
     ros.steps.append(cyclic)
     client = ros.start([str(roscpp / "action_client"), "/count"])
-    ros.until(lambda: not client.is_running, 40)
+    ros.until(lambda: not client.is_running)
     assert client.text.splitlines() == [
         "connected 1",
         "goal 20 SUCCEEDED 40",
@@ -116,13 +116,13 @@ def test_a_rospy_client_drives_the_cell(ros: Ros, tmp_path: Path) -> None:
     cell = ros.program("robot_cell")
     text = tmp_path / "action.txt"
     text.write_text(MessageTypes().message(f"{FOLLOW}Action").full_text)
-    ros.until(lambda: "/follow_joint_trajectory/goal" in ros.tool("rostopic", "list"), 30)
+    ros.until(lambda: "/follow_joint_trajectory/goal" in ros.tool("rostopic", "list"))
     ros.start([sys.executable, "-m", "plcsim.cli.main", "set", str(PROGRAMS / "robot_cell"),
                "cell.enable", "TRUE"])  # fmt: skip
-    ros.until(lambda: "data: 1" in ros.tool("rostopic", "echo", "-n", "1", "/cell/state"), 30)
+    ros.until(lambda: "data: 1" in ros.tool("rostopic", "echo", "-n", "1", "/cell/state"))
     joints = ",".join(f"joint_{number}" for number in range(1, 7))
     client = peer(ros, "client", str(text), "/follow_joint_trajectory", joints, "0.5,2.0!,1.0,9.0")
-    ros.until(lambda: not client.is_running, 60)
+    ros.until(lambda: not client.is_running)
     told = [line for line in client.text.splitlines() if "not tracking" not in line]
     assert told == [
         "connected True",

@@ -9,7 +9,7 @@ import pytest
 
 from .rig import ROOT
 
-SECONDS, RESTART_S = 24, 12
+SECONDS, RESTART_S = 14, 7
 
 
 def test_nothing_is_lost_while_masters_die_and_a_peer_stops(
@@ -20,7 +20,7 @@ def test_nothing_is_lost_while_masters_die_and_a_peer_stops(
     result = tmp_path / "found.json"
     command = [sys.executable, str(ROOT / "benchmarks" / "ros_cell.py"), "--json", str(result)]
     command += ["--seconds", str(SECONDS), "--restart", str(RESTART_S)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=250)
     assert result.exists(), done.stderr
     found = json.loads(result.read_text())["found"]
     assert found["deaths"] == SECONDS // RESTART_S

@@ -61,7 +61,7 @@ def test_topics_of_rospy_by_number(six: Ros) -> None:
     six.steps.append(cycle)
     six.rospy("talk", "/in")
     listener = six.rospy("listen", "/out")
-    six.until(lambda: heard and "heard ours" in listener.text, 40)
+    six.until(lambda: heard and "heard ours" in listener.text)
     assert heard[0].startswith("rospy ")
     (link,) = publisher.links
     assert link.peer.startswith("[::1]:")
@@ -69,7 +69,7 @@ def test_topics_of_rospy_by_number(six: Ros) -> None:
 
 def test_tools_by_number(six: Ros) -> None:
     six.node("plc").register_publisher("/out", "std_msgs/String")
-    six.until(lambda: "/plc" in six.tool("rosnode", "list"), 30)
+    six.until(lambda: "/plc" in six.tool("rosnode", "list"))
     assert "* /out" in six.tool("rosnode", "info", "/plc")
     assert "xmlrpc reply" in six.tool("rosnode", "ping", "-c", "1", "/plc")
 
@@ -90,10 +90,10 @@ def test_rospy_by_name(named: Ros) -> None:
     named.steps.append(cycle)
     named.rospy("serve", "/theirs")
     client = named.rospy("call", "/ours")
-    named.until(lambda: "answer six" in client.text, 40)
-    named.until(lambda: "/theirs" in named.tool("rosservice", "list"), 30)
+    named.until(lambda: "answer six" in client.text)
+    named.until(lambda: "/theirs" in named.tool("rosservice", "list"))
     caller.call(caller.new(data=True))
-    named.until(lambda: replies, 20)
+    named.until(lambda: replies)
     assert replies[0].message == "rospy"
 
 
@@ -111,6 +111,6 @@ def test_roscpp_by_name(named: Ros, roscpp: Path) -> None:
 
     named.steps.append(cycle)
     listener = named.start([str(roscpp / "listener")])
-    named.until(lambda: "six 5" in listener.text, 40)
+    named.until(lambda: "six 5" in listener.text)
     (link,) = publisher.links
     assert link.peer.startswith("[::1]:")

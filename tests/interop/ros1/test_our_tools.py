@@ -3,10 +3,10 @@
 import re
 import sys
 
-from .rig import Ros
+from .rig import PATIENCE_S, Ros
 
 
-def typed(ros: Ros, *arguments: str, seconds: float = 20) -> str:
+def typed(ros: Ros, *arguments: str, seconds: float = PATIENCE_S) -> str:
     """Type ``plcsim ros ...``; return what it says."""
     command = [sys.executable, "-m", "plcsim.cli.main", "ros", *arguments]
     process = ros.start(["timeout", str(seconds), *command])

@@ -35,7 +35,7 @@ def test_rostopic(ros: Ros) -> None:
     assert ros.tool("rostopic", "echo", "-n", "3", "/chatter").count('data: "word"') == 3
     rates = re.findall(r"average rate: ([\d.]+)", ros.tool("rostopic", "hz", "/chatter", seconds=5))
     assert 90 < float(rates[-1]) < 110
-    ros.tool("rostopic", "pub", "-1", "/theirs", STRING, "hello", seconds=8)
+    ros.tool("rostopic", "pub", "-1", "/theirs", STRING, "hello")
     message = node.subscribers["/theirs"].pop()
     assert message is not None
     assert message.data == "hello"  # type: ignore[attr-defined]
@@ -64,7 +64,7 @@ def test_roswtf_finds_no_error(ros: Ros) -> None:
     ros.rospy("talk", "/theirs")
     ros.until(lambda: publisher.subscribers)
     ros.run(0.5)
-    found = ros.tool("roswtf", seconds=40)
+    found = ros.tool("roswtf")
     _, _, graph = found.partition("Online checks summary:")
     assert "No errors or warnings" in graph, found
 
@@ -72,14 +72,14 @@ def test_roswtf_finds_no_error(ros: Ros) -> None:
 def test_rosbag_records_and_plays(ros: Ros, tmp_path: Path) -> None:
     node, publisher = talker(ros)
     bag = tmp_path / "x.bag"
-    ros.tool("rosbag", "record", "-O", str(bag), "-l", "50", "/chatter", seconds=15)
+    ros.tool("rosbag", "record", "-O", str(bag), "-l", "50", "/chatter")
     info = ros.tool("rosbag", "info", str(bag))
     assert re.search(r"/chatter\s+50 msgs\s+: std_msgs/String", info), info
     node.unregister(publisher)
     ros.steps.clear()
     subscriber = node.register_subscriber("/chatter", STRING, queue_size=1000)
     ros.until(lambda: node.is_registered)
-    ros.tool("rosbag", "play", "-d", "1", str(bag), seconds=15)
+    ros.tool("rosbag", "play", "-d", "1", str(bag))
     assert len(subscriber.queue) == 50
 
 

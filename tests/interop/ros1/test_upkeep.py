@@ -36,9 +36,9 @@ def test_frames_with_tf2_ros_in_both_directions(ros: Ros) -> None:
 
     ros.steps.append(cyclic)
     other = peer(ros, "tf")
-    ros.until(lambda: "hand" in other.text, 40)
+    ros.until(lambda: "hand" in other.text)
     assert "hand 1.000 2.000 1.000" in other.text
-    ros.until(lambda: knows("world", "cart") and knows("world", "camera"), 20)
+    ros.until(lambda: knows("world", "cart") and knows("world", "camera"))
     assert listener.lookup("world", "camera").translation == (1.25, 2.0, 1.0)
     assert listener.lookup("world", "cart").apply((1.0, 0.0, 0.0)) == (-1.0, 7.0, 0.0)
 
@@ -49,7 +49,7 @@ def test_values_with_the_client_of_dynamic_reconfigure(ros: Ros) -> None:
     server = Reconfigure(ros.node("cell"), table)
     ros.steps.append(server.step)
     other = peer(ros, "reconfigure")
-    ros.until(lambda: not other.is_running, 40)
+    ros.until(lambda: not other.is_running)
     assert other.text.splitlines() == [
         "speed double 0.0 2.0 0.5",
         "careful bool False True True",

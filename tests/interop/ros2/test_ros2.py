@@ -94,7 +94,7 @@ class Site:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return next((line.split()[1] for line in done.stdout.splitlines() if path in line), "")
 
-    def until(self, condition: Callable[[], object], seconds: float = 40) -> None:
+    def until(self, condition: Callable[[], object], seconds: float = 100) -> None:
         end = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < end, self.log.read_text()

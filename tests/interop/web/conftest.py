@@ -16,7 +16,7 @@ import pytest
 HERE = Path(__file__).parent
 CHROMIUM = Path("/usr/bin/chromium")
 AXE = HERE / "peers" / "node_modules" / "axe-core" / "axe.min.js"
-TIMEOUT_S = 30.0
+TIMEOUT_S = 100.0
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",

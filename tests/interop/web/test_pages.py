@@ -36,7 +36,7 @@ def read(press, *tags):
     asked = urllib.request.Request(
         f"{press.url}/api/read", body, {"Content-Type": "application/json"}
     )
-    with urllib.request.urlopen(asked, timeout=10) as answer:
+    with urllib.request.urlopen(asked, timeout=100) as answer:
         return json.load(answer)["values"]
 
 

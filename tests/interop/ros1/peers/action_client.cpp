@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "roscpp_action_client");
   actionlib::SimpleActionClient<actionlib::TestAction> client(argv[1], true);
-  std::printf("connected %d\n", client.waitForServer(ros::Duration(10)));
+  std::printf("connected %d\n", client.waitForServer(ros::Duration(100)));
   for (int number : {20, 30000, 10}) {
     actionlib::TestGoal goal;
     goal.goal = number;
@@ -18,9 +18,10 @@ int main(int argc, char** argv) {
       client.waitForResult(ros::Duration(0.3));
       client.cancelGoal();
     }
-    client.waitForResult(ros::Duration(10));
+    client.waitForResult(ros::Duration(100));
     int result = client.getResult() ? client.getResult()->result : -99;
     std::printf("goal %d %s %d\n", number, client.getState().toString().c_str(), result);
   }
   std::fflush(stdout);
+  return 0;
 }

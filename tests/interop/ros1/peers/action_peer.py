@@ -28,7 +28,7 @@ def client(text_file, name, joints="a,b", targets="0.5,50.0!,1.0"):
     goal_type = kinds["control_msgs/FollowJointTrajectoryGoal"]
     point_type = kinds["trajectory_msgs/JointTrajectoryPoint"]
     made = actionlib.SimpleActionClient(name, action)
-    print("connected", made.wait_for_server(rospy.Duration(10)), flush=True)
+    print("connected", made.wait_for_server(rospy.Duration(100)), flush=True)
     for word in targets.split(","):
         target, stop = float(word.rstrip("!")), word.endswith("!")
         goal = goal_type()
@@ -41,7 +41,7 @@ def client(text_file, name, joints="a,b", targets="0.5,50.0!,1.0"):
         if stop:
             made.wait_for_result(rospy.Duration(0.3))
             made.cancel_goal()
-        made.wait_for_result(rospy.Duration(5))
+        made.wait_for_result(rospy.Duration(60))
         result = made.get_result()
         print("goal", target, NAMES[made.get_state()], result and result.error_code,
               "feedback" if heard else "none", flush=True)  # fmt: skip

@@ -39,7 +39,7 @@ def serve(service):
 
 
 def call(service, persistent):
-    rospy.wait_for_service(service, 10)
+    rospy.wait_for_service(service, 100)
     proxy = rospy.ServiceProxy(service, SetBool, persistent=bool(persistent))
     for data in (True, True, False):
         try:

@@ -16,7 +16,7 @@ int main(int argc, char** argv)
     ros::ServiceServer server = n.advertiseService("/cpp_set", set);
     ros::AsyncSpinner spinner(1);
     spinner.start();
-    if (!ros::service::waitForService("/plc_set", ros::Duration(10)))
+    if (!ros::service::waitForService("/plc_set", ros::Duration(100)))
         return 1;
     for (bool persistent : {false, true}) {
         ros::ServiceClient client = n.serviceClient<std_srvs::SetBool>("/plc_set", persistent);

@@ -38,8 +38,8 @@ def reconfigure() -> None:
     import dynamic_reconfigure.client
 
     rospy.init_node("reconfigure_peer")
-    client = dynamic_reconfigure.client.Client("/cell", timeout=20)
-    described = client.get_parameter_descriptions(timeout=20)
+    client = dynamic_reconfigure.client.Client("/cell", timeout=100)
+    described = client.get_parameter_descriptions(timeout=100)
     for each in described:
         print(each["name"], each["type"], each["min"], each["max"], each["default"], flush=True)
     answer = client.update_configuration({"speed": 99.0, "tool": "welder"})

@@ -85,4 +85,4 @@ def test_it_serves_until_it_is_asked_to_end() -> None:
             assert master.getPid("/test") == [1, "", process.pid]
             assert master.getParam("/test", "/rosversion")[2] == "1.15.15\n"
         process.terminate()
-        assert process.wait(10) == 0
+        assert process.wait(100) == 0

@@ -65,7 +65,7 @@ class Site:
 
     def stop(self) -> None:
         self.supervisor.stop()
-        self._thread.join(20)
+        self._thread.join(100)
 
     def ask(self, method: str, *params: Any) -> Any:
         """Call the master; None where it does not answer."""
@@ -82,7 +82,7 @@ class Site:
 
 
 def await_(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + 100
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.01)

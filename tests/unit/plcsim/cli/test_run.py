@@ -226,7 +226,7 @@ def test_the_end_of_the_terminal_stops_the_run_unless_under_nohup(project_of, tm
             with pytest.raises(subprocess.TimeoutExpired):
                 running.wait(0.3)
             running.terminate()
-        assert running.wait(20) == 0
+        assert running.wait(100) == 0
     assert (folder / "main" / "exited").exists()
     assert json.loads(report.read_text())["state"] == "STOPPED"
 

@@ -26,7 +26,7 @@ class Screen(io.StringIO):
 
     def seen(self, text):
         with self._written:
-            return self._written.wait_for(lambda: text in self.getvalue(), 10)
+            return self._written.wait_for(lambda: text in self.getvalue(), 100)
 
 
 @pytest.fixture
@@ -75,12 +75,12 @@ def test_a_terminal_that_takes_nothing_is_not_waited_for(monkeypatch):
     class Stopped(io.StringIO):
         def write(self, text):
             stopped.set()
-            go_on.wait(10)
+            go_on.wait(100)
             return super().write(text)
 
     terminal = Terminal(Console(file=Stopped(), force_terminal=True))
     terminal.put(b"12345\n")
-    stopped.wait(10)
+    stopped.wait(100)
     terminal.show(lambda: Text("table"))
     terminal.hide()
     assert terminal.flush(lambda: False) == 6

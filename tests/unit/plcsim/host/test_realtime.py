@@ -151,4 +151,4 @@ sys.stdin.read()
     )
     assert parent.stdout.readline() == b"alive\n"
     parent.kill()
-    parent.communicate(timeout=10)  # ends when the child cannot write to it any more
+    parent.communicate(timeout=100)  # ends when the child cannot write to it any more

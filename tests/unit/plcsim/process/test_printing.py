@@ -92,7 +92,7 @@ def test_print_goes_there_line_by_line():
     child = subprocess.Popen(
         [sys.executable, "-c", CHILD], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
-    assert child.wait(20) == 0
+    assert child.wait(100) == 0
     out, err = child.communicate()
     first, second, _ = out.split(b"\n", 2)
     assert (first, second) == ("letters ä \\udcff".encode(), b"by its number")

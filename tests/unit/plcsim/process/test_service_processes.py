@@ -53,7 +53,7 @@ def wait_for_end(processes: ServiceProcesses, *, kill: bool = True) -> None:
     assert process is not None
     if kill:
         process.kill()
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + 100
     while process.poll() is None:
         assert time.monotonic() < deadline
         time.sleep(0.001)

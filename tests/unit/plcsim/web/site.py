@@ -209,7 +209,7 @@ class Socket:
         self._serving = asyncio.create_task(
             self._world.app(self._scope, self._in.get, self._out.put)  # type: ignore[arg-type]
         )
-        first = await asyncio.wait_for(self._out.get(), 5)
+        first = await asyncio.wait_for(self._out.get(), 100)
         self.is_accepted = first["type"] == "websocket.accept"
         if not self.is_accepted:
             self.code = first.get("code", 1000)
@@ -217,11 +217,11 @@ class Socket:
 
     async def __aexit__(self, *_: object) -> None:
         await self._in.put({"type": "websocket.disconnect", "code": 1001})
-        await asyncio.wait_for(self._serving, 5)
+        await asyncio.wait_for(self._serving, 100)
 
     async def _next(self) -> dict[str, Any] | bytes | None:
         """Return the next message, None at the end."""
-        message = await asyncio.wait_for(self._out.get(), 5)
+        message = await asyncio.wait_for(self._out.get(), 100)
         if message["type"] == "websocket.close":
             self.code = message["code"]
             return None

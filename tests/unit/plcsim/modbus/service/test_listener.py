@@ -30,7 +30,7 @@ def listen(client: Client, host: str = "127.0.0.1", most: int = 100) -> tuple[li
     async def run() -> None:
         made = Listener(host, 0, None, admit, lambda _name, text: failures.append(text))
         try:
-            await asyncio.wait_for(client(made), 10)
+            await asyncio.wait_for(client(made), 100)
         finally:
             made.close()
 
@@ -87,7 +87,7 @@ def test_without_descriptors_nobody_gets_in_until_there_are_some_again(
         finally:
             resource.setrlimit(resource.RLIMIT_NOFILE, limits)
         loop = asyncio.get_running_loop()
-        assert await asyncio.wait_for(loop.sock_recv(waiting, 7), 5) == b"welcome"
+        assert await asyncio.wait_for(loop.sock_recv(waiting, 7), 100) == b"welcome"
         waiting.close()
 
     asked, failures = listen(client)

@@ -117,7 +117,7 @@ def answers(settings: TlsSettings, context: ssl.SSLContext, *pdus: str) -> list[
             found = []
             for pdu in pdus:
                 writer.write(frame(bytes.fromhex(pdu)))
-                header = await asyncio.wait_for(reader.readexactly(7), 5)
+                header = await asyncio.wait_for(reader.readexactly(7), 100)
                 body = await reader.readexactly(int.from_bytes(header[4:6], "big") - 1)
                 found.append(frames(header + body)[0][2].hex())
             writer.close()
@@ -203,13 +203,13 @@ def test_a_handshake_that_never_ends_takes_a_place_for_a_while_only(
             )
         assert server.refused == 1
         for reader, writer in silent:
-            assert await asyncio.wait_for(reader.read(), 5) == b""
+            assert await asyncio.wait_for(reader.read(), 100) == b""
             writer.close()
         reader, writer = await asyncio.open_connection(
             "127.0.0.1", server.port, ssl=client_context(authority, own)
         )
         writer.write(frame(bytes.fromhex("0800000001")))
-        assert (await asyncio.wait_for(reader.readexactly(9), 5))[7] == 8
+        assert (await asyncio.wait_for(reader.readexactly(9), 100))[7] == 8
         writer.close()
         await server.stop()
 
@@ -224,7 +224,7 @@ def test_a_peer_outside_the_allowed_networks_gets_no_handshake(authority: Author
         server = Server(world.device, modbus)
         await server.start()
         reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
-        assert await asyncio.wait_for(reader.read(), 5) == b""
+        assert await asyncio.wait_for(reader.read(), 100) == b""
         writer.close()
         await server.stop()
         assert server.refused == 1

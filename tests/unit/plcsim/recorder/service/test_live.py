@@ -37,14 +37,14 @@ class Viewer:
     def told(self, operation: str) -> Any:
         """Return the next text message of a kind; others are passed over."""
         while True:
-            data = self._socket.recv(timeout=10)
+            data = self._socket.recv(timeout=100)
             if isinstance(data, str) and (found := json.loads(data))["op"] == operation:
                 return found
 
     def data(self) -> tuple[int, int, bytes]:
         """Return subscription, time and bytes of the next message of a channel."""
         while True:
-            data = self._socket.recv(timeout=10)
+            data = self._socket.recv(timeout=100)
             if isinstance(data, bytes) and data[0] == 1:
                 return *struct.unpack_from("<IQ", data, 1), data[13:]
 

@@ -54,7 +54,7 @@ class Site:
 
     def stop(self):
         self.supervisor.stop()
-        self._thread.join(10)
+        self._thread.join(100)
 
     def ask(self, act, **values):
         asked = urllib.request.Request(
@@ -62,12 +62,12 @@ class Site:
             json.dumps(values).encode(),
             {"Content-Type": "application/json"},
         )
-        with urllib.request.urlopen(asked, timeout=5) as answer:
+        with urllib.request.urlopen(asked, timeout=100) as answer:
             return json.load(answer)
 
     def await_pages(self):
         """Ask until there is an answer; a service takes a moment to start."""
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + 100
         while True:
             try:
                 return self.ask("read", tags=["echo.cycles"])["values"][0]
@@ -106,7 +106,7 @@ def _system(site):
     with site.live() as socket_:
         socket_.send(json.dumps({"id": 1, "do": "follow", "topics": ["system"]}))
         while True:
-            told = json.loads(socket_.recv(timeout=5))
+            told = json.loads(socket_.recv(timeout=100))
             if told.get("push") == "system":
                 return told
 
@@ -220,11 +220,11 @@ def test_pages_over_tls(tmp_path):
     site = Site(tmp_path, '[web.tls]\ncertificate = "cert.pem"\nkey = "key.pem"\n')
     with site.supervisor:
         context = ssl.create_default_context(cafile=tmp_path / "cert.pem")
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + 100
         while True:
             try:
                 url = f"https://localhost:{site.port}/"
-                with urllib.request.urlopen(url, timeout=5, context=context) as answer:
+                with urllib.request.urlopen(url, timeout=100, context=context) as answer:
                     assert b"plcsim" in answer.read()
                 break
             except (OSError, urllib.error.URLError):
@@ -235,5 +235,5 @@ def test_pages_over_tls(tmp_path):
             origin=f"https://localhost:{site.port}",
             ssl=context,
         ) as live:
-            assert json.loads(live.recv(timeout=5))["push"] == "hello"
+            assert json.loads(live.recv(timeout=100))["push"] == "hello"
         site.stop()
