@@ -27,7 +27,7 @@ MAX_DEPTH: Final = 100
 """Lists and dicts within each other."""
 
 _NOT_XML: Final = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-_INTEGERS: Final = range(-(2**31), 2**31)
+_LEAST, _LARGEST = -(2**31), 2**31 - 1
 _HEAD: Final = "<?xml version='1.0'?>\n"
 
 
@@ -121,7 +121,7 @@ def _scalar(value: Value) -> str:
     if isinstance(value, bool):
         return f"<boolean>{value:d}</boolean>"
     if isinstance(value, int):
-        if value not in _INTEGERS:
+        if not _LEAST <= value <= _LARGEST:  # a range compares an IntEnum with each number
             raise MessageValueError("XML-RPC cannot carry the value: an int of more than 32 bits.")
         return f"<int>{value:d}</int>"
     if isinstance(value, float):

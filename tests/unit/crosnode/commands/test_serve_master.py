@@ -12,6 +12,7 @@ import pytest
 from crosnode.master import process as master_process
 from plcsim.cli.main import main
 from plcsim.library.astcp import tcpERR_SOCKET_BIND, tcpERR_SYSTEM
+from tests.ports import free_port
 
 
 @pytest.fixture(autouse=True)
@@ -74,14 +75,13 @@ def test_a_host_that_is_none(
 
 
 def test_it_serves_until_it_is_asked_to_end() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        port = probe.getsockname()[1]
+    port = free_port()
     command = [sys.executable, "-m", "plcsim.cli.main", "master", "-p", str(port)]
     process = subprocess.Popen([*command, "--host", "::1"], stdout=subprocess.PIPE, text=True)
     with process:
         assert process.stdout
         assert process.stdout.readline() == f"ROS_MASTER_URI=http://[::1]:{port}/\n"
-        with xmlrpc.client.ServerProxy(f"http://127.0.0.1:{port}/") as master:
+        with xmlrpc.client.ServerProxy(f"http://[::1]:{port}/") as master:
             assert master.getPid("/test") == [1, "", process.pid]
             assert master.getParam("/test", "/rosversion")[2] == "1.15.15\n"
         process.terminate()
