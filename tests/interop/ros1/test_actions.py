@@ -14,7 +14,7 @@ FOLLOW = "control_msgs/FollowJointTrajectory"
 
 
 class Arm:
-    """A program of two joints that follows trajectories, a step of 10 ms at a time."""
+    """A program of two joints that follows trajectories, a thousandth of a turn a cycle."""
 
     def __init__(self, ros: Ros) -> None:
         self.node = ros.node("arm")
@@ -36,7 +36,7 @@ class Arm:
             return
         target = goal.goal.trajectory.points[-1].positions
         self.position = [
-            at + max(-0.02, min(0.02, float(to) - at))
+            at + max(-0.001, min(0.001, float(to) - at))
             for at, to in zip(self.position, target, strict=True)
         ]
         goal.feedback(joint_names=goal.goal.trajectory.joint_names)
