@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from plcsim.core.traffic import Topic, Traffic
+    from plcsim.core.traffic import Topic, TopicEnds, Traffic
 
 
 class Border:
@@ -26,15 +26,22 @@ class Border:
         self._topic = topic
         self._number = 0 if traffic is None else traffic.number_of(topic)
 
+    def tell_of(self, ends: Callable[[], TopicEnds]) -> None:
+        """Tell of the other ends until it is closed."""
+        if self._traffic is not None:
+            self._traffic.ends[self._topic] = ends
+
     def open(self, inlet: Callable[[bytes], None]) -> None:
         """Take messages that are handed in, past the network."""
         if self._traffic is not None:
             self._traffic.inlets[self._topic.node, self._topic.name] = inlet
 
     def close(self) -> None:
-        """Take no more."""
+        """Take no more, and tell of nothing."""
         if self._traffic is not None:
-            self._traffic.inlets.pop((self._topic.node, self._topic.name), None)
+            self._traffic.ends.pop(self._topic, None)
+            if not self._topic.is_sent:
+                self._traffic.inlets.pop((self._topic.node, self._topic.name), None)
 
     def cross(self, body: bytes | memoryview) -> None:
         """Tell of a message; its bytes must not change afterwards."""

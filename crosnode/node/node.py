@@ -325,6 +325,7 @@ class CrosNode:
         self.core.master.remove(role.registration)
         if isinstance(role, Publisher):
             _drop(self.publishers, role.topic, role)
+            role.close()
         elif isinstance(role, Subscriber):
             _drop(self.subscribers, role.topic, role)
             role.close()

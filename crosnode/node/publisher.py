@@ -10,6 +10,7 @@ from crosnode.node.queues import DropOldestQueue
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import HeaderReceived, PublisherConnection, TypeInfo
 from crosnode.transport.tcpip_socket import AREA_SIZE
+from plcsim.core.traffic import TopicEnds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -69,6 +70,7 @@ class Publisher:
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
         self._period = Period(loop_period_ns)
         self._border = border
+        border.tell_of(self._ends)
         first = message_type.fields[:1]
         self._has_header = bool(first and first[0].base == HEADER and first[0].name == "header")
 
@@ -81,6 +83,13 @@ class Publisher:
     def dropped(self) -> int:
         """Messages dropped for subscribers that are connected and too slow."""
         return sum(owner.queue.dropped for owner in self.links.values())
+
+    def _ends(self) -> TopicEnds:
+        return TopicEnds([owner.subscriber for owner in self.links.values()], self.dropped)
+
+    def close(self) -> None:
+        """Tell of nothing any more; the node ends its connections."""
+        self._border.close()
 
     def new(self, **values: object) -> Message:
         """Return a new message with ``values``, defaults elsewhere."""

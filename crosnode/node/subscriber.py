@@ -10,6 +10,7 @@ from crosnode.node.queues import DropOldestQueue
 from crosnode.node.registration import RegistrationState
 from crosnode.node.status import StatusKind
 from crosnode.tcpros import TypeInfo
+from plcsim.core.traffic import TopicEnds
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -68,6 +69,7 @@ class Subscriber:
         self.core = core
         self._border = border
         border.open(self.take)
+        border.tell_of(self._ends)
         self._is_overtaken = False
         self._has_unnamed = False
 
@@ -140,6 +142,10 @@ class Subscriber:
     def _is_named(self, peer: PublisherLink) -> bool:
         """Whether the present master has named a publisher, and not only one before it."""
         return peer.life == self.core.master.life
+
+    def _ends(self) -> TopicEnds:
+        uris = [uri for uri, peer in self.peers.items() if peer.is_streaming]
+        return TopicEnds(uris, self.queue.dropped)
 
     def close(self) -> None:
         """Part from all publishers."""

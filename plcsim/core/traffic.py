@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
 
 class Topic(NamedTuple):
@@ -38,6 +38,18 @@ Crossing = tuple[int, "bytes | memoryview"]
 """A message that crosses the border: the number of its topic, and its bytes. They do not change."""
 
 
+class TopicEnds(NamedTuple):
+    """Who is at the other ends of a topic, and what did not get there.
+
+    Attributes:
+        peers: names or URIs of the nodes that are connected.
+        lost: messages dropped because somebody was too slow for them.
+    """
+
+    peers: Sequence[str]
+    lost: int
+
+
 class Traffic:
     """The messages of one controller.
 
@@ -47,9 +59,10 @@ class Traffic:
         hand_in_followers: called with node, topic and bytes of every message that is handed in.
         inlets: take a message as if it had come over the network, by the names of the node that
             receives it and of the topic.
+        ends: tell of the other ends of each topic that is registered.
     """
 
-    __slots__ = ("_numbers", "followers", "hand_in_followers", "inlets", "topics")
+    __slots__ = ("_numbers", "ends", "followers", "hand_in_followers", "inlets", "topics")
 
     def __init__(self) -> None:
         self.topics: list[Topic] = []
@@ -57,6 +70,7 @@ class Traffic:
         self.followers: list[Callable[[Crossing], object]] = []
         self.hand_in_followers: list[Callable[[str, str, bytes], None]] = []
         self.inlets: dict[tuple[str, str], Callable[[bytes], None]] = {}
+        self.ends: dict[Topic, Callable[[], TopicEnds]] = {}
 
     def number_of(self, topic: Topic) -> int:
         """Return the number of a topic, a new one where it was never seen."""

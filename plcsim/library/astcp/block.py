@@ -26,6 +26,7 @@ class AsTcpBlock(FunctionBlock):
     __slots__ = ()
 
     enable: bool
+    ident: int
     status: int
     i_state: int
     i_result: int
@@ -38,7 +39,11 @@ class AsTcpBlock(FunctionBlock):
             PageFault: a pointer input is wild; nothing was taken from a socket.
         """
         if self.enable:
-            status = self.step(self.context.library(IdentTable))
+            idents = self.context.library(IdentTable)
+            status = self.step(idents)
+            endpoint = idents.find(self.ident)
+            if endpoint is not None:
+                endpoint.block, endpoint.status = type(self).__name__, status
             self.status = self.i_result = status
             self.i_state = BUSY if status == ERR_FUB_BUSY else IDLE
         else:

@@ -52,6 +52,8 @@ class TcpClient(interface.TcpClient, AsTcpBlock):
             return tcpERR_PARAMETER
         server = Address(self.ip_at(self.pServer), self.portserv)
         status = _STATUSES.get(endpoint.socket.connect(server), tcpERR_INVALID)
+        if status in (ERR_OK, ERR_FUB_BUSY) and endpoint.peer is None:
+            endpoint.peer = server
         if status == ERR_FUB_BUSY and self._too_late(idents.settings.connect_timeout_ns):
             return tcpERR_INVALID
         return status

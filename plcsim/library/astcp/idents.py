@@ -11,7 +11,7 @@ from plcsim.network.protocol import network_of
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
-    from plcsim.network.protocol import Socket
+    from plcsim.network.protocol import Address, Socket
 
 
 @dataclass(slots=True)
@@ -21,10 +21,17 @@ class Endpoint:
     Attributes:
         socket: of the network.
         no_waiting: TcpServer does not wait for a client (tcpSO_NOWAITING_SET).
+        peer: the other end, None where there is none yet; the socket is not asked, for a recording
+            would hold the answer.
+        block: that was called last with this ident, such as "TcpRecv".
+        status: that it gave.
     """
 
     socket: Socket
     no_waiting: bool = False
+    peer: Address | None = None
+    block: str = ""
+    status: int = 0
 
 
 class IdentTable(Idents[Endpoint]):
@@ -42,9 +49,9 @@ class IdentTable(Idents[Endpoint]):
         super().__init__(context, self.settings.idents)
         self._idents: dict[Socket, int] = {}
 
-    def give(self, socket: Socket) -> int:
+    def give(self, socket: Socket, peer: Address | None = None) -> int:
         """Give a socket an ident; the caller sees to it that the table is not full."""
-        ident = self._idents[socket] = self.add(Endpoint(socket))
+        ident = self._idents[socket] = self.add(Endpoint(socket, peer=peer))
         return ident
 
     def look(self) -> set[int]:

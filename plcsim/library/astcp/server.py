@@ -59,7 +59,7 @@ class TcpServer(interface.TcpServer, AsTcpBlock):
             if outcome is not Outcome.WOULD_BLOCK:
                 return tcpERR_SOCKET_ACCEPT
             return tcpERR_NOCLIENT if endpoint.no_waiting else ERR_FUB_BUSY
-        self.identclnt = idents.give(client)
+        self.identclnt = idents.give(client, peer)
         self.portclnt = peer.port
         if self.pIpAddr:
             self.context.memory.write(self.pIpAddr, ip_string(peer.ip))

@@ -19,7 +19,7 @@ export function uptime(ns) {
 }
 
 export function bytes(count) {
-  if (count < 1024) return `${count} B`;
+  if (count < 1024) return `${Math.round(count)} B`;
   const units = ["KiB", "MiB", "GiB"];
   let value = count;
   let at = -1;

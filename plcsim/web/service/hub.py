@@ -71,7 +71,7 @@ class Hub:
         self.traces: dict[int, LiveTrace] = {}
         self.figures = ClassFigures(self.given["classes"], self.given["tasks"])
         self.sources = Sources(Path(self.given["folder"]), self.image.directory)
-        self._border: dict[str, Any] = {"time_ns": 0, "topics": [], "idents": {}}
+        self._border: dict[str, Any] = {"time_ns": 0, "topics": [], "idents": {}, "tcp": []}
         self.acting: set[asyncio.Future[object]] = set()
         self._followers = 0
         self._events = self.image.events(from_oldest=True)
@@ -205,7 +205,8 @@ class Hub:
 
     def network(self) -> dict[str, Any]:
         """Return the sockets of the processes of the run, topics and idents of the programs."""
-        return {"sockets": sockets(self.system()["processes"]), **self._border}
+        found = sockets(self.system()["processes"])
+        return {"now_ns": time.monotonic_ns(), "sockets": found, **self._border}
 
     def task_classes(self) -> dict[str, Any]:
         """Return histograms, the last cycles and violations of the task classes."""

@@ -11,6 +11,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from plcsim.web.service.socket_counts import socket_counts
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
@@ -34,8 +36,12 @@ class _Row(NamedTuple):
 
 
 def sockets(processes: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Return the TCP sockets of processes (see `plcsim.web.service.host.processes`)."""
+    """Return the TCP sockets of processes (see `plcsim.web.service.host.processes`).
+
+    "counts" is a `SocketCounts`, None where the kernel does not tell.
+    """
     rows = {row.inode: row for file in ("tcp", "tcp6") for row in _rows(file)}
+    counted = socket_counts()
     found: list[dict[str, Any]] = []
     for process in processes:
         for inode in _inodes(process["pid"]):
@@ -49,6 +55,7 @@ def sockets(processes: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
                         "state": _STATES.get(row.state, _LEAVING),
                         "to_send": row.sending,
                         "to_read": row.receiving,
+                        "counts": counted.get(row.inode),
                     }
                 )
     return sorted(found, key=lambda each: (each["process"], each["state"], each["peer"]))
