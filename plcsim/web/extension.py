@@ -10,6 +10,7 @@ from plcsim.access.users import Users, users_file
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.extension import Attachment, Extension
 from plcsim.web.border import BorderReport
+from plcsim.web.pointers import pointers_of
 from plcsim.web.settings import read_settings
 
 if TYPE_CHECKING:
@@ -78,6 +79,7 @@ def _facts(controller: Controller) -> dict[str, Any]:
         "scan_pid": os.getpid(),
         "memory_size": controller.memory.size,
         "is_virtual": controller.clock.is_virtual,
+        "pointers": pointers_of(controller.areas),
         "tasks": [task.name for task in controller.tasks],
         "classes": [
             {

@@ -169,7 +169,10 @@ async def _children(hub: Hub, _caller: Caller, arguments: Arguments) -> object:
     if not path:
         roots = hub.variables.roots()
         return {"children": roots, "count": len(roots)}
-    return hub.variables.children(path, whole_of(arguments, "first", 0, 1 << 31))
+    first = whole_of(arguments, "first", 0, 1 << 31)
+    if "^" in path:
+        return hub.variables.inside(await hub.follower.find(path), first)
+    return hub.variables.children(path, first)
 
 
 async def _search(hub: Hub, _caller: Caller, arguments: Arguments) -> object:
@@ -181,7 +184,7 @@ async def _describe(hub: Hub, _caller: Caller, arguments: Arguments) -> object:
     found: list[dict[str, Any] | None] = []
     for path in texts_of(arguments, "tags", MOST_READ):
         try:
-            found.append(hub.variables.describe(hub.image.directory.find(path)))
+            found.append(hub.variables.describe(await hub.follower.find(path)))
         except TagError:
             found.append(None)
     return found

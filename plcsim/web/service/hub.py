@@ -17,9 +17,10 @@ from plcsim.shared_image.command import Cancel, Follow, SampleCommand
 from plcsim.shared_image.events import EventKind, entry_of, violation_of
 from plcsim.shared_image.figures import buckets_of, cycle_of
 from plcsim.shared_image.reader import ScanWatch
-from plcsim.shared_image.samples import MOST, sample_of
+from plcsim.shared_image.samples import sample_of
 from plcsim.web.service.commander import Commander
 from plcsim.web.service.figures import ClassFigures
+from plcsim.web.service.follower import PROBE, Follower
 from plcsim.web.service.host import processes, versions
 from plcsim.web.service.network import sockets
 from plcsim.web.service.sources import Sources
@@ -60,8 +61,11 @@ class Hub:
         self.given: dict[str, Any] = service.given
         self.page = service.page
         self.values = LiveValues(self.image)
-        self.variables = VariableTree(self.image.directory)
         self.commander = Commander(self.image, service.wake_fd)
+        self.follower = Follower(
+            self.image.directory, self.given["pointers"], self.values, self.commander
+        )
+        self.variables = VariableTree(self.image.directory, self.follower)
         audit = Path(self.given["folder"]) / AUDIT_FILE
         self.audit = LineFile(audit, LARGEST_AUDIT, AUDIT_FILES, service.table)
         self.entries: deque[tuple[int, dict[str, Any]]] = deque(maxlen=ENTRIES)
@@ -139,10 +143,10 @@ class Hub:
         Raises:
             PlcError: they cannot be traced, or too many traces run.
         """
-        free = (n for n in range(SAMPLES + 1, MOST + 1) if n not in self.traces)
+        free = (n for n in range(SAMPLES + 1, PROBE) if n not in self.traces)
         number = next(free, 0)
         if not number:
-            raise PlcError(f"{MOST - SAMPLES} traces run already")
+            raise PlcError(f"{PROBE - SAMPLES - 1} traces run already")
         trace = LiveTrace(number, tags)
         self.traces[number] = trace
         try:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from starlette.websockets import WebSocketDisconnect, WebSocketState
 
-from plcsim.core.errors import PlcError
+from plcsim.core.errors import PlcError, TagError
 from plcsim.web.service.acts import perform, texts_of, whole_of
 from plcsim.web.service.door import Caller
 from plcsim.web.service.traces import MOST_TAGS
@@ -26,6 +26,7 @@ from plcsim.web.service.traces import MOST_TAGS
 if TYPE_CHECKING:
     from starlette.websockets import WebSocket
 
+    from plcsim.core.tag import Tag
     from plcsim.web.service.door import Door
     from plcsim.web.service.hub import Hub
     from plcsim.web.service.traces import LiveTrace
@@ -145,7 +146,7 @@ class BrowserSession:
     async def _do(self, message: dict[str, Any]) -> object:
         match message.get("do"):
             case "watch":
-                return self._watch(texts_of(message, "tags", MOST_WATCHED))
+                return await self._watch(texts_of(message, "tags", MOST_WATCHED))
             case "follow":
                 return self._follow(texts_of(message, "topics", len(TOPICS)))
             case "trace":
@@ -156,14 +157,24 @@ class BrowserSession:
                 return await perform(self._hub, self._caller, name, message)
         raise PlcError("'do' must be the name of an act")
 
-    def _watch(self, paths: list[str]) -> object:
-        """Watch these tags from now on, instead of those before."""
-        tags = [self._hub.image.directory.find(path) for path in paths]
+    async def _watch(self, paths: list[str]) -> object:
+        """Watch these tags from now on, instead of those before; pointers are followed now."""
+        known: dict[str, Tag] = {}
+        tags = [await self._found(path, known) for path in paths]
         before = self._watched
         self._watched = self._hub.values.watch(tags)
         self._sent = [-1] * len(tags)
         self._hub.values.leave(before)
         return {"count": len(tags)}
+
+    async def _found(self, path: str, known: dict[str, Tag]) -> Tag:
+        """Return a variable; where a pointer leads nowhere any more, the pointer itself."""
+        try:
+            return await self._hub.follower.find(path, known)
+        except TagError:
+            if "^" not in path:
+                raise
+            return self._hub.image.directory.find(path.partition("^")[0])
 
     def _follow(self, topics: list[str]) -> object:
         unknown = set(topics) - TOPICS

@@ -115,10 +115,23 @@ class View {
     const add = (row) => { if (last) last.after(row); else body.append(row); last = row; };
     for (const one of children) {
       add(this.row(one, depth, one.name));
-      if (one.kind === "branch" && opened.has(one.path)) last = await this.expand(one.path, depth + 1, body, last);
+      if (opened.has(one.path)) last = await this.unfold(one, depth + 1, body, last);
     }
     if (count > children.length) add(this.more(path, depth, body, children.length, count));
     return last;
+  }
+
+  // what lies in a variable, or where a pointer leads; one that leads nowhere says so
+  async unfold(one, depth, body, after) {
+    if (one.kind === "branch") return this.expand(one.path, depth, body, after);
+    if (!one.pointer) return after;
+    try {
+      return await this.expand(`${one.path}^`, depth, body, after);
+    } catch (error) {
+      const row = h("tr", { "data-under": one.path }, h("td", { class: `name d${Math.min(depth, 8)} muted`, colSpan: 4 }, error.message));
+      after.after(row);
+      return row;
+    }
   }
 
   more(path, depth, body, first, count) {
@@ -135,14 +148,14 @@ class View {
 
   row(one, depth, label) {
     const isBranch = one.kind === "branch";
-    const name = isBranch
+    const name = isBranch || one.pointer
       ? h("button", { class: "twist", "aria-expanded": String(opened.has(one.path)), onclick: (event) => this.twist(one, depth, event) }, label)
       : h("span", { class: "leaf" }, label);
     const value = isBranch ? h("span", { class: "muted" }, one.section ? one.section.replace("VAR_", "").toLowerCase() : "")
       : h("button", { class: "value", "aria-label": `Value of ${one.path}`, onclick: () => change(one, this) }, "…");
     const star = h("button", { class: "star", "aria-label": `Keep ${one.path} in a list`, onclick: () => this.star(one.path, star) }, "☆");
     const row = h("tr", { "data-path": one.path }, h("td", { class: `name d${Math.min(depth, 8)}` }, name), h("td", { class: "end" }, value),
-      h("td", { class: "type muted" }, one.constant ? `CONSTANT ${one.type}` : one.type), h("td", { class: "end" }, isBranch ? null : star));
+      h("td", { class: "type muted" }, one.pointer ? `→ ${one.pointer}` : one.constant ? `CONSTANT ${one.type}` : one.type), h("td", { class: "end" }, isBranch ? null : star));
     if (!isBranch) {
       this.rows.set(one.path, { one, row, value });
       this.drawStar(one.path, star);
@@ -163,12 +176,12 @@ class View {
     remember("opened", [...opened].slice(-200));
     button.setAttribute("aria-expanded", String(!isOpen));
     if (isOpen) this.close(one.path, row);
-    else await attempt(() => this.expand(one.path, depth + 1, row.parentNode, row));
+    else await attempt(() => this.unfold(one, depth + 1, row.parentNode, row));
     this.watch();
   }
 
   close(path, row) {
-    const inside = (each) => each && (each.startsWith(`${path}.`) || each.startsWith(`${path}[`));
+    const inside = (each) => each && [".", "[", "^"].some((sign) => each.startsWith(path + sign));
     while (row.nextSibling && (inside(row.nextSibling.dataset.path) || row.nextSibling.dataset.under === path || inside(row.nextSibling.dataset.under))) {
       this.rows.delete(row.nextSibling.dataset.path);
       row.nextSibling.remove();
@@ -203,8 +216,22 @@ class View {
   showValue(path, value) {
     const found = this.rows.get(path);
     if (!found) return;
-    setText(found.value, shown(value, found.one.kind, formats[path]));
+    const kind = found.one.kind;
+    setText(found.value, shown(value, kind, formats[path] ?? (found.one.pointer ? "hex" : undefined)));
+    if (found.one.pointer && found.to !== value) {
+      const leads = found.to === undefined;
+      found.to = value;
+      if (!leads && opened.has(path)) this.again(found, path);
+    }
     if (found.one.kind === "bool") found.value.classList.toggle("true", value === true);
+  }
+
+  // a pointer that has changed is followed anew
+  async again(found, path) {
+    const depth = Number(/ d(\d)/.exec(found.row.firstChild.className)?.[1] ?? 0);
+    this.close(path, found.row);
+    await this.unfold(found.one, depth + 1, found.row.parentNode, found.row);
+    this.watch();
   }
 
   mark() {
@@ -222,8 +249,8 @@ export function change(one, view = null) {
   dialog(one.path, (box) => {
     const now = h("output", { class: "now num" }, "…");
     const field = fieldFor(one);
-    const mayWrite = link.may("operate") && !one.constant;
-    const mayForce = link.may("engineer") && !one.constant;
+    const mayWrite = link.may("operate") && !one.constant && !one.followed;
+    const mayForce = link.may("engineer") && !one.constant && !one.followed;
     const forced = h("p", { class: "forced-note" });
     const release = h("button", { type: "button", disabled: !mayForce, onclick: () => act("release", "is released") }, "Release");
     const act = async (name, done) => {
@@ -260,7 +287,7 @@ export function change(one, view = null) {
     watching = link.watch([one.path], (_path, value) => drawNow(value));
     draw();
     return h("form", { class: "fields", onsubmit: (event) => { event.preventDefault(); act("write", "is written"); } },
-      h("p", { class: "muted" }, one.type, one.constant ? " · CONSTANT" : ""),
+      h("p", { class: "muted" }, one.type, one.constant ? " · CONSTANT" : "", one.followed ? " · reached by a pointer: shown only" : ""),
       h("div", { class: "now-line" }, h("span", { class: "muted" }, "Now"), now),
       isInteger ? [h("label", { for: "format" }, "Shown as"), format] : null,
       mayWrite ? [h("label", { for: "new-value" }, "New value"), field.shown] : null,

@@ -24,7 +24,13 @@ from plcsim.web.service.door import Caller, Door
 from plcsim.web.service.hub import Hub
 from plcsim.web.settings import WebProject, WebSettings
 from st_types import ARRAY, BOOL, INT, LINT, LREAL, REAL, STRING, TIME, UDINT, Struct, var
-from st_types.types.derived import EnumerationType
+from st_types.types.derived import (
+    ArrayType,
+    EnumerationType,
+    Member,
+    ReferenceType,
+    StructType,
+)
 
 MS = 1_000_000
 MODE = EnumerationType("Mode", {"OFF": 0, "AUTO": 1, "MANUAL": 2})
@@ -34,6 +40,15 @@ T = TypeVar("T")
 class Axis(Struct):
     speed = var(REAL)
     count = var(UDINT)
+
+
+NODE = StructType(
+    "Node",
+    [
+        Member("value", REAL),
+        Member("next", ReferenceType(lambda: NODE, "POINTER TO Node", is_pointer=True)),
+    ],
+)
 
 
 class Site(Program):
@@ -48,6 +63,10 @@ class Site(Program):
     delay = var(TIME, 1500)
     axes = var(ARRAY(Axis, (1, 3)))
     many = var(ARRAY(INT, (0, 1999)))
+    nodes = var(ArrayType(NODE, [(1, 2)]))
+    head = var(ReferenceType(NODE, "POINTER TO Node", is_pointer=True))
+    heads = var(ArrayType(ReferenceType(NODE, "POINTER TO Node", is_pointer=True), [(0, 1)]))
+    limit = var(ReferenceType(REAL, "REFERENCE TO REAL"))
 
     def cyclic(self) -> None:
         self.count += 1

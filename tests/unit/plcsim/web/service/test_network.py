@@ -18,6 +18,7 @@ def test_the_sockets_of_a_process_are_found_with_their_peers():
     assert {each["state"] for each in found} >= {"connected", "listening"}
     assert listening["process"] == "test"
     (end,) = [each for each in found if each["local"] == own]
+    assert end["counts"].bytes_received == 7
     assert end == {
         "process": "test",
         "local": own,
@@ -25,6 +26,7 @@ def test_the_sockets_of_a_process_are_found_with_their_peers():
         "state": "connected",
         "to_send": 0,
         "to_read": 7,
+        "counts": end["counts"],
     }
 
 

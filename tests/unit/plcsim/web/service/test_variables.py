@@ -8,7 +8,7 @@ def test_the_tree_is_unfolded_piece_by_piece(world):
     assert [root["path"] for root in variables.roots()] == ["p"]
     inside = variables.children("p")
     found = {one["name"]: one for one in inside["children"]}
-    assert inside["count"] == len(found) == 11
+    assert inside["count"] == len(found) == 15
     assert found["level"] == {"path": "p.level", "name": "level", "type": "REAL", "kind": "real"}
     assert found["mode"]["names"] == ["OFF", "AUTO", "MANUAL"]
     assert [found[name]["kind"] for name in ("running", "name", "delay", "axes", "small")] == [
