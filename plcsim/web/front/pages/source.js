@@ -2,6 +2,7 @@
 
 import { attempt, h, put, remember, remembered, setText } from "../dom.js";
 import { shown } from "../format.js";
+import { highlighter } from "../highlight.js";
 import { link } from "../link.js";
 import { change } from "./variables.js";
 
@@ -27,8 +28,9 @@ export async function show(page, ears) {
     const paths = [...new Set(read.lines.flatMap(([, names]) => names.map(([, path]) => path)))].slice(0, 1000);
     for (const one of (await attempt(() => link.ask("describe", { tags: paths }))) ?? []) if (one) described.set(one.path, one);
     const cells = new Map();
+    const colour = highlighter(file);
     const body = h("tbody", {}, read.lines.map(([text, names], at) => h("tr", {},
-      h("td", { class: "no" }, String(at + 1)), h("td", { class: "code" }, text),
+      h("td", { class: "no" }, String(at + 1)), h("td", { class: "code" }, colour(text).map(([kind, part]) => (kind ? h("span", { class: `hl-${kind}` }, part) : part))),
       h("td", { class: "values" }, names.filter(([, path]) => described.has(path)).map(([name, path]) => {
         const value = h("span", { class: "num" }, "…");
         if (!cells.has(path)) cells.set(path, []);
