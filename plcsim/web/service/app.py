@@ -1,27 +1,34 @@
 """The pages and the interface for scripts, as an ASGI application.
 
 ``GET /`` and what it names are files of the package; ``/live`` is the WebSocket of the pages;
-``POST /api/NAME`` does one act for a script. Nothing is cached without being asked for again, and
-nothing is loaded from anywhere else: the Content-Security-Policy forbids it.
+``POST /api/NAME`` does one act for a script, ``POST /trace.bag`` gives a trace. Nothing is cached
+without being asked for again, and nothing is loaded from anywhere else: the Content-Security-Policy
+forbids it.
 """
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import json
+import shutil
+import tempfile
+import time
 from http import HTTPStatus
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from starlette.applications import Starlette
+from starlette.background import BackgroundTask
 from starlette.requests import HTTPConnection
-from starlette.responses import JSONResponse, Response
+from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 
 from plcsim.core.errors import PlcError
-from plcsim.web.service.acts import perform, text_of
+from plcsim.web.service.acts import perform, text_of, whole_of
 from plcsim.web.service.door import COOKIE, IDLE_S, RefusedError
 from plcsim.web.service.session import LOGGED_OUT, BrowserSession
+from plcsim.web.service.trace_bag import write_bag
 
 if TYPE_CHECKING:
     from collections.abc import MutableMapping
@@ -30,7 +37,7 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
     from starlette.websockets import WebSocket
 
-    from plcsim.web.service.door import Door
+    from plcsim.web.service.door import Caller, Door
     from plcsim.web.service.hub import Hub
 
 FRONT: Final = Path(__file__).parent.parent / "front"
@@ -88,6 +95,7 @@ def make_app(hub: Hub, door: Door) -> ASGIApp:
         WebSocketRoute("/live", pages.live),
         Route("/login", pages.login, methods=["POST"]),
         Route("/logout", pages.logout, methods=["POST"]),
+        Route("/trace.bag", pages.bag, methods=["POST"]),
         Route("/api/{name}", pages.api, methods=["POST"]),
         Route("/{path:path}", pages.file, methods=["GET", "HEAD"]),
     ]
@@ -133,6 +141,7 @@ class _Pages:
         self._hub = hub
         self._door = door
         self._files = _files()
+        self._writing = asyncio.Lock()
 
     async def file(self, request: Request) -> Response:
         """Return a file of the pages."""
@@ -165,17 +174,42 @@ class _Pages:
         cookie = "" if has_token else socket.cookies.get(COOKIE, "")
         await BrowserSession(self._hub, self._door, socket, caller, cookie).run()
 
-    async def api(self, request: Request) -> Response:
-        """Do one act for a script."""
+    def _caller(self, request: Request) -> Caller:
+        """Return who asks.
+
+        Raises:
+            RefusedError: nobody that is known, or pages of another site do.
+        """
         if "authorization" not in request.headers:
             self._door.check_origin(
                 request.headers, request.url.scheme, needed=COOKIE in request.cookies
             )
-        caller = self._door.caller(request.headers, request.cookies, _peer(request))
+        return self._door.caller(request.headers, request.cookies, _peer(request))
+
+    async def api(self, request: Request) -> Response:
+        """Do one act for a script."""
+        caller = self._caller(request)
         arguments = await _body(request)
         return JSONResponse(
             await perform(self._hub, caller, request.path_params["name"], arguments)
         )
+
+    async def bag(self, request: Request) -> Response:
+        """Return a trace as a bag; one at a time is made."""
+        self._caller(request)
+        key = whole_of(await _body(request), "key", 0, 1 << 62)
+        trace = self._hub.trace_of(key)
+        epoch_ns = time.time_ns() - self._hub.page.elapsed_ns
+        folder = tempfile.mkdtemp(prefix="plcsim-trace-")
+        file = Path(folder) / "trace.bag"
+        gone = BackgroundTask(shutil.rmtree, folder, ignore_errors=True)
+        try:
+            async with self._writing:
+                await asyncio.to_thread(write_bag, file, trace.tags, trace.kept, epoch_ns)
+        except BaseException:
+            await gone()
+            raise
+        return FileResponse(file, media_type="application/octet-stream", background=gone)
 
     async def login(self, request: Request) -> Response:
         """Check a password and give a cookie."""

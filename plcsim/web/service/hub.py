@@ -7,7 +7,7 @@ import contextlib
 import json
 import os
 import time
-from collections import deque
+from collections import OrderedDict, deque
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -41,6 +41,9 @@ ENTRIES: Final = 2000
 """Of the logbook, kept for pages that are opened later."""
 
 VIOLATIONS: Final = 200
+ENDED_TRACES: Final = 4
+"""That can still be had as a bag."""
+
 MOST_AT_ONCE: Final = 20_000
 """Records that are taken before the browsers have their turn again."""
 
@@ -73,6 +76,8 @@ class Hub:
         self.violations: deque[dict[str, Any]] = deque(maxlen=VIOLATIONS)
         self.lost = 0
         self.traces: dict[int, LiveTrace] = {}
+        self.ended: OrderedDict[int, LiveTrace] = OrderedDict()
+        self._last_key = 0
         self.figures = ClassFigures(self.given["classes"], self.given["tasks"])
         self.sources = Sources(Path(self.given["folder"]), self.image.directory)
         self._border: dict[str, Any] = {"time_ns": 0, "topics": [], "idents": {}, "tcp": []}
@@ -154,11 +159,28 @@ class Hub:
         except BaseException:
             self.traces.pop(number, None)
             raise
+        self._last_key += 1
+        trace.key = self._last_key
         return trace
+
+    def trace_of(self, key: int) -> LiveTrace:
+        """Return a trace that runs, or ended not long ago.
+
+        Raises:
+            PlcError: there is none.
+        """
+        running = {trace.key: trace for trace in self.traces.values() if trace.key}
+        found = running.get(key) or self.ended.get(key)
+        if found is None:
+            raise PlcError("this trace is not kept any more; start it again")
+        return found
 
     def end_trace(self, trace: LiveTrace) -> None:
         """LiveTrace no more."""
         if self.traces.pop(trace.number, None) is not None:
+            self.ended[trace.key] = trace
+            if len(self.ended) > ENDED_TRACES:
+                self.ended.popitem(last=False)
             with contextlib.suppress(PlcError):  # the ring is full: what comes is nobody's
                 self.image.send(Cancel(trace.number))
 

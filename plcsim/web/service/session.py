@@ -201,7 +201,7 @@ class BrowserSession:
         number = whole_of(message, "class", 0, 8) or self._hub.class_of(tags)
         trace = await self._hub.start_trace(tags, number)
         self._traces.append(trace)
-        return {"number": trace.number, "class": number}
+        return {"number": trace.number, "key": trace.key, "class": number}
 
     def _untrace(self, number: object) -> object:
         for trace in [each for each in self._traces if each.number == number]:

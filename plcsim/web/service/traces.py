@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from plcsim.core.errors import PlcError
+from plcsim.web.service.trace_bag import KeptSamples
 from st_types.types.derived import EnumerationType, SubrangeType
 from st_types.types.elementary import ElementaryType
 
@@ -57,7 +58,10 @@ class LiveTrace:
 
     Attributes:
         number: as given.
+        key: by which a browser asks for it later; numbers are given again, keys are not.
+        tags: what is drawn.
         spans: what is to be sampled.
+        kept: samples for a bag.
         lost: samples that this browser was too slow for, or that were lost on the way here.
 
     Raises:
@@ -68,6 +72,9 @@ class LiveTrace:
         if not 0 < len(tags) <= MOST_TAGS:
             raise PlcError(f"a trace has 1 to {MOST_TAGS} variables")
         self.number = number
+        self.key = 0
+        self.tags = tuple(tags)
+        self.kept = KeptSamples(sum(tag.data_type.size for tag in tags))
         self.spans = [(tag.address, tag.data_type.size) for tag in tags]
         self.lost = 0
         codes = [(f"f{at}", code_of(tag.data_type)) for at, tag in enumerate(tags)]
@@ -84,6 +91,7 @@ class LiveTrace:
             self._waiting.popleft()
             self.lost += 1
         self._waiting.append((time_ns, sample.cycle, sample.data))
+        self.kept.add(time_ns, sample.cycle, sample.data)
 
     def message(self) -> bytes | None:
         """Return what waits, as one message, None where nothing does.

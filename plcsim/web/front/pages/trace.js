@@ -102,7 +102,7 @@ class View {
     return [
       h("div", { class: "card" },
         h("div", { class: "toolbar" }, this.search, this.found, this.start, field("Window", this.span),
-          h("button", { onclick: () => this.resetZoom() }, "Reset zoom"), h("button", { onclick: () => this.csv() }, "CSV"), h("button", { onclick: () => this.png() }, "PNG")),
+          h("button", { onclick: () => this.resetZoom() }, "Reset zoom"), h("button", { onclick: () => this.csv() }, "CSV"), h("button", { onclick: () => this.png() }, "PNG"), h("button", { onclick: () => attempt(() => this.bag()) }, "Bag")),
         this.chips,
         h("fieldset", { class: "toolbar" }, h("legend", {}, "Trigger"), field("Stop", this.mode), field("Variable", this.source), field("Level", this.level), field("Edge", this.edge), field("Before, %", this.before)),
         this.note),
@@ -169,6 +169,7 @@ class View {
     const answer = await attempt(async () => { await loadUplot(); return link.ask("trace", { tags: this.tags }); });
     if (!answer) return;
     this.number = answer.number;
+    this.key = answer.key;
     this.state = "running";
     setText(this.start, "Stop");
     this.makePlots();
@@ -376,6 +377,13 @@ class View {
     }
     if (lines.length) parts.push(`${lines.join("\n")}\n`);
     download(`${link.facts.project}-trace.csv`, parts, "text/csv");
+  }
+
+  async bag() {
+    if (!this.store?.length) { toast("There is nothing to export yet"); return; }
+    const answer = await fetch("trace.bag", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key: this.key }) });
+    if (!answer.ok) throw new Error((await answer.json()).error);
+    download(`${link.facts.project}-trace.bag`, [await answer.blob()], "application/octet-stream");
   }
 
   png() {

@@ -72,7 +72,7 @@ def test_a_browser_gets_every_cycle_until_it_ends_the_trace(world):
             assert "1 to 32" in (await socket.ask("trace", tags=[]))["error"]
             assert "STRING" in (await socket.ask("trace", tags=["p.name"]))["error"]
             answer = (await socket.ask("trace", tags=["p.count", "p.running"]))["ok"]
-            assert answer == {"number": 17, "class": 1}
+            assert answer == {"number": 17, "key": 1, "class": 1}
             counts = []
             while len(counts) < 300:
                 number, lost, table = columns_of(await socket.data())
