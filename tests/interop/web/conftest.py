@@ -50,6 +50,10 @@ FILES = {
         PROGRAM _INIT
             name := '<img src=x onerror=document.title=1>';
             mode := AUTO;
+            chosen := 1;
+            FOR at := 1 TO 3 DO
+                axes[at].target := 11.0 * at;
+            END_FOR;
         END_PROGRAM
 
         PROGRAM _CYCLIC
@@ -60,6 +64,7 @@ FILES = {
             END_IF;
             wave := SIN(phase);
             is_high := wave > 0.5;
+            nearest ACCESS ADR(axes[chosen]);
             position := REAL_TO_INT(wave * 1000.0);
             IF fail THEN
                 count := count / zero;
@@ -78,6 +83,10 @@ FILES = {
             name : STRING[60];
             mode : Mode;
             axes : ARRAY[1..3] OF Axis;
+            at : INT;
+            chosen : INT;
+            nearest : REFERENCE TO Axis;
+            nowhere : REFERENCE TO Axis;
         END_VAR
     """,
     "Global.typ": """
@@ -121,7 +130,12 @@ class Running:
         self.folder = folder
         command = [sys.executable, "-m", "plcsim", "run", "--web", str(folder), *options]
         self._process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, bufsize=1)
-        self.url = self._wait()
+        try:
+            self.url = self._wait()
+        except BaseException:
+            self._process.kill()
+            self._process.communicate()
+            raise
 
     def _wait(self) -> str:
         """Wait until the pages are served; return their address."""
@@ -175,7 +189,7 @@ def page(browser: Any) -> Iterator[Any]:
     context = browser.new_context(viewport={"width": 1200, "height": 900})
     made = context.new_page()
     faults: list[str] = []
-    made.on("pageerror", lambda error: faults.append(str(error)))
+    made.on("pageerror", lambda error: faults.append(error.stack or str(error)))
     made.on("console", lambda told: faults.append(told.text) if told.type == "error" else None)
     made.set_default_timeout(TIMEOUT_S * 1000)
     made.faults = faults

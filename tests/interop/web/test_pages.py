@@ -9,6 +9,7 @@ import pytest
 
 from plcsim.access import Role, Users
 from plcsim.access.users import users_file
+from plcsim.recorder.bag.reading import open_bag
 
 from .conftest import make_project, running
 
@@ -58,7 +59,7 @@ def unfold(page, path):
 
 def eventually(page, act):
     """Wait until something holds; a value takes a cycle, a snapshot and a message."""
-    for _ in range(100):
+    for _ in range(1000):
         if act():
             return
         page.wait_for_timeout(50)
@@ -152,7 +153,7 @@ def exported(page):
     return lines[0].split(","), [[float(cell) for cell in line.split(",")] for line in lines[1:]]
 
 
-def test_a_trace_has_every_cycle(page, press):
+def test_a_trace_has_every_cycle(page, press, tmp_path):
     trace(page, press, "drive.count", "drive.wave", "drive.is_high")
     page.get_by_role("button", name="Start", exact=True).click()
     status = page.get_by_role("main").get_by_role("status")
@@ -168,6 +169,11 @@ def test_a_trace_has_every_cycle(page, press):
     with page.expect_download() as download:
         page.get_by_role("button", name="PNG").click()
     assert Path(download.value.path()).read_bytes().startswith(b"\x89PNG")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Bag").click()
+    with open_bag(Path(download.value.path()).rename(tmp_path / "trace.bag")) as bag:
+        found = [m.data for m in bag.messages(["/plcsim/cycle"])]
+    assert [int.from_bytes(data, "little") for data in found][: len(cycles)] == cycles
 
 
 def test_a_trigger_stops_a_trace_where_it_is_told(page, press):
@@ -255,6 +261,23 @@ def test_source_shows_values_beside_the_lines(page, press):
     chip.wait_for()
     first = chip.inner_text()
     eventually(page, lambda: chip.inner_text() != first)
+    assert page.locator(".source .hl-keyword", has_text="END_IF").count() == 2
+    assert page.locator(".source .hl-text").inner_text().startswith("'<img src=x")
+
+
+def test_a_pointer_is_followed_and_followed_anew_when_it_changes(page, press):
+    open_page(page, press, "variables")
+    unfold(page, "drive")
+    unfold(page, "drive.nearest")
+    shown = page.get_by_role("button", name="Value of drive.nearest^.target", exact=True)
+    eventually(page, lambda: shown.inner_text() == "11.0")
+    page.get_by_role("button", name="Value of drive.chosen", exact=True).click()
+    page.get_by_label("New value").fill("3")
+    page.get_by_role("button", name="Write").click()
+    eventually(page, lambda: shown.inner_text() == "33.0")
+    page.get_by_role("button", name="Value of drive.nowhere", exact=True).wait_for()
+    unfold(page, "drive.nowhere")
+    page.get_by_text("drive.nowhere points to nothing: it is 0").wait_for()
 
 
 def test_network_lists_this_browser(page, press):
@@ -264,6 +287,8 @@ def test_network_lists_this_browser(page, press):
         page.get_by_role("cell", name=f"[::1]:{port}")
     ).first.wait_for()
     page.get_by_text(re.compile(r"web · \d+ connected")).wait_for()
+    row = page.get_by_role("region", name="Sockets of web").locator("tr", has_text="connected")
+    eventually(page, lambda: re.search(r"[1-9]\d*(\.\d)? K?i?B/s", row.first.inner_text()))
 
 
 def log_in(page, guarded, name, password):

@@ -169,7 +169,7 @@ class View {
     const answer = await attempt(async () => { await loadUplot(); return link.ask("trace", { tags: this.tags }); });
     if (!answer) return;
     this.number = answer.number;
-    this.key = answer.key;
+    this.kept = answer.key;
     this.state = "running";
     setText(this.start, "Stop");
     this.makePlots();
@@ -381,7 +381,7 @@ class View {
 
   async bag() {
     if (!this.store?.length) { toast("There is nothing to export yet"); return; }
-    const answer = await fetch("trace.bag", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key: this.key }) });
+    const answer = await fetch("trace.bag", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ key: this.kept }) });
     if (!answer.ok) throw new Error((await answer.json()).error);
     download(`${link.facts.project}-trace.bag`, [await answer.blob()], "application/octet-stream");
   }
