@@ -80,12 +80,10 @@ def write_bag(path: Path, tags: Sequence[Tag], samples: KeptSamples, epoch_ns: i
                 topics.append((bag.add(each.topic, each.type_name), each))
             start += tag.data_type.size
         for time_ns, cycle, data in samples.rows():
-            bag_ns = epoch_ns + time_ns
-            bag.write(cycles, bag_ns, cycle.to_bytes(8, "little"))
+            row = [(cycles, cycle.to_bytes(8, "little"))]
             for connection, each in topics:
-                bag.write(
-                    connection, bag_ns, each.encode(data[each.start : each.start + each.size])
-                )
+                row.append((connection, each.message(data[each.start : each.start + each.size])))
+            bag.write(epoch_ns + time_ns, row)
         bag.close()
     except OSError as err:
         bag.abandon()
