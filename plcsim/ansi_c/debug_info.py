@@ -26,6 +26,7 @@ _Abbreviation = tuple[int, bool, list[tuple[int, int, int]]]
 (ARRAY, ENUMERATION, MEMBER, POINTER, COMPILE_UNIT) = (0x01, 0x04, 0x0D, 0x0F, 0x11)
 (STRUCTURE, TYPEDEF, UNION, SUBRANGE, BASE) = (0x13, 0x16, 0x17, 0x21, 0x24)
 (CONST, ENUMERATOR, FUNCTION, VARIABLE, VOLATILE) = (0x26, 0x28, 0x2E, 0x34, 0x35)
+ANNOTATION: Final = 0x6000  # DW_TAG_LLVM_annotation
 
 # attributes
 (LOCATION, NAME, SIZE, BIT_SIZE, CONST_VALUE) = (0x02, 0x03, 0x0B, 0x0D, 0x1C)
@@ -81,12 +82,17 @@ class DebugInfo:
                 self._read_unit(reader, start, end)
             reader.offset = end
 
-    def variables(self) -> Iterator[tuple[str, int, DebugEntry]]:
-        """Yield name, offset in the module's data and type of each variable that has a place."""
+    def variables(self) -> Iterator[tuple[str, int, DebugEntry, frozenset[str]]]:
+        """Yield name, offset in the module's data, type and marks of each variable with a place.
+
+        Marks are what ``__attribute__((btf_decl_tag("...")))`` says.
+        """
         for unit in self.units:
             yield from self._variables_in(unit)
 
-    def _variables_in(self, parent: DebugEntry) -> Iterator[tuple[str, int, DebugEntry]]:
+    def _variables_in(
+        self, parent: DebugEntry
+    ) -> Iterator[tuple[str, int, DebugEntry, frozenset[str]]]:
         for entry in parent.children:
             if entry.tag == FUNCTION:
                 yield from self._variables_in(entry)
@@ -97,7 +103,12 @@ class DebugInfo:
             kind = self.type_of(entry) or self.type_of(declared)
             found = _PLACE.fullmatch(place)
             if found and kind and declared.name:  # strings in the text have no name
-                yield declared.name, int.from_bytes(found[1], "little"), kind
+                marks = {
+                    each.attributes.get(CONST_VALUE, "")
+                    for each in (*entry.children, *declared.children)
+                    if each.tag == ANNOTATION and each.name == "btf_decl_tag"
+                }
+                yield declared.name, int.from_bytes(found[1], "little"), kind, frozenset(marks)
 
     def type_of(self, entry: DebugEntry) -> DebugEntry | None:
         """Return the type of a variable, a member, a pointer, a typedef; None for void."""

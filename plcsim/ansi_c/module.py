@@ -149,11 +149,19 @@ class CModule:
 
     def reset(self) -> None:
         """Give all its variables their initial values, as before its first call."""
+        self.initialise()
+        self.construct()
+
+    def initialise(self) -> None:
+        """Give its variables the initial values that the linker knows."""
         memory = self._machine.memory
         memory.write(self.address, bytes(self._linked.memory_size))
         for address, content in initial_values(self._linked, self._placement):
             memory.write(address, content)
         self._relocate()
+
+    def construct(self) -> None:
+        """Run the constructors of C++ of its variables."""
         self._construct()
 
     def location(self, frame: Frame) -> str:

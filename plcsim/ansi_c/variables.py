@@ -84,14 +84,20 @@ def own_variables(
     """
     types = _Types(DebugInfo(module.section), scope)
     found: dict[str, tuple[int, DataType[object]]] = {}
-    for variable, offset, entry in types.info.variables():
+    retained: set[str] = set()
+    for variable, offset, entry, marks in types.info.variables():
+        if "RETAIN" in marks:  # _LOCAL_RETAIN, _GLOBAL_RETAIN
+            retained.add(variable)
         data_type = types.of(entry)
         is_new = variable not in declared and variable not in found
         if is_new and data_type is not None and offset + data_type.size <= module.memory_size:
             found[variable] = offset, data_type
     if not found:
         return None
-    members = [Member(variable, data_type) for variable, (_, data_type) in found.items()]
+    members = [
+        Member(variable, data_type, is_retained=variable in retained)
+        for variable, (_, data_type) in found.items()
+    ]
     offsets = tuple(offset for offset, _ in found.values())
     layout = StructLayout(offsets, module.memory_size, module.memory_alignment)
     return PlacedType(name, members, layout)

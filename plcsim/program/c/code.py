@@ -80,6 +80,7 @@ class CCode:
         if surroundings.heap is not None:
             more.append(surroundings.heap.tag(name))
         units = {unit: _unit(module, unit, site.machine) for unit in Unit}
+        site.memory.at_boot(module.initialise)  # before retained variables get what they had
         units[Unit.INIT] = _fresh(module, surroundings, units[Unit.INIT])
         return Task(
             name,
@@ -116,11 +117,11 @@ def _unit(module: CModule, unit: Unit, machine: Machine) -> Callable[[], None]:
 def _fresh(
     module: CModule, surroundings: ProgramSurroundings, run: Callable[[], None]
 ) -> Callable[[], None]:
-    """Return the unit INIT: before it the program's data and heap are as they were at first."""
+    """Return the unit INIT: before it the heap is as it was at first, and constructors run."""
 
     def init() -> None:
         surroundings.reset()
-        module.reset()
+        module.construct()
         run()
 
     return init

@@ -65,11 +65,11 @@ typedef plcwstring WSTRING;
 /* Variables of the controller. Weak: all files of a program mean the same one by a name, and where
  * a .var declares it, it is that one. `used` tells global ones from local ones. */
 #define _LOCAL __attribute__((weak))
-#define _LOCAL_RETAIN _LOCAL
+#define _LOCAL_RETAIN _LOCAL __attribute__((btf_decl_tag("RETAIN"))) /* goes into the debug information */
 #define _BUR_LOCAL _LOCAL
-#define _BUR_LOCAL_RETAIN _LOCAL
+#define _BUR_LOCAL_RETAIN _LOCAL_RETAIN
 #define _GLOBAL __attribute__((weak, used))
-#define _GLOBAL_RETAIN _GLOBAL
+#define _GLOBAL_RETAIN _GLOBAL __attribute__((btf_decl_tag("RETAIN")))
 #define _GLOBAL_CONST extern const
 #define _LOCAL_CONST static const
 #define _IEC_CONST const

@@ -1,5 +1,12 @@
 """What a run has left is there at the next start, as far as it fits."""
 
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from plcsim.ansi_c.toolchain import find_toolchain
+from plcsim.core.errors import ConfigurationError
 from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project
@@ -7,6 +14,8 @@ from plcsim.retain.service import Keeper
 from plcsim.testing.target import open_plc
 
 from .conftest import PRESS
+
+BOTTLING = Path(__file__).parents[3] / "data" / "automation_studio" / "Bottling"
 
 
 def ran(site, cycles=3):
@@ -98,3 +107,90 @@ def test_on_the_virtual_clock_nothing_is_read_or_written(site):
         plc.run("50ms")
         assert plc["press.began"] == 5
     assert {file: file.read_bytes() for file in site.retain.iterdir()} == before
+
+
+LANGUAGES = {
+    "an .st file": {
+        "press/main.st": """
+            PROGRAM press
+            VAR RETAIN
+                parts : UDINT := 5;
+            END_VAR
+            VAR
+                began : UDINT;
+            END_VAR
+                IF began = 0 THEN
+                    began := parts;
+                END_IF
+                parts := parts + 1;
+            END_PROGRAM
+        """,
+    },
+    "C": {
+        "press/main.c": """
+            #include <bur/plctypes.h>
+            _LOCAL_RETAIN UDINT parts = 5;
+            _GLOBAL_RETAIN UDINT total;
+            _LOCAL UDINT began;
+            void _INIT init(void) { began = parts; }
+            void _CYCLIC cyclic(void) { parts++; total += 2; }
+        """,
+    },
+    "C with a declaration": {
+        "press/Variables.var": "VAR RETAIN parts : UDINT := 5; END_VAR VAR began : UDINT; END_VAR",
+        "press/main.c": """
+            #include <bur/plctypes.h>
+            _LOCAL_RETAIN UDINT parts;
+            _LOCAL UDINT began;
+            void _INIT init(void) { began = parts; }
+            void _CYCLIC cyclic(void) { parts++; }
+        """,
+    },
+}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_language_keeps_its_variables(site, language):
+    if language.startswith("C"):
+        compiler()
+    (site.folder / "press" / "main.py").unlink()
+    (site.folder / "Global.var").unlink()
+    for name, text in LANGUAGES[language].items():
+        (site.folder / name).write_text(textwrap.dedent(text))
+
+    first = ran(site, cycles=4)
+    assert (value(first, "press.began"), value(first, "press.parts")) == (5, 9)
+    again = ran(site, cycles=1)
+    assert (value(again, "press.began"), value(again, "press.parts")) == (9, 10)
+    again.shutdown()
+    again.boot()  # a warm restart, as a page asks for it
+    again.run(cycles=1)
+    assert (value(again, "press.began"), value(again, "press.parts")) == (10, 11)
+    again.shutdown()
+    again.boot(cold=True)
+    again.run(cycles=1)
+    assert (value(again, "press.began"), value(again, "press.parts")) == (5, 6)
+    if language == "C":
+        assert [tag.path for tag in again.retained.tags] == ["press.parts", "press.total"]
+
+
+def compiler():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+
+
+def test_permanent_variables_of_cpu_per_outlive_a_cold_start(site):
+    for file in (site.folder / "press" / "main.py", site.folder / "Global.var"):
+        file.unlink()
+    compiler()
+    (site.folder / "plc.toml").write_text(f'project = "{BOTTLING}"\n[retain]\n')
+    first, service = site.start()
+    first.tags.write(first.tags.find("gTotal"), 77)
+    first.run(cycles=1)
+    service.is_stopping = True
+    Keeper(service).run()
+    again, _ = site.start(cold=True)
+    assert value(again, "gTotal") == 77
+    assert [tag.path for tag in again.retained.tags] == ["gTotal"]
