@@ -17,6 +17,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from plcsim.cli.main import main
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 from tests.ports import free_port
@@ -29,10 +30,12 @@ class Echo(Program):
     wanted = var(REAL)
     seen = var(REAL)
     cycles = var(UDINT)
+    total = var(UDINT, retain=True)
 
     def cyclic(self):
         self.seen = self.wanted
         self.cycles += 1
+        self.total += 1
 """
 
 
@@ -45,7 +48,7 @@ class Site:
         (folder / "echo" / "main.py").write_text(PROGRAM)
         (folder / "plc.toml").write_text(
             f'[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
-            f'programs = ["echo"]\n[web]\nport = {self.port}\nconnections = 20\n{web}'
+            f'programs = ["echo"]\n[web]\nport = {self.port}\nconnections = 20\n{web}[retain]\n'
         )
         self.folder = folder
         self.supervisor = Supervisor(read_project(folder), quiet=True)
@@ -209,6 +212,21 @@ def test_a_service_that_is_killed_comes_back_and_the_scan_goes_on(site):
     assert force == {"path": "echo.wanted", "value": "8.0", "by": "web: local"}
     site.ask("release", tag="")
     assert site.ask("status")["cycles"]["1"]["by_program"] == 0
+
+
+def test_a_warm_start_keeps_what_is_retained_and_a_cold_start_does_not(site):
+    def earlier():
+        """Return the cycles that are counted in total and not in those of this start."""
+        cycles, total = site.ask("read", tags=["echo.cycles", "echo.total"])["values"]
+        return total - cycles
+
+    site.ask("warm_restart")
+    _await(lambda: earlier() > 0)
+    site.ask("cold_restart")
+    _await(lambda: earlier() == 0)
+    values = site.folder / "values.json"
+    _await(lambda: main(["retain", "export", str(site.folder), "-o", str(values)]) == 0)
+    assert json.loads(values.read_text()).keys() == {"echo.total"}
 
 
 def test_pages_over_tls(tmp_path):
