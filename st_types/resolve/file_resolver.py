@@ -18,6 +18,7 @@ from st_types.syntax.tree import (
     FunctionBlockDeclaration,
     FunctionDeclaration,
     NamedType,
+    OpenArraySpecification,
     ReferenceSpecification,
     StringSpecification,
     StructSpecification,
@@ -214,6 +215,9 @@ class FileResolver(ConstantResolver):
         if element is None or len(known) < len(bounds):
             return None
         return self._made(node, lambda: ArrayType(element, known))
+
+    def _open_array(self, node: OpenArraySpecification, _name: str) -> None:
+        self.error(node, "ARRAY[*] is known as a parameter of a FUNCTION in Structured Text only")
 
     def _enter(self, node: Node) -> bool:
         """Count one level of nesting; False, after an error, if it is one too many."""
@@ -413,6 +417,7 @@ _BUILDERS: dict[type, Callable[[FileResolver, Any, str], DataType[object] | None
     NamedType: FileResolver._named_type,
     StringSpecification: FileResolver._string,
     ArraySpecification: FileResolver._array,
+    OpenArraySpecification: FileResolver._open_array,
     ReferenceSpecification: FileResolver._reference,
     SubrangeSpecification: FileResolver._subrange,
     EnumerationSpecification: FileResolver._enumeration,

@@ -22,6 +22,7 @@ from st_types.syntax.tree import (
     Item,
     MemberInitial,
     NamedType,
+    OpenArraySpecification,
     ReferenceSpecification,
     RepeatedInitial,
     StringSpecification,
@@ -147,6 +148,9 @@ class Printer(ExpressionPrinter):
                 return f"{node.name}[{self.expression(node.length)}]"
             case ArraySpecification():
                 bounds = ", ".join(self._range(low, high) for low, high in node.bounds)
+                return f"ARRAY[{bounds}] OF {self.specification(node.element, indent)}"
+            case OpenArraySpecification():
+                bounds = ", ".join("*" * node.dimensions)
                 return f"ARRAY[{bounds}] OF {self.specification(node.element, indent)}"
             case ReferenceSpecification():
                 keyword = node.keyword if node.keyword == "REF_TO" else f"{node.keyword} TO"

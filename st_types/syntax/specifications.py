@@ -13,6 +13,7 @@ from st_types.syntax.tree import (
     EnumerationSpecification,
     EnumerationValue,
     NamedType,
+    OpenArraySpecification,
     ReferenceSpecification,
     StringSpecification,
     StructSpecification,
@@ -222,16 +223,28 @@ class SpecificationParser(InitialParser):
             return self._restricted(self.index - 1, text)
         return NamedType(self.index - 1, text)
 
-    def _array_specification(self) -> ArraySpecification:
+    def _array_specification(self) -> ArraySpecification | OpenArraySpecification:
         at = self.index
         self.index += 1
         self.expect("[", "after ARRAY")
-        bounds = [self._bounds()]
-        while self.accept(","):
+        dimensions = self._open_dimensions()
+        bounds = [] if dimensions else [self._bounds()]
+        while not dimensions and self.accept(","):
             bounds.append(self._bounds())
         self.expect("]", "or ',' after the bounds of an array")
         self.expect("OF", "after the bounds of an array")
-        return ArraySpecification(at, bounds, self.specification())
+        element = self.specification()
+        if dimensions:
+            return OpenArraySpecification(at, dimensions, element)
+        return ArraySpecification(at, bounds, element)
+
+    def _open_dimensions(self) -> int:
+        """Parse ``*, *`` and return the number of dimensions; 0 where there are bounds."""
+        count = int(self.accept("*"))
+        while count and self.accept(","):
+            self.expect("*", "as in all dimensions of an ARRAY that takes any bounds")
+            count += 1
+        return count
 
     def skip_behind(self, end: str) -> None:
         """Step behind the keyword ``end``, or to the end of the text if there is none."""
@@ -248,8 +261,6 @@ class SpecificationParser(InitialParser):
         return self._struct_specification()
 
     def _bounds(self) -> tuple[Expression, Expression]:
-        if self.text == "*":
-            self.fail("ARRAYs without bounds are not supported")
         low = self.expression()
         self.expect("..", "between the bounds of an array")
         return low, self.expression()

@@ -43,6 +43,14 @@ class ArraySpecification(Node):
 
 
 @dataclass(slots=True)
+class OpenArraySpecification(Node):
+    """``ARRAY[*, ...] OF element``: a parameter that takes arrays of any bounds."""
+
+    dimensions: int
+    element: TypeSpecification
+
+
+@dataclass(slots=True)
 class ReferenceSpecification(Node):
     """``REFERENCE TO target``; ``keyword`` is REFERENCE or, from others, POINTER or REF_TO."""
 
@@ -98,6 +106,7 @@ TypeSpecification = (
     NamedType
     | StringSpecification
     | ArraySpecification
+    | OpenArraySpecification
     | ReferenceSpecification
     | SubrangeSpecification
     | EnumerationSpecification

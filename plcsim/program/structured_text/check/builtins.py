@@ -215,7 +215,8 @@ def _operator(name: str, arguments: Sequence[Value]) -> Value | None:
 
 def _calculated(name: str, arguments: Sequence[Value]) -> Value | None:
     """ADD_TIME(t, u) and the like: the operator, of the types that the name says."""
-    return operations.operation(_OPERATORS[_TIME_FUNCTIONS[name]], arguments[0], arguments[1])
+    operator, (left, right) = _OPERATORS[_TIME_FUNCTIONS[name]], arguments
+    return operations.dated(operator, left, right) or operations.operation(operator, left, right)
 
 
 def _moved(_name: str, arguments: Sequence[Value]) -> Value | None:
@@ -290,6 +291,7 @@ RULES: Final[dict[str, Rule]] = {
 """Built-in functions by name in capitals, but for conversions and those of a place in memory."""
 
 EDGES: Final = frozenset(["EDGEPOS", "EDGENEG", "EDGE"])
+BOUNDS: Final = frozenset(["LOWER_BOUND", "UPPER_BOUND"])
 PLACE_FUNCTIONS: Final = frozenset(["ADR", "SIZEOF", "REF", "__ISVALIDREF"])
 """Functions whose argument is a place, not a value."""
 

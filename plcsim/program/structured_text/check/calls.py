@@ -10,6 +10,7 @@ from plcsim.program.structured_text.check.fits import are_alike
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     BOOL,
+    DINT,
     UDINT,
     VOID,
     kind_of,
@@ -17,6 +18,7 @@ from plcsim.program.structured_text.check.kinds import (
 )
 from plcsim.program.structured_text.check.methods import MethodChecker
 from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING, keep_address
+from plcsim.program.structured_text.check.open_arrays import parameters
 from plcsim.program.structured_text.check.standard_names import standard_parameter
 from plcsim.program.structured_text.check.typed import (
     PLACES,
@@ -32,15 +34,20 @@ from plcsim.program.structured_text.check.typed import (
 )
 from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
-from st_types.types.derived import DataBlockType, ReferenceType
+from st_types.syntax.tree import OpenArraySpecification
+from st_types.types.derived import ArrayType, DataBlockType, ReferenceType
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
+    from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.names import ScopeNames
+    from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Value
     from st_types.resolve.declared import DeclaredFunction
     from st_types.syntax.expressions import Expression
+    from st_types.syntax.tree import Declaration
 
 _INPUTS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT"])
 _PARAMETERS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
@@ -87,9 +94,15 @@ class CallChecker(MethodChecker):
 
     Attributes:
         edges: how many edge functions were met in the function block, for its zzEdge members.
+        called_open: functions that take arrays of any bounds, by the names of what was made of them
+            for their calls.
     """
 
     edges = 0
+
+    def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
+        super().__init__(names, findings)
+        self.called_open: dict[str, tuple[OpenFunction, DeclaredFunction]] = {}
 
     def _call(self, node: syntax.Call) -> Value:
         found = self.called(node)
@@ -116,6 +129,8 @@ class CallChecker(MethodChecker):
             return self._place_function(node, upper)
         if upper in builtins.EDGES:
             return self._edge(node, upper)
+        if upper in builtins.BOUNDS and not self.names.scope.dialect.case_sensitive:
+            return self._bound(node, upper)
         rule = builtins.rule_of(name.name)
         if rule is not None:
             return self._builtin(node, upper, rule)
@@ -182,6 +197,23 @@ class CallChecker(MethodChecker):
             return NOTHING
         keep_address(value)
         return Address(UDINT, value)
+
+    def _bound(self, node: syntax.Call, name: str) -> Value:
+        """Check ``LOWER_BOUND(array, dimension)``: the bounds of all arrays are known here."""
+        values = [self.value(each.value) for each in node.arguments if each.value is not None]
+        if any(value.type is VOID for value in values):
+            return NOTHING
+        array = values[0].type if values else VOID
+        number = values[1].value if len(values) == 2 and isinstance(values[1], Constant) else None
+        if not isinstance(array, ArrayType) or not isinstance(number, int):
+            message = f"{name} takes an array and the number of a dimension"
+            self.error(node, FindingCode.WRONG_ARGUMENTS, message)
+            return NOTHING
+        if not 1 <= number <= len(array.bounds):
+            message = f"{array} has no dimension {number}"
+            self.error(node, FindingCode.INDEX_OUTSIDE, message)
+            return NOTHING
+        return Constant(DINT, array.bounds[number - 1][name == "UPPER_BOUND"])
 
     # Edges
 
@@ -263,7 +295,8 @@ class CallChecker(MethodChecker):
         hit = scope.lookup("functions", name.name)
         function = None if hit is None else scope.find_function(name.name)
         if function is None or hit is None:
-            return self._no_function(node, name)
+            found = self.names.symbols.open_functions.get(scope.dialect.key(name.name))
+            return self._no_function(node, name) if found is None else self._open(node, found)
         self.names.check_case(name, hit)
         self.called_functions.add(function.name)
         if function.name == "CONCAT" and not scope.dialect.case_sensitive:
@@ -273,6 +306,42 @@ class CallChecker(MethodChecker):
         if function.node.result is not None and function.result is None:
             self.error(node, FindingCode.UNKNOWN_TYPE, f"the type of {name.name} is not known")
         return Call(result, function, arguments)
+
+    def _open(self, node: syntax.Call, open_function: OpenFunction) -> Value:
+        """Check the call of a function that takes arrays of any bounds."""
+        arrays: dict[str, ArrayType[object]] = {}
+        for each, specification, argument in self._for_open_arrays(node, open_function):
+            given = None if argument is None else argument.value
+            data_type = None if given is None else self.value(given).type
+            count = specification.dimensions
+            if not isinstance(data_type, ArrayType) or len(data_type.bounds) != count:
+                if data_type is not VOID:
+                    dimensions = f"{count} dimension{'' if count == 1 else 's'}"
+                    message = f"{each.name} takes an array of {dimensions}"
+                    self.error(argument or node, FindingCode.WRONG_ARGUMENTS, message)
+                return NOTHING
+            arrays[each.name] = data_type
+        function = open_function.made_for(arrays)
+        if function is None:
+            return NOTHING  # what is wrong was told
+        self.called_open[function.name] = (open_function, function)
+        self.called_functions.add(function.name)
+        arguments = self.arguments_of(node, function)
+        result = VOID if function.result is None else plain(function.result)
+        return Call(result, function, arguments)
+
+    def _for_open_arrays(
+        self, node: syntax.Call, open_function: OpenFunction
+    ) -> Iterator[tuple[Declaration, OpenArraySpecification, syntax.Argument | None]]:
+        """Yield the parameters that are ARRAY[*], each with what the call gives for it."""
+        key_of = self.names.scope.dialect.key
+        named = {key_of(each.name): each for each in node.arguments if each.name}
+        unnamed = [each for each in node.arguments if not each.name]
+        for place, each in enumerate(parameters(open_function.unit.declaration)):
+            specification = each.specification
+            if isinstance(specification, OpenArraySpecification):
+                by_place = unnamed[place] if place < len(unnamed) else None
+                yield each, specification, named.get(key_of(each.name), by_place)
 
     def _no_function(self, node: syntax.Call, name: syntax.Name) -> Value:
         if self.names.value(name) is not None:

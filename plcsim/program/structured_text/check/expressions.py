@@ -378,8 +378,11 @@ class ExpressionChecker:
 
     def _operation(self, node: syntax.Binary, left: Value, right: Value) -> Value:
         left, right = self._operand_of(left), self._operand_of(right)
-        if not self.names.scope.dialect.case_sensitive:
+        if self._is_standard:
             left, right = operations.widened(left, right)
+            date = operations.dated(node.operator, left, right)
+            if date is not None:
+                return date
         if node.operator == "/":
             right = self._checks.divisor(right)
         found = operations.operation(node.operator, left, right)

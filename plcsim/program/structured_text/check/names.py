@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.classes import Classes, ClassInterface
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Storage, Value
     from st_types.resolve.index import IndexEntry, NameSpace
     from st_types.resolve.scope import Scope
@@ -53,6 +54,7 @@ class Symbols:
     Attributes:
         classes: the function blocks whose text is at hand.
         interfaces: by the types of their variables.
+        open_functions: functions that take arrays of any bounds, by how names are compared.
         namespaces: names in capitals that may stand before a name: of namespaces and of files.
     """
 
@@ -60,6 +62,7 @@ class Symbols:
         self.storages = dict(storages)
         self.classes: Classes = {}
         self.interfaces: dict[Type, ClassInterface] = {}
+        self.open_functions: dict[str, OpenFunction] = {}
         self.namespaces: set[str] = set()
         self._symbols: dict[VariableEntry, Symbol] = {}
         self._addresses: DirectAddresses | None = None

@@ -23,7 +23,7 @@ from plcsim.program.structured_text.check.kinds import (
     number_type,
 )
 from plcsim.program.structured_text.check.typed import Binary, Compare, Constant, Unary
-from st_types.types.elementary import INT, LREAL, REAL, SINT
+from st_types.types.elementary import DATE, DATE_AND_TIME, INT, LREAL, REAL, SINT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,6 +35,8 @@ COMPARISONS: Final = frozenset(["=", "<>", "<", ">", "<=", ">="])
 CALCULABLE: Final = NUMBERS | {TypeKind.BOOL}
 """Kinds that calculations take; a BOOL counts as 0 or 1."""
 
+_IN_SECONDS: Final = (DATE, DATE_AND_TIME)
+_MS_PER_S: Final = 1000
 _TIMES: Final = frozenset([TypeKind.TIME, TypeKind.DATE])
 _SHORT = ("AND_THEN", "OR_ELSE")
 LOGIC: Final = frozenset(["AND", "OR", "XOR", "AND_THEN", "OR_ELSE"])
@@ -131,6 +133,24 @@ def operation(operator: str, left: Value, right: Value) -> Value | None:
     if data_type is None or (operator in _SHORT and data_type is not BOOL):
         return None
     return Binary(data_type, operator, left, right)
+
+
+def dated(operator: str, left: Value, right: Value) -> Value | None:
+    """Return a sum or a difference with a DATE or a DT, None for any other operation.
+
+    These count seconds and a TIME milliseconds, which standard files need not know; Automation
+    Studio takes the numbers as they are.
+    """
+    thousand = Constant(ANY_INT, _MS_PER_S)
+    if operator == "+" and left.type is TIME:
+        left, right = right, left
+    if operator not in ("+", "-") or left.type not in _IN_SECONDS:
+        return None
+    if right.type is TIME:
+        return Binary(left.type, operator, left, Binary(TIME, "/", right, thousand))
+    if operator == "-" and right.type is left.type:
+        return Binary(TIME, "*", Binary(TIME, "-", left, right), thousand)
+    return None
 
 
 def compared_type(left: Value, right: Value) -> Type | None:

@@ -21,6 +21,7 @@ from plcsim.program.structured_text.check.classes import (
 from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.kinds import kind_of, plain
 from plcsim.program.structured_text.check.names import BY_ADDRESS, ScopeNames, Symbols, named
+from plcsim.program.structured_text.check.open_arrays import OpenFunction, takes_any_bounds
 from plcsim.program.structured_text.check.programs import (
     ALL_PROGRAMS,
     MeantProgram,
@@ -112,8 +113,13 @@ def unit_scope(
 
 
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:
-    """Return True for a function (block) that has its parameters or its result beside its body."""
+    """Return True for a function (block) that has its parameters or its result beside its body.
+
+    What takes arrays of any bounds is declared for each call.
+    """
     declaration = unit.declaration
+    if isinstance(declaration, FunctionDeclaration) and takes_any_bounds(declaration):
+        return False
     if isinstance(unit, FunctionBlockUnit) and (unit.bases or unit.words or unit.parts):
         return True
     has_result = isinstance(declaration, FunctionDeclaration) and declaration.result is not None
@@ -285,6 +291,12 @@ class _ProgramChecker:
 
     def _function(self, unit: FunctionUnit) -> None:
         name = unit.declaration.name
+        if takes_any_bounds(unit.declaration):
+            if self._is_new(unit, "function", name):
+                key = self._scope.dialect.key(name)
+                found = OpenFunction(unit, self._file, self._scope)
+                self.symbols.open_functions[key] = found
+            return
         function = self._scope.find_function(name)
         if function is None:
             self._undeclared(unit, "FUNCTION", name)
@@ -486,7 +498,21 @@ class _ProgramChecker:
         found = [action for action in called if not action.is_needed]
         for action in found:
             action.is_needed = True
+        found += self._called_open(checker.called_open)
         return [*found, *self._called_methods(checker.called_methods)]
+
+    def _called_open(
+        self, functions: Mapping[str, tuple[OpenFunction, DeclaredFunction]]
+    ) -> Iterator[_Job]:
+        """Yield the functions that are called for the first time with arrays of such bounds."""
+        for label, (made_of, function) in functions.items():
+            if label not in self._methods:
+                self._methods.add(label)
+                self.symbols.storages[function.scope] = "frame"
+                owner, unit = _Owner(function.scope), made_of.unit
+                job = _Job(label, "function", unit, unit.body, made_of.file, owner, function)
+                self._jobs.append(job)
+                yield job
 
     def _called_methods(self, methods: Mapping[str, ClassMethod]) -> Iterator[_Job]:
         """Yield the methods that are called for the first time."""
@@ -526,8 +552,9 @@ class _ProgramChecker:
         if job.function is None or job.function.result is None:
             return None
         data_type = plain(job.function.result)
-        result = typed.Symbol(job.function.name, data_type, "frame", names.scope, used=True)
-        names.values[job.function.name] = named(result)
+        name = job.function.node.name
+        result = typed.Symbol(name, data_type, "frame", names.scope, used=True)
+        names.values[name] = named(result)
         return result
 
     def _variables(self, scope: Scope) -> tuple[list[typed.Symbol], list[typed.Symbol]]:

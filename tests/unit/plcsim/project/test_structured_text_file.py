@@ -104,6 +104,37 @@ def test_large_arrays_at_an_address_are_refused(load_text):
         load_text(text)
 
 
+OPEN = """
+FUNCTION first : INT VAR_IN_OUT a : ARRAY[*] OF INT; i : INT; END_VAR first := a[i]; END_FUNCTION
+PROGRAM p VAR a : ARRAY[2..4] OF INT; m : ARRAY[1..2, 1..2] OF INT; n, i : INT; END_VAR
+n := {};
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (OPEN.format("first(m, i)"), "4:12: error ST3003: a takes an array of 1 dimension"),
+        (OPEN.format("first(n, i)"), "4:12: error ST3003: a takes an array of 1 dimension"),
+        (OPEN.format("first(i := i)"), "error ST3003: a takes an array of 1 dimension"),
+        (OPEN.format("LOWER_BOUND(m, 3)"), "4:17: error ST3014: ARRAY[1..2, 1..2] OF INT has no"),
+        (OPEN.format("UPPER_BOUND(m)"), "error ST3003: UPPER_BOUND takes an array and the number"),
+        ("PROGRAM p VAR a : ARRAY[*] OF INT; END_VAR END_PROGRAM", "error ST1002: ARRAY[*] is"),
+        ("PROGRAM p VAR a : ARRAY[*,2] OF INT; END_VAR END_PROGRAM", "error ST1001: expected '*'"),
+    ],
+)
+def test_arrays_of_any_bounds_are_parameters(load_text, text, told):
+    with pytest.raises(ConfigurationError) as raised:
+        load_text(text)
+    assert told in str(raised.value)
+
+
+def test_an_index_outside_the_bounds_of_what_was_given_ends_the_program(load_text):
+    controller, _ = run(load_text(OPEN.format("first(a, i)")), 1)
+    assert "plant.st:2" in str(controller.fault)
+
+
 def test_without_a_configuration_every_program_runs_in_class_1(load_text):
     text = PLANT[: PLANT.index("CONFIGURATION")] + "VAR_GLOBAL level : INT; END_VAR\n"
     controller, value = run(load_text(text, cycle_ns=5 * MS), 2)
