@@ -397,6 +397,7 @@ class Supervisor:
             "fault": fault_report(fault),
             "elapsed_ns": self.page.elapsed_ns,
             "memory_bytes": 0,
+            "heaps": [],
             "task_classes": [],
             "violations": [],
             "logbook": [*map(entry_report, entries), entry],

@@ -1,7 +1,6 @@
 """Two programs in two task classes share a global variable, seen and written over Modbus."""
 
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -13,6 +12,7 @@ from plcsim.modbus.service.errors import ModbusException
 from plcsim.modbus.testing import Modbus
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.target import open_plc
+from tests.ports import free_port
 
 FILES = {
     "plc.toml": """
@@ -87,8 +87,7 @@ def test_in_virtual_time(folder):
 @pytest.fixture
 def served(folder):
     """The project as it runs with its service: a client, and the process."""
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        port = probe.getsockname()[1]
+    port = free_port()
     plc_toml = folder / "plc.toml"
     plc_toml.write_text(plc_toml.read_text().replace("port = 0", f"port = {port}"))
     command = [sys.executable, "-m", "plcsim", "run", "--quiet", str(folder)]

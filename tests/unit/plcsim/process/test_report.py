@@ -36,6 +36,7 @@ REPORT = {
     "fault": object,
     "elapsed_ns": int,
     "memory_bytes": int,
+    "heaps": list,
     "task_classes": [
         {
             "number": int,

@@ -4,6 +4,7 @@ from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
+from plcsim.process.report import report
 from plcsim.program.c.language import C_LANGUAGE
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
@@ -323,4 +324,17 @@ def test_the_use_of_the_heap_is_a_variable_of_the_program(run, value):
     assert use == {"Size": 4096, "Used": 1000, "Most": 3000, "Areas": 1, "Refused": 0}
     controller.run(cycles=10)
     assert value(controller, "main.plc_heap.Refused") > 0
+
+
+def test_the_report_tells_what_has_leaked(run):
+    text = (
+        "#include <bur/plctypes.h>\n#include <stdlib.h>\nunsigned long bur_heap_size = 4096;\n"
+        "void *held;\n"
+        "void _INIT i(void) { held = malloc(1000); malloc(200); }\n"
+        "void _CYCLIC c(void) { free(held); held = 0; }\n"
+    )
+    controller = run({"main/Main.c": text}, cycles=1)
+    assert report(controller, "cell", 0, [])["heaps"] == [
+        {"program": "main", "size": 4096, "used": 200, "most": 1200, "areas": 1, "refused": 0}
+    ]
     assert controller.state is State.RUN
