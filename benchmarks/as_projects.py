@@ -6,8 +6,9 @@ Each project is copied, as programs may write files beside it. A process of its 
 all of its configurations, or with the one that runs by default, then runs what can run on a virtual
 clock, and says in one line: tasks that run, of how many; blocks and functions that are simulated or
 idle; how long it ran until SERVICE, or the end; how many tasks move, which is that at least one of
-their variables or of their instances changed after the first second; how many bytes those are.
-Below it stand the reasons of what does not run, and tasks that stand still.
+their own variables or instances changed after the first second; how many bytes those are, and how
+many bytes of global variables. Below it stand the reasons of what does not run, and the tasks that
+stand still.
 """
 
 from __future__ import annotations
@@ -40,11 +41,11 @@ RUN_S: Final = 600
 WALL_S: Final = 180
 """Time of the wall that a project gets for its run."""
 
+GLOBAL: Final = "global variables"
 LARGEST_BYTES: Final = 3 << 30
 NOT_COPIED: Final = ("Temp", "Binaries", "Diagnosis", ".git")
-HEAD: Final = (
-    f"{'project':<44}{'load':>8}{'tasks':>10}{'stubs':>7}{'ran':>9}{'moves':>9}{'bytes':>9}"
-)
+COLUMNS: Final = ("load", "tasks", "stubs", "ran", "moves", "bytes", "global")
+HEAD: Final = f"{'project':<44}" + "".join(f"{name:>9}" for name in COLUMNS)
 MOST: Final = 6
 
 
@@ -73,6 +74,7 @@ class Movement:
             task.name: [area for area in task.areas if not area.is_constant]
             for task in controller.tasks
         }
+        self._areas[GLOBAL] = [a for a in controller.areas if not a.path and not a.is_constant]
         self._before = {name: self._read(name) for name in self._areas}
         self.changed: dict[str, set[int]] = {name: set() for name in self._areas}
 
@@ -113,16 +115,17 @@ def one(folder: Path, configuration: str, run_s: int, wall_s: int) -> None:
     load_s = time.process_time() - start
     good = [row for row in found.rows if not row.reasons]
     stubs = len({(each.library, each.name) for each in found.stubs})
-    head = f"{name:<44}{load_s:>6.1f} s{f'{len(good)}/{len(found.rows)}':>10}{stubs:>7}"
+    head = f"{name:<44}{load_s:>7.1f} s{f'{len(good)}/{len(found.rows)}':>9}{stubs:>9}"
     ran, moves = _ran(folder, configuration, run_s, wall_s) if good else ("-", None)
     short = ran.partition(":")[0]
     if moves is None:
         print(f"{head}{short:>9}", flush=True)
     else:
+        shared = len(moves.changed.pop(GLOBAL))
         moving = sum(1 for places in moves.changed.values() if places)
         total = sum(map(len, moves.changed.values()))
         share = f"{moving}/{len(moves.changed)}"
-        print(f"{head}{short:>9}{share:>9}{total:>9}", flush=True)
+        print(f"{head}{short:>9}{share:>9}{total:>9}{shared:>9}", flush=True)
     reasons = [
         f"{row.entry.name}: {row.reasons[0].splitlines()[0]}" for row in found.rows if row.reasons
     ]

@@ -28,7 +28,7 @@ from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from plcsim.library.executable import BodyLanguage
@@ -101,6 +101,7 @@ class ProgramLoader:
     Args:
         layout: where the sources of the project lie.
         languages: that programs may be written in.
+        progress: told how many programs are loaded, and of how many, after each.
 
     Attributes:
         declarations: of the project.
@@ -111,8 +112,14 @@ class ProgramLoader:
         ConfigurationError: two libraries have one name.
     """
 
-    def __init__(self, layout: SourceLayout, languages: Sequence[Language] = LANGUAGES) -> None:
+    def __init__(
+        self,
+        layout: SourceLayout,
+        languages: Sequence[Language] = LANGUAGES,
+        progress: Callable[[int, int], None] = lambda _done, _all: None,
+    ) -> None:
         self._layout = layout
+        self._progress = progress
         self._languages = languages
         self.warnings: list[str] = []
         self.package = f"plcsim_project_{next(_counter)}"
@@ -209,12 +216,22 @@ class ProgramLoader:
         """
         others = self._half(names) if can_help() else []
         if len(others) < FEWEST_FOR_HELP:
-            return {name: self._tried(name) for name in names}
+            return self._try_each(names, 0, len(names))
         first = [name for name in names if name not in set(others)]
         with helper_process(lambda: [self._tried(name) for name in others]) as wait:
-            found = {name: self._tried(name) for name in first}
+            found = self._try_each(first, 0, len(names))
             wait()
-        return {**found, **{name: self._tried(name) for name in others}}
+        return {**found, **self._try_each(others, len(first), len(names))}
+
+    def _try_each(
+        self, names: Sequence[str], done: int, total: int
+    ) -> dict[str, ProgramCode | tuple[str, ...]]:
+        """Return some of the programs, of which ``done`` others came before."""
+        found = {}
+        for count, name in enumerate(names, done + 1):
+            found[name] = self._tried(name)
+            self._progress(count, total)
+        return found
 
     def _half(self, names: Sequence[str]) -> list[str]:
         """Return the programs with half of the text of those whose code a cache keeps."""

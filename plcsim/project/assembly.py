@@ -7,6 +7,7 @@ controller of a project gets it here, so that a project is the same thing everyw
 from __future__ import annotations
 
 import itertools
+import sys
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -49,6 +50,10 @@ if TYPE_CHECKING:
 
 VIRTUAL_IP: Final = "192.168.0.10"
 """Address of the controller on a virtual network."""
+
+
+MANY_PROGRAMS: Final = 30
+"""Programs of which a person at a terminal is told how many are loaded."""
 
 
 def _nothing() -> None:
@@ -127,7 +132,7 @@ def load(project: Project, *, watched: bool = False, errors_fd: int | None = 2) 
     wrong = _wrong_before(project)
     layout = project.layout
     usable = {name: place for name, place in layout.programs.items() if name not in wrong}
-    loader = ProgramLoader(replace(layout, programs=usable))
+    loader = ProgramLoader(replace(layout, programs=usable), progress=_tell_progress)
     try:
         with nullcontext() if watched else _limit(project, errors_fd):
             return _load(project, loader, wrong)
@@ -151,6 +156,15 @@ def _limit(project: Project, errors_fd: int | None) -> Iterator[None]:
     limit_ns, folder = project.load_timeout_ns, project.folder.resolve()
     with last_resort(limit_ns, folder, not_loaded(project), errors_fd), time_limit(limit_ns):
         yield
+
+
+def _tell_progress(done: int, total: int) -> None:
+    """Say on a terminal how far loading is, where there are many programs."""
+    if total < MANY_PROGRAMS or not sys.stderr.isatty():
+        return
+    end = "" if done < total else "\r\x1b[K"
+    sys.stderr.write(f"\r{done} of {total} programs are loaded{end}")
+    sys.stderr.flush()
 
 
 def _first(error: BaseException) -> BaseException:

@@ -28,11 +28,13 @@ class DocumentError(Exception):
 
     Attributes:
         line: where, 0 where it is the whole file.
+        root: what was read before, of a file that was saved half; None for nothing.
     """
 
-    def __init__(self, message: str, line: int = 0) -> None:
+    def __init__(self, message: str, line: int = 0, root: XmlElement | None = None) -> None:
         super().__init__(message)
         self.line = line
+        self.root = root
 
 
 @dataclass(slots=True)
@@ -98,7 +100,7 @@ def parse(data: bytes) -> XmlElement:
         builder.parser.Parse(data, True)  # noqa: FBT003  # expat takes no names
     except expat.ExpatError as err:
         message = expat.ErrorString(err.code)
-        raise DocumentError(f"it is no XML: {message}", err.lineno) from None
+        raise DocumentError(f"it is no XML: {message}", err.lineno, builder.complete()) from None
     except (LookupError, ValueError) as err:
         raise DocumentError(f"it is no XML: {err}", builder.line) from None
     assert builder.root is not None  # or expat had found no element
@@ -121,6 +123,12 @@ class _Builder:
     @property
     def line(self) -> int:
         return self.parser.CurrentLineNumber
+
+    def complete(self) -> XmlElement | None:
+        """Return what was read up to here, without the element that has not ended."""
+        if len(self._open) > 1 and not self._open[-1].children:
+            self._open[-2].children.remove(self._open[-1])
+        return self.root
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         if len(self._open) >= MAX_DEPTH:

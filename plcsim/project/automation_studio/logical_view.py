@@ -229,17 +229,21 @@ class _Reader:
         if file.resolve() in self._seen:
             return self._broken(None, file, 0, "it is listed twice, or lists itself")
         self._seen.add(file.resolve())
+        wrong: tuple[Finding, ...] = ()
         try:
             root = read_document(file)
         except DocumentError as err:
-            return self._broken(file, file, err.line, str(err))
+            broken = self._broken(file, file, err.line, str(err))
+            if lists != (PACKAGE_LIST,) or err.root is None:
+                return broken  # half of a program would be another one
+            wrong, root = broken.missing, err.root
         found = [(item, self._path_of(folder, item)) for item in _objects(root)]
         missing = [_missing(file, item) for item, path in found if path is None]
         self.findings += missing
         return _List(
             file,
             tuple(_renamed(item, path) for item, path in found if path is not None),
-            tuple(missing),
+            (*wrong, *missing),
             tuple(each.get("ObjectName") for each in root.all("Dependency")),
         )
 

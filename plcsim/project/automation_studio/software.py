@@ -44,14 +44,21 @@ class Software(NamedTuple):
 
 
 def read_software(file: Path) -> tuple[Software, list[Finding]]:
-    """Read Cpu.sw; tasks of technology packages, which have no source, are left out."""
+    """Read Cpu.sw; tasks of technology packages, which have no source, are left out.
+
+    Of a file that was saved half the tasks that are in it are read.
+    """
+    findings: list[Finding] = []
+    root: XmlElement | None
     try:
         root = read_document(file)
     except DocumentError as err:
-        return Software(), [Finding(file, err.line, str(err))]
+        findings.append(Finding(file, err.line, str(err)))
+        root = err.root
+    if root is None:
+        return Software(), findings
     tasks: list[TaskLine] = []
     disabled: list[str] = []
-    findings: list[Finding] = []
     for element in root.all("TaskClass"):
         number = _CLASS.fullmatch(element.get("Name").strip())
         for task in element.all("Task"):

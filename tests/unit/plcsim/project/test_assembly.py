@@ -1,5 +1,6 @@
 """A project becomes a controller, in one way for all who need one."""
 
+import io
 import os
 import sys
 
@@ -153,3 +154,27 @@ def test_programs_that_do_not_return_are_ended(application):
         ConfigurationError, match=r"main\.py:2: the programs were not loaded within"
     ):
         application("[plc]\ninit_timeout = '20ms'\n" + MAIN, main="\nwhile True: pass\n")
+
+
+class Terminal(io.StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def test_a_person_is_told_how_many_programs_are_loaded(application, monkeypatch):
+    two = CLASS + 'programs = ["main", "other"]\n'
+    monkeypatch.setattr(assembly, "MANY_PROGRAMS", 2)
+    for stream, told in ((Terminal(), True), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        application(two, other=PROGRAM)
+        parts = stream.getvalue().split("\r")
+        assert parts == (
+            ["", "1 of 2 programs are loaded", "2 of 2 programs are loaded", "\x1b[K"]
+            if told
+            else [""]
+        )
+    monkeypatch.setattr(sys, "stderr", few := Terminal())
+    application()
+    assert few.getvalue() == ""

@@ -123,6 +123,26 @@ def test_a_list_that_cannot_be_read(
     assert finding.missing == ""
 
 
+def test_a_package_saved_half_has_what_its_list_names_before_that(write: Write) -> None:
+    listed = listing(entry("File", "a.typ"), entry("Program", "P"), entry("File", "last.typ"))
+    half = listing(entry("File", "b.st"), entry("File", "c.st"))
+    folder = write(
+        {
+            "Package.pkg": listed[: listed.index("st.typ")],
+            "a.typ": "",
+            "P/IEC.prg": half[: half.index("c.st") + 2],
+            "P/b.st": "",
+        }
+    )
+    view = read_logical_view(folder)
+    assert [file.name for file in view.root.files] == ["a.typ"]
+    assert [each.name for each in view.root.programs] == ["P"]
+    (program,) = view.root.programs
+    assert program.files == ()
+    assert {each.file.name for each in view.findings} == {"Package.pkg", "IEC.prg"}
+    assert all(each.message.startswith("it is no XML: ") for each in view.findings)
+
+
 def test_what_is_not_there_is_told_and_the_rest_is_read(write: Write) -> None:
     folder = write(
         {

@@ -46,3 +46,13 @@ def test_a_file_that_is_no_xml(write):
     found, (finding,) = read_software(write({"Cpu.sw": "<SwConf"}) / "Cpu.sw")
     assert found.tasks == ()
     assert str(finding).endswith("Cpu.sw:1: error: it is no XML: unclosed token")
+
+
+def test_a_file_saved_half_has_the_tasks_before_that(write):
+    text = """<SwConfiguration>
+<TaskClass Name="Cyclic#1"><Task Name="a" Source="a.prg"/><Task Name="b" Source="b.prg"/>
+</TaskClass>
+<TaskClass Name="Cyclic#2"><Task Name="c" Sou"""
+    found, (finding,) = read_software(write({"Cpu.sw": text}) / "Cpu.sw")
+    assert [(task.name, task.task_class) for task in found.tasks] == [("a", 1), ("b", 1)]
+    assert (finding.line, finding.severity) == (4, "error")
