@@ -43,8 +43,8 @@ from crosnode.transport.budget import UNPACED
 HERE = Path(__file__).parent
 PYTHON = "/usr/bin/python3"
 SIZES = {"String 16 B": (STRING, 16), "1 MB": (BYTES, 1_000_000)}
-SHARES = {"String 16 B": 1.0, "1 MB": 1.0}
-"""What ours -> ours shall reach of rospy -> rospy."""
+SHARE = 1.0
+"""What ours shall reach of rospy -> rospy: unpaced, and as a subscriber in a scan."""
 
 RIVALS = ("rospy", "roscpp")
 SCANS = {"ours, 1 ms": 1_000_000, "ours, 10 ms": 10_000_000}
@@ -292,14 +292,23 @@ def print_rates(rates: Rates) -> None:
 
 
 def found_targets(rates: Rates) -> list[Target]:
-    """Return the targets against rospy; roscpp is a yardstick without a target."""
-    ours = Pair("ours", "ours")
-    shares = {name: ratio(rates, name, ours, "rospy") for name in SIZES}
+    """Return the targets against rospy, outside of a scan and in one with default limits.
+
+    roscpp is a yardstick without a target.
+    """
+    pairs = [Pair("ours", "ours"), *(Pair("rospy", scan) for scan in SCANS)]
+    shares = {
+        (name, pair): ratio(rates, name, pair, "rospy")
+        for name in SIZES
+        for pair in pairs
+        if (name, pair) in rates
+    }
     return [
-        Target(f"{name}: ours / rospy", share, SHARES[name], "x", at_least=True)
-        for name, share in shares.items()
+        Target(f"{name}: {pair.publisher} > {pair.subscriber} / rospy", share, SHARE, "x",
+               at_least=True)
+        for (name, pair), share in shares.items()
         if share is not None
-    ]
+    ]  # fmt: skip
 
 
 def main() -> int:

@@ -31,6 +31,11 @@ class Border:
         if self._traffic is not None:
             self._traffic.ends[self._topic] = ends
 
+    @property
+    def is_followed(self) -> bool:
+        """Whether anybody is told."""
+        return bool(self._followers)
+
     def open(self, inlet: Callable[[bytes], None]) -> None:
         """Take messages that are handed in, past the network."""
         if self._traffic is not None:

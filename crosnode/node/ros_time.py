@@ -82,11 +82,12 @@ class RosTime:
         if packet is None or packet is self._seen:
             return
         self._seen = packet
+        body, peer = packet
         try:
-            self._simulated_ns = clock.message_type.decode(packet.body).clock.to_ns()
+            self._simulated_ns = clock.message_type.decode(body).clock.to_ns()
         except DecodeError as error:
-            if packet.peer is not None:
-                packet.peer.drop(str(error))
+            if peer is not None:
+                peer.drop(str(error))
 
     def _ask(self) -> None:
         question = self._question

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, NamedTuple
+from itertools import repeat
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from crosnode.errors import DecodeError
 from crosnode.node.publisher_link import PublisherLink
@@ -29,11 +30,8 @@ Each has its part in every step, and a controller has fewer sockets by default.
 """
 
 
-class QueuedMessage(NamedTuple):
-    """A message as it came, and where from; None for one that was handed in."""
-
-    body: bytes | memoryview
-    peer: PublisherLink | None
+QueuedMessage: TypeAlias = "tuple[bytes | memoryview, PublisherLink | None]"
+"""A message as it came, and where from; None for one that was handed in."""
 
 
 class Subscriber:
@@ -84,30 +82,32 @@ class Subscriber:
         Bytes that are no message of the type are passed over, and their connection ends.
         """
         while (packet := self.queue.pop()) is not None:
+            body, peer = packet
             try:
-                return self.message_type.decode(packet.body)
+                return self.message_type.decode(body)
             except DecodeError as error:
                 self.bad_messages += 1
                 self.core.tell(StatusKind.BAD_MESSAGE, self.topic, str(error))
-                if packet.peer is not None:
-                    packet.peer.drop(str(error))
+                if peer is not None:
+                    peer.drop(str(error))
         return None
 
     def pop_raw(self) -> bytes | memoryview | None:
         """Return the oldest message as bytes, None where there is none."""
         packet = self.queue.pop()
-        return packet.body if packet else None
+        return packet[0] if packet else None
 
     def receive(self, bodies: Sequence[bytes | memoryview], publisher: PublisherLink) -> None:
         """Put messages into the program's queue."""
-        for body in bodies:
-            self._border.cross(body)
-        self.queue.extend([QueuedMessage(body, publisher) for body in bodies])
+        if self._border.is_followed:
+            for body in bodies:
+                self._border.cross(body)
+        self.queue.extend([*zip(bodies, repeat(publisher))])
 
     def take(self, body: bytes) -> None:
         """Put a message into the program's queue that came past the network, from a recording."""
         self._border.cross(body)
-        self.queue.push(QueuedMessage(body, None))
+        self.queue.push((body, None))
 
     def registered(self, uris: Value) -> None:
         """Take the publishers from the answer to the registration.

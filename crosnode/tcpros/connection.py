@@ -123,6 +123,21 @@ class TcprosConnection(ProtocolConnection):
             self._reader.feed(data)
             self._is_drained = False
 
+    @property
+    def next_read(self) -> int:
+        """Little behind a large message: the next one may be large as well."""
+        return self._reader.next_read
+
+    @property
+    def room(self) -> memoryview | None:
+        """Where the rest of a large message goes."""
+        return self._reader.room
+
+    def filled(self, size: int) -> None:
+        """Note bytes of a large message."""
+        self._reader.filled(size)
+        self._is_drained = False
+
     def receive_eof(self) -> None:
         """Take the end of the stream; then call ``next_event`` as for bytes."""
         self._reader.feed_eof()

@@ -12,6 +12,7 @@ from sys import getrefcount
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import TcprosError
+from crosnode.transport.connection import MOST_READ
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -20,6 +21,9 @@ _LENGTH: Final = struct.Struct("<I")
 
 LARGE: Final = 1 << 16
 """Bytes; larger blocks go to memory of their own as they come."""
+
+BEHIND_LARGE: Final = 4_096
+"""Bytes that are read behind a large block, to learn the length of the next one."""
 
 KEPT: Final = 3
 """Memories that a reader keeps for the next large blocks."""
@@ -88,11 +92,16 @@ class LargeBlock:
 
 
 class ByteReader:
-    """Bytes received and not parsed yet, and whether the peer has closed."""
+    """Bytes received and not parsed yet, and whether the peer has closed.
 
-    __slots__ = ("_buffer", "_eof", "_large", "_memory")
+    Attributes:
+        next_read: bytes that the next read should ask for at most.
+    """
+
+    __slots__ = ("_buffer", "_eof", "_large", "_memory", "next_read")
 
     def __init__(self) -> None:
+        self.next_read = MOST_READ
         self._buffer = bytearray()
         self._eof = False
         self._large: LargeBlock | None = None
@@ -103,9 +112,21 @@ class ByteReader:
 
     def feed(self, data: bytes | bytearray | memoryview) -> None:
         """Add received bytes; they are copied, so ``data`` may change afterwards."""
+        self.next_read = MOST_READ
         if self._large is not None:
             data = self._large.fill(memoryview(data))
         self._buffer += data
+
+    @property
+    def room(self) -> memoryview | None:
+        """Where the rest of a large block goes, None where none is being filled."""
+        large = self._large
+        return None if large is None or large.is_full else large.data[large.have :]
+
+    def filled(self, size: int) -> None:
+        """Note that bytes of a large block lie in their ``room``."""
+        assert self._large is not None
+        self._large.have += size
 
     def feed_eof(self) -> None:
         """Note that no more bytes will come."""
@@ -157,6 +178,7 @@ class ByteReader:
                 raise TcprosError(f"connection closed after {block.have} of {size} bytes")
             yield
         self._large = None
+        self.next_read = BEHIND_LARGE
         return block.data.toreadonly()
 
     def large_block(self, limit: int, what: str) -> Generator[None, None, bytes | memoryview]:

@@ -12,10 +12,14 @@ from typing import Final, NamedTuple
 POLL_WORK: Final = 1_024
 """Price of looking at a connection."""
 
+LARGE_SHARE: Final = 8
+"""Bytes of a large message, which go between the socket and their place without a copy in pieces
+of up to a mebibyte, that cost as much as one byte of others."""
+
 TRANSFER_WORK: Final = 8_192
 """Price of a read that gave bytes and of a write, beside the bytes."""
 
-MESSAGE_WORK: Final = 2_048
+MESSAGE_WORK: Final = 384
 """Price of a message of a topic that comes in, beside its bytes."""
 
 REQUEST_WORK: Final = 4_096
@@ -45,10 +49,10 @@ class StepLimits(NamedTuple):
         work: all of it together, at the prices above.
     """
 
-    bytes_in: int = 131_072
-    bytes_out: int = 131_072
+    bytes_in: int = 1_048_576
+    bytes_out: int = 1_048_576
     bytes_parsed: int = 8_192
-    messages: int = 200
+    messages: int = 256
     accepts: int = 4
     calls: int = 4
     polls: int = 32
@@ -101,7 +105,13 @@ class StepBudget:
 
     def at_most(self, size: int) -> int:
         """Return how many of ``size`` bytes may be moved, by the work that is left."""
-        allowed = min(size, self.work)
+        return self._allowed(min(size, self.work))
+
+    def at_most_large(self, size: int) -> int:
+        """Return how many of ``size`` bytes of a large message may be moved."""
+        return self._allowed(min(size, self.work * LARGE_SHARE))
+
+    def _allowed(self, allowed: int) -> int:
         if allowed <= 0:
             self.is_short = True
         return allowed

@@ -14,12 +14,16 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import Enum, auto
-from typing import TYPE_CHECKING, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Final, TypeAlias
 
 from crosnode.transport.transitions import Transitions, next_state
 
 if TYPE_CHECKING:
     from crosnode.transport.dyn_buffer import Data
+
+
+MOST_READ: Final = 1 << 20
+"""Bytes; more than one read gives."""
 
 
 class ConnectionState(Enum):
@@ -115,6 +119,20 @@ class ProtocolConnection(ABC):
     @abstractmethod
     def receive_data(self, data: Data) -> None:
         """Take received bytes; what is kept of them is copied. Then call ``next_event``."""
+
+    @property
+    def next_read(self) -> int:
+        """Bytes that the next read should ask for at most, where there is no ``room``."""
+        return MOST_READ
+
+    @property
+    def room(self) -> memoryview | None:
+        """Where the bytes of a large message are to be written; None where none is expected."""
+        return None
+
+    def filled(self, size: int) -> None:
+        """Note that bytes were written to ``room``; then call ``next_event`` as for bytes."""
+        raise NotImplementedError(f"{type(self).__name__} gives no room.")
 
     @abstractmethod
     def receive_eof(self) -> None:

@@ -8,6 +8,7 @@ indicator of the thesis is its front: what has been taken is gone.
 from __future__ import annotations
 
 from collections import deque
+from itertools import islice
 from typing import Final, TypeAlias
 
 Data: TypeAlias = bytes | bytearray | memoryview
@@ -45,6 +46,19 @@ class DynBuffer:
             self._pieces.append(data)
             self.size += size
         return True
+
+    @property
+    def front_size(self) -> int:
+        """Bytes of the first piece, 0 where there is none."""
+        return len(self._pieces[0]) if self._pieces else 0
+
+    def has_large_piece(self, size: int) -> bool:
+        """Whether the first or the second piece, behind a length, has so many bytes."""
+        return any(len(piece) >= size for piece in islice(self._pieces, 2))
+
+    def front(self, size: int) -> memoryview:
+        """Return up to ``size`` bytes of the first piece and keep them; there is one."""
+        return memoryview(self._pieces[0])[:size]
 
     def peek(self, size: int) -> Data:
         """Return up to ``size`` bytes from the front and keep them."""

@@ -10,10 +10,10 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
 from crosnode.graph.uri import make_authority
-from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK, TRANSFER_WORK
+from crosnode.transport.budget import CONNECTION_WORK, LARGE_SHARE, POLL_WORK, TRANSFER_WORK
 from crosnode.transport.connection import ConnectionState, Failed, Progress
 from crosnode.transport.dyn_buffer import DynBuffer
-from crosnode.transport.tcpip_socket import AREA_SIZE, TcpipSocketState
+from crosnode.transport.tcpip_socket import AREA_SIZE, LARGE_PIECE, TcpipSocketState
 from crosnode.transport.transitions import Transitions, next_state
 
 if TYPE_CHECKING:
@@ -233,8 +233,11 @@ class PeerLink:
 
     def _receive(self, now_ns: int, budget: StepBudget) -> bool:
         """Take what the socket has and the events of it; return whether it may have more."""
+        room = self.connection.room
+        if room is not None:
+            return self._fill_message(room, now_ns, budget)
         size = min(PARSED_READ, budget.bytes_parsed) if self._is_parsed else budget.bytes_in
-        size = budget.at_most(size)
+        size = budget.at_most(min(size, self.connection.next_read))
         if size <= 0:
             return False
         state, data = self.socket.read_area(size)
@@ -243,11 +246,32 @@ class PeerLink:
             self._count(received, budget)
             self.connection.receive_data(data)
             self._take_events(now_ns, budget)
-        elif state is not _IN_PROGRESS:
+        else:
+            self._ended_in(state, now_ns, budget)
+        return not self._is_parsed and received >= min(size, AREA_SIZE)
+
+    def _ended_in(self, state: TcpipSocketState, now_ns: int, budget: StepBudget) -> None:
+        """Take the end of what the peer sends, where that is what the socket tells."""
+        if state is not _IN_PROGRESS:
             self.connection.receive_eof()
             self._take_events(now_ns, budget)
             self.connection.close()
-        return received == AREA_SIZE
+
+    def _fill_message(self, room: memoryview, now_ns: int, budget: StepBudget) -> bool:
+        """Read the bytes of a large message to their place; return whether there may be more."""
+        size = budget.at_most_large(min(len(room), budget.bytes_in))
+        if size <= 0:
+            return False
+        state, received = self.socket.read_into(room[:size])
+        if state is _DONE:
+            self.bytes_in += received
+            budget.bytes_in -= received
+            budget.work -= TRANSFER_WORK + received // LARGE_SHARE
+            self.connection.filled(received)
+            self._take_events(now_ns, budget)
+        else:
+            self._ended_in(state, now_ns, budget)
+        return received == size
 
     def _count(self, received: int, budget: StepBudget) -> None:
         self.bytes_in += received
@@ -286,13 +310,21 @@ class PeerLink:
             self._resting = connection.state if rests else None
             return
         self._resting = None
-        size = budget.bytes_out if self._is_parsed else budget.at_most(budget.bytes_out)
+        self._write(now_ns, budget)
+
+    def _write(self, now_ns: int, budget: StepBudget) -> None:
+        if self._is_parsed:  # in the price of the call
+            size, share = budget.bytes_out, 0
+        elif self._outbox.has_large_piece(LARGE_PIECE):
+            size, share = budget.at_most_large(budget.bytes_out), 1
+        else:
+            size, share = budget.at_most(budget.bytes_out), LARGE_SHARE
         if size <= 0:
             return
         state, written = self.socket.write_buffer_ex(self._outbox, size)
         self.bytes_out += written
         budget.bytes_out -= written
-        budget.work -= TRANSFER_WORK + (0 if self._is_parsed else written)  # in the call's price
+        budget.work -= TRANSFER_WORK + written * share // LARGE_SHARE
         if state not in (_DONE, _IN_PROGRESS):
             self.abort(f"{self.peer} is gone", now_ns)
 

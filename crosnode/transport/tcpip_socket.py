@@ -40,6 +40,7 @@ from plcsim.library.astcp import (
 )
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.settings import AsTcpSettings
+from plcsim.library.astcp.transfer import receive_outside, send_outside
 from plcsim.network.protocol import ANY_IPV6, MAX_LITERAL
 from st_types import STRING, UDINT, UINT, Struct, var
 
@@ -49,6 +50,9 @@ if TYPE_CHECKING:
 
 AREA_SIZE: Final = 65_536
 """Bytes of each transfer area, the most that one call of TcpRecv gives."""
+
+LARGE_PIECE: Final = AREA_SIZE
+"""Bytes; a piece of so many is written from where it is."""
 
 SOCKETS_AT_START: Final = 32
 """Sockets whose blocks are laid out before the first cycle; more are made when needed."""
@@ -314,6 +318,20 @@ class TcpipSocket:
             return _DONE, self._memory.view(block.pData, received)
         return self._ended(status), _NOTHING
 
+    def read_into(self, target: memoryview) -> Transfer:
+        """Read what is there to a place of a large message, past the area of TcpRecv.
+
+        Returns:
+            The state as of ``read_buffer_ex``, and the bytes read.
+        """
+        status, size = receive_outside(self._pool.context, self.ident, target)
+        self.status = status
+        if status == tcpERR_NO_DATA:
+            return Transfer(_IN_PROGRESS, 0)
+        if status == ERR_OK and size:
+            return Transfer(_DONE, size)
+        return Transfer(self._ended(status), 0)
+
     def write_buffer(self, buffer: DynBuffer) -> TcpipSocketState:
         """Write from the front of a buffer as much as is taken; as ``write_buffer_ex``."""
         return self.write_buffer_ex(buffer, buffer.size).state
@@ -327,23 +345,27 @@ class TcpipSocket:
         """
         written = 0
         while buffer.size and written < max_size:
-            size = min(max_size - written, AREA_SIZE)
-            state, taken = self._write(buffer, size)
+            state, taken = self._write(buffer, max_size - written)
             written += taken
             if state is not _DONE:
                 return Transfer(state, written)
         return Transfer(_IN_PROGRESS if buffer.size else _DONE, written)
 
     def _write(self, buffer: DynBuffer, size: int) -> Transfer:
-        data = buffer.peek(size)
-        self._memory.write(self._area, data)
-        block = self._send
-        block.datalen = len(data)
-        block.execute()
-        self.status = status = block.status
+        """Write small pieces by way of TcpSend's area, joined, and a large one from its place."""
+        if buffer.front_size >= LARGE_PIECE:
+            status, taken = send_outside(self._pool.context, self.ident, buffer.front(size))
+        else:
+            data = buffer.peek(min(size, AREA_SIZE))
+            self._memory.write(self._area, data)
+            block = self._send
+            block.datalen = len(data)
+            block.execute()
+            status, taken = block.status, block.sentlen
+        self.status = status
         if status in (ERR_OK, tcpERR_SENTLEN):
-            buffer.discard(block.sentlen)
-            return Transfer(_DONE if status == ERR_OK else _IN_PROGRESS, block.sentlen)
+            buffer.discard(taken)
+            return Transfer(_DONE if status == ERR_OK else _IN_PROGRESS, taken)
         if status == tcpERR_WOULDBLOCK:
             return Transfer(_IN_PROGRESS, 0)
         return Transfer(self._ended(status), 0)

@@ -15,6 +15,7 @@ from plcsim.network.os_network import OsNetwork
 from plcsim.network.protocol import (
     Accepted,
     Address,
+    Filled,
     Network,
     Opened,
     Option,
@@ -34,6 +35,7 @@ __all__ = [
     "Datagram",
     "DatagramNetwork",
     "DatagramSocket",
+    "Filled",
     "Link",
     "Network",
     "Opened",

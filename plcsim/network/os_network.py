@@ -17,11 +17,13 @@ from plcsim.network.protocol import (
     ANY_IP,
     ANY_IPV6,
     MAX_BACKLOG,
+    MAX_BUFFER,
     MAX_LINGER_S,
     MAX_RECEIVE,
     NO_ADDRESS,
     Accepted,
     Address,
+    Filled,
     Opened,
     Option,
     OptionValue,
@@ -53,6 +55,7 @@ _OPTIONS: Final = {
 _LINGER: Final = struct.Struct("ii")
 
 _NOTHING_YET: Final = Received(Outcome.WOULD_BLOCK)
+_NOT_FILLED: Final = Filled(Outcome.WOULD_BLOCK)
 _NOTHING_URGENT: Final = Received(Outcome.NO_URGENT_DATA)
 
 
@@ -183,6 +186,20 @@ class OsSocket:
             return Received(Outcome.OK, data)
         # The kernel tells a reset once; later it looks like an orderly end.
         return Received(self._lost or Outcome.CLOSED)
+
+    def recv_into(self, target: memoryview) -> Filled:
+        """See ``Socket.recv_into``."""
+        if not target:
+            return Filled(Outcome.INVALID)
+        if self._peer is None:
+            return Filled(Outcome.NOT_CONNECTED)
+        try:
+            size = self._socket.recv_into(target[:MAX_BUFFER])
+        except BlockingIOError:
+            return _NOT_FILLED
+        except OSError as error:
+            return Filled(self._connection_outcome(error))
+        return Filled(Outcome.OK, size) if size else Filled(self._lost or Outcome.CLOSED)
 
     def _connection_outcome(self, error: OSError) -> Outcome:
         """Translate, and keep in mind that the connection is lost."""

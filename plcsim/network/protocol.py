@@ -151,6 +151,13 @@ class Received(NamedTuple):
     data: bytes = b""
 
 
+class Filled(NamedTuple):
+    """Answer of ``Socket.recv_into``; at least one byte when the outcome is OK, else none."""
+
+    outcome: Outcome
+    size: int = 0
+
+
 class OptionValue(NamedTuple):
     """Answer of ``Socket.option``."""
 
@@ -223,6 +230,13 @@ class Socket(Protocol):
         Returns:
             OK with bytes, WOULD_BLOCK, CLOSED, RESET, TIMED_OUT, UNREACHABLE, NOT_CONNECTED,
             NO_URGENT_DATA or INVALID (``size`` below 1).
+        """
+
+    def recv_into(self, target: memoryview) -> Filled:
+        """Take bytes to their place, without a copy in between; for the rest as ``recv``.
+
+        Args:
+            target: takes up to ``MAX_BUFFER`` bytes; not empty.
         """
 
     def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:

@@ -16,6 +16,7 @@ from plcsim.network.protocol import (
     NO_ADDRESS,
     Accepted,
     Address,
+    Filled,
     Option,
     OptionValue,
     Outcome,
@@ -175,6 +176,12 @@ class VirtualSocket:
             return Received(Outcome.OK if data else Outcome.NO_URGENT_DATA, data)
         data = connection.read(min(size, MAX_RECEIVE), peek=peek)
         return Received(Outcome.OK, data) if data else Received(self._why_nothing(connection))
+
+    def recv_into(self, target: memoryview) -> Filled:
+        """See ``Socket.recv_into``."""
+        outcome, data = self.recv(len(target))
+        target[: len(data)] = data
+        return Filled(outcome, len(data))
 
     def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:
         """See ``Socket.shutdown``."""

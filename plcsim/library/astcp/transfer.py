@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.library.astcp import interface
 from plcsim.library.astcp.block import AsTcpBlock
+from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.interface import (
+    tcpERR_INVALID_IDENT,
     tcpERR_NO_DATA,
     tcpERR_NO_OOBDATA,
     tcpERR_NOT_CONNECTED,
@@ -22,7 +24,7 @@ from plcsim.library.runtime import ERR_OK
 from plcsim.network.protocol import MAX_BUFFER, Outcome
 
 if TYPE_CHECKING:
-    from plcsim.library.astcp.idents import IdentTable
+    from plcsim.core.context import Context
 
 _ENDED: Final = {
     Outcome.RESET: tcpERR_NOT_CONNECTED,
@@ -94,9 +96,40 @@ class TcpRecv(interface.TcpRecv, AsTcpBlock):
             return tcpERR_PARAMETER
         memory = self.context.memory
         memory.check(address, size)
+        if not flags:
+            outcome, self.recvlen = endpoint.socket.recv_into(memory.view(address, size))
+            return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM)
         peek, urgent = bool(flags & tcpMSG_PEEK), bool(flags & tcpMSG_OOB)
         outcome, data = endpoint.socket.recv(size, peek=peek, urgent=urgent)
         if data:
             memory.write(address, data)
             self.recvlen = len(data)
         return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM)
+
+
+def receive_outside(context: Context, ident: int, target: memoryview) -> tuple[int, int]:
+    """Receive as TcpRecv does, to a place outside of PLC memory: for a library's large messages.
+
+    Returns:
+        The status of TcpRecv, and the bytes received.
+    """
+    endpoint = context.library(IdentTable).find(ident)
+    if endpoint is None:
+        return tcpERR_INVALID_IDENT, 0
+    outcome, size = endpoint.socket.recv_into(target)
+    return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM), size
+
+
+def send_outside(context: Context, ident: int, data: bytes | memoryview) -> tuple[int, int]:
+    """Send as TcpSend does, from a place outside of PLC memory.
+
+    Returns:
+        The status of TcpSend, and the bytes taken.
+    """
+    endpoint = context.library(IdentTable).find(ident)
+    if endpoint is None:
+        return tcpERR_INVALID_IDENT, 0
+    outcome, size = endpoint.socket.send(data[:MAX_BUFFER])
+    if outcome is Outcome.OK:
+        return (ERR_OK if size == len(data) else tcpERR_SENTLEN), size
+    return _SEND_STATUSES.get(outcome, tcpERR_SYSTEM), size

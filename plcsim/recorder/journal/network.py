@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final, cast
 from plcsim.network import (
     Accepted,
     Address,
+    Filled,
     Opened,
     OpenedDatagrams,
     OptionValue,
@@ -173,6 +174,15 @@ class RecordedSocket:
             self._answers += received.data
         return received
 
+    def recv_into(self, target: memoryview) -> Filled:
+        """See `Socket`; recorded as ``recv`` is."""
+        filled = self._socket.recv_into(target)
+        self._answers += _RECV[filled.outcome]
+        if filled.outcome is Outcome.OK:
+            self._answers += U32.pack(filled.size)
+            self._answers += target[: filled.size]
+        return filled
+
     def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:
         """See `Socket`."""
         outcome = self._socket.shutdown(read=read, write=write)
@@ -308,6 +318,14 @@ class ReplaySocket:
         return Received(
             outcome, self._feed.data(u32_from(self._feed)) if outcome is Outcome.OK else b""
         )
+
+    def recv_into(self, target: memoryview) -> Filled:
+        """See `Socket`."""
+        outcome, data = self.recv(len(target))
+        if len(data) > len(target):
+            raise self._feed.differs("more was received than is asked for")
+        target[: len(data)] = data
+        return Filled(outcome, len(data))
 
     def shutdown(self, *, read: bool = False, write: bool = False) -> Outcome:
         """See `Socket`."""

@@ -3,7 +3,7 @@
 from crosnode.node import StatusKind
 from crosnode.node.pace import Pace
 from crosnode.transport.budget import StepLimits
-from crosnode.transport.tcpip_socket import AREA_SIZE, TcpipSocketState
+from crosnode.transport.tcpip_socket import AREA_SIZE, TcpipSocketState, Transfer
 
 from .world import MS, OTHER_IP, PLC_IP, SECOND, World, drain, news
 
@@ -72,6 +72,14 @@ class FullSocket:
         if self._areas:
             return TcpipSocketState.DONE, self._areas.pop()[:size]
         return TcpipSocketState.IN_PROGRESS, memoryview(b"")
+
+    def read_into(self, target: memoryview) -> Transfer:
+        """Fill the room of a message with as many areas as it takes."""
+        size = 0
+        while self._areas and size + len(self._areas[-1]) <= len(target):
+            size += len(self._areas.pop())
+        state = TcpipSocketState.DONE if size else TcpipSocketState.IN_PROGRESS
+        return Transfer(state, size)
 
 
 def test_five_thousand_messages_a_second_come_in_at_ten_milliseconds() -> None:

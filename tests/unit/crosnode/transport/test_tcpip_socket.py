@@ -5,7 +5,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crosnode.transport.dyn_buffer import DynBuffer, DynString
-from crosnode.transport.tcpip_socket import AREA_SIZE, SocketPool, TcpipSocket, TcpipSocketState
+from crosnode.transport.tcpip_socket import (
+    AREA_SIZE,
+    LARGE_PIECE,
+    SocketPool,
+    TcpipSocket,
+    TcpipSocketState,
+)
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.astcp import tcpERR_ALREADY_EXIST, tcpERR_INVALID
@@ -210,3 +216,31 @@ def test_any_data_arrives_whole_even_in_short_sends(
 def test_a_status_that_no_block_should_give_is_unknown(status: int) -> None:
     pair = Pair().connect()
     assert pair.server._ended(status) is UNKNOWN
+
+
+def test_a_large_piece_goes_to_its_place_without_a_stop() -> None:
+    pair = Pair().connect()
+    data = bytes(range(256)) * 1024
+    outgoing = DynBuffer()
+    outgoing.push_back(b"size")
+    outgoing.push_back(data)
+    place = bytearray(4 + len(data))
+    have = 0
+    while have < len(place):
+        pair.client.write_buffer_ex(outgoing, outgoing.size)
+        state, size = pair.server.read_into(memoryview(place)[have:])
+        assert state in (DONE, IN_PROGRESS)
+        have += size
+    assert place == b"size" + data
+    pair.client.close()
+    while (answer := pair.server.read_into(memoryview(place))).state is IN_PROGRESS:
+        pass
+    assert answer == (DISCONNECTED, 0)
+
+
+def test_a_closed_socket_fails_for_large_pieces_too() -> None:
+    pair = Pair()
+    outgoing = DynBuffer()
+    outgoing.push_back(bytes(LARGE_PIECE))
+    assert pair.client.read_into(memoryview(bytearray(10))) == (FAILED, 0)
+    assert pair.client.write_buffer(outgoing) is FAILED
