@@ -77,10 +77,14 @@ class ActionClient:
         Raises:
             MessageValueError: a field cannot hold its value; nothing is sent.
         """
+        return self.send_message(self.action_type.goal.new(**goal))
+
+    def send_message(self, goal: Message) -> ClientGoal:
+        """Send a goal by a message; see ``send``."""
         now_ns = self._node.now_ns
         stamp = Time.from_ns(now_ns)
         goal_id = f"{self._node.name}-{next(self._numbers)}-{stamp.secs}.{stamp.nsecs:09}"
-        message = self._goal_out.new(goal=self.action_type.goal.new(**goal))
+        message = self._goal_out.new(goal=goal)
         message.header.stamp = message.goal_id.stamp = stamp
         message.goal_id.id = goal_id
         self._goal_out.send(message)

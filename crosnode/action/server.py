@@ -6,7 +6,7 @@ of the node; the server's ``step`` belongs behind the node's step. Nothing calls
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from crosnode.action.goal_states import GOAL, TERMINAL, GoalState, GoalTrigger
 from crosnode.messages import Time
@@ -48,6 +48,11 @@ class Goal:
         self._server = server
 
     @property
+    def action_type(self) -> ActionType:
+        """The type of its action."""
+        return self._server.action_type
+
+    @property
     def is_canceled(self) -> bool:
         """Whether the program should stop it: its client or a newer goal asks for that."""
         return self.state in (GoalState.PREEMPTING, GoalState.RECALLING)
@@ -83,6 +88,10 @@ class Goal:
 
     def feedback(self, **feedback: object) -> None:
         """Tell its client how far it is; the fields of the feedback message."""
+        self.send_feedback(self.action_type.feedback.new(**feedback))
+
+    def send_feedback(self, feedback: Message) -> None:
+        """Tell its client how far it is by a message; see ``feedback``."""
         self._server.publish_feedback(self, feedback)
 
     def cancel(self, text: str = "") -> None:
@@ -96,9 +105,18 @@ class Goal:
         self._server.has_news = True
 
     def _end(self, trigger: GoalTrigger, text: str, result: dict[str, object]) -> None:
-        message = self._server.action_type.result.new(**result)
+        self.end(trigger, text, self.action_type.result.new(**result))
+
+    def end(self, trigger: GoalTrigger, text: str, result: Message) -> None:
+        """End it with a result message; the others say what the triggers mean.
+
+        Raises:
+            LocalProtocolError: its state does not allow it.
+            MessageValueError: the result cannot be sent; the goal goes on.
+        """
+        self.action_type.result.encode(result)
         self._move(trigger, text)
-        self._server.publish_result(self, message)
+        self._server.publish_result(self, result)
 
 
 class ActionServer:
@@ -205,10 +223,10 @@ class ActionServer:
         status.goal_id.id, status.goal_id.stamp = goal.goal_id, goal.stamp
         return status
 
-    def publish_feedback(self, goal: Goal, feedback: dict[str, Any]) -> None:
+    def publish_feedback(self, goal: Goal, feedback: Message) -> None:
         """Send feedback of a goal."""
         message = self._filled(self._feedback_out.new(), goal)
-        message.feedback = self.action_type.feedback.new(**feedback)
+        message.feedback = feedback
         self._feedback_out.send(message)
 
     def publish_result(self, goal: Goal, result: Message) -> None:

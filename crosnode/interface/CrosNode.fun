@@ -318,3 +318,228 @@ END_FUNCTION_BLOCK
 		i_call : UDINT; (*the call to the master that is under way*)
 	END_VAR
 END_FUNCTION_BLOCK
+
+(* Actions, as actionlib has them. Server and client do their part in cRosNodeDoEventsLoop. The handle of
+   a server's goal is good until the goal is ended; that of a client's goal until it is released or a
+   hundred newer ones were sent. *)
+
+FUNCTION cRosActionServer : UDINT (*returns the handle of a server, in INIT; 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		action_name : STRING[CROS_NAME_LENGTH];
+		action_type : STRING[CROS_NAME_LENGTH]; (*such as control_msgs/FollowJointTrajectory*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionClient : UDINT (*returns the handle of a client, in INIT; 0 for an unknown type or name*)
+	VAR_INPUT
+		node : UDINT;
+		action_name : STRING[CROS_NAME_LENGTH];
+		action_type : STRING[CROS_NAME_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionNextGoal : UDINT (*the oldest goal that is neither accepted nor rejected; 0 where there is none*)
+	VAR_INPUT
+		server : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionGoalMsg : UDINT (*the message of a server's goal, for cRosMessageToStruct or cRosMessageGetField*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionAccept : UINT (*begins a goal: it is ACTIVE, or PREEMPTING where it was cancelled before*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionNewFeedback : UDINT (*a feedback message with defaults*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionSendFeedback : UINT (*sends it; the message is released*)
+	VAR_INPUT
+		goal : UDINT;
+		msg : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionNewResult : UDINT (*a result message with defaults*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionEnd : UINT (*ends a server's goal and releases it, where its state allows that*)
+	VAR_INPUT
+		goal : UDINT;
+		state : CrosGoalState; (*SUCCEEDED, ABORTED, REJECTED or PREEMPTED (also RECALLED)*)
+		msg : UDINT; (*the result, which is released; 0 for one of defaults*)
+		text : STRING[CROS_TEXT_LENGTH]; (*for people*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionConnected : BOOL (*a server hears the client, and is heard*)
+	VAR_INPUT
+		client : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionNewGoal : UDINT (*a goal message with defaults*)
+	VAR_INPUT
+		client : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionSendGoal : UDINT (*sends it and releases the message; returns the handle of the goal, 0 where a field cannot hold its value*)
+	VAR_INPUT
+		client : UDINT;
+		msg : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionCancel : UINT (*asks the server to stop a client's goal*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionState : CrosGoalState (*how far a goal is, of server or client*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionText : UINT (*what the server says beside the state of a client's goal*)
+	VAR_INPUT
+		goal : UDINT;
+		pText : UDINT; (*address of the STRING*)
+		sizeText : UDINT; (*its bytes*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionNextFeedback : UDINT (*the newest feedback of a client's goal, once; 0 where none is new*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionResult : UDINT (*the result of a client's goal, 0 before it is there*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosActionRelease : UINT (*forgets a client's goal, which goes on*)
+	VAR_INPUT
+		goal : UDINT;
+	END_VAR
+END_FUNCTION
+
+(* Frames, as tf2 has them *)
+
+FUNCTION cRosTfBroadcast : UINT (*tells with the next cRosTfSend where a frame is in this cycle*)
+	VAR_INPUT
+		node : UDINT;
+		parent : STRING[CROS_NAME_LENGTH];
+		child : STRING[CROS_NAME_LENGTH];
+	END_VAR
+	VAR_IN_OUT
+		transform : CrosTransform; (*from the child to the parent*)
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosTfSend : UINT (*sends what was told, in one message*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosTfStatic : UINT (*tells where a frame is for good*)
+	VAR_INPUT
+		node : UDINT;
+		parent : STRING[CROS_NAME_LENGTH];
+		child : STRING[CROS_NAME_LENGTH];
+	END_VAR
+	VAR_IN_OUT
+		transform : CrosTransform;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosTfListen : UINT (*follows /tf and /tf_static, in INIT*)
+	VAR_INPUT
+		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosTfLookup : UINT (*looks up the transform from source to target; crosERR_NO_TRANSFORM where there is none*)
+	VAR_INPUT
+		node : UDINT;
+		target : STRING[CROS_NAME_LENGTH];
+		source : STRING[CROS_NAME_LENGTH];
+		time_ns : LINT; (*ROS time, 0 for the newest that all frames have*)
+	END_VAR
+	VAR_IN_OUT
+		transform : CrosTransform;
+	END_VAR
+END_FUNCTION
+
+(* Diagnostics: told once a second, and when a level changes *)
+
+FUNCTION cRosDiagnostics : UDINT (*returns the handle of a node's diagnostics, in INIT*)
+	VAR_INPUT
+		node : UDINT;
+		hardware_id : STRING[CROS_NAME_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosDiagnosticsValue : UINT (*a measured value of a component, told with its next cRosDiagnosticsSet and from then on*)
+	VAR_INPUT
+		diagnostics : UDINT;
+		component : STRING[CROS_NAME_LENGTH];
+		key : STRING[CROS_NAME_LENGTH];
+		value : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosDiagnosticsSet : UINT (*says how a component is*)
+	VAR_INPUT
+		diagnostics : UDINT;
+		component : STRING[CROS_NAME_LENGTH];
+		level : CrosDiagnosticLevel;
+		text : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+(* Values that others may change by dynamic_reconfigure; a node's are all declared in INIT *)
+
+FUNCTION cRosAdjustable : UDINT (*declares a value; returns its handle, 0 where it is beyond its bounds or its name is taken*)
+	VAR_INPUT
+		node : UDINT;
+		name : STRING[CROS_NAME_LENGTH];
+		kind : CrosAdjustableKind;
+		value : LREAL; (*at first*)
+		minimum : LREAL;
+		maximum : LREAL;
+		description : STRING[CROS_TEXT_LENGTH];
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosAdjustableValue : LREAL (*as it is now*)
+	VAR_INPUT
+		adjustable : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosAdjustableSet : UINT (*changes it from the program, and tells those who follow it*)
+	VAR_INPUT
+		adjustable : UDINT;
+		value : LREAL; (*cut to the bounds*)
+	END_VAR
+END_FUNCTION

@@ -9,6 +9,8 @@ from crosnode.messages.text import to_latin1
 from plcsim.library.idents import Idents
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from crosnode.messages import Message, MessageType, MessageTypes
     from crosnode.messages.definition import Field
     from crosnode.node import CrosNode, Publisher, Subscriber
@@ -27,10 +29,24 @@ LATIN_1: Final = "latin-1"
 
 @dataclass(eq=False)
 class NodeHandle:
-    """A node, and what was registered with it."""
+    """A node, and what was registered with it.
+
+    Attributes:
+        node: the node.
+        parts: handles of what was registered.
+        steps: done behind the node's, each cycle.
+        blocks: what a node has once, by its class, such as its listener of frames.
+    """
 
     node: CrosNode
     parts: list[int] = field(default_factory=list)
+    steps: list[Callable[[], None]] = field(default_factory=list)
+    blocks: dict[type, object] = field(default_factory=dict)
+
+    def block(self, kind: type[T]) -> T | None:
+        """Return what the node has of a class, None before it was made."""
+        found = self.blocks.get(kind)
+        return found if isinstance(found, kind) else None
 
 
 @dataclass(eq=False)
@@ -80,6 +96,17 @@ class FieldHandle:
     types: MessageTypes
 
 
+@dataclass(eq=False)
+class OwnerHandle:
+    """What has handles of its own: an action server or client, a goal.
+
+    Attributes:
+        parts: theirs, oldest first.
+    """
+
+    parts: list[int] = field(default_factory=list, kw_only=True)
+
+
 class Handles:
     """The handles of one controller; ``context.library(Handles)``."""
 
@@ -103,7 +130,7 @@ class Handles:
                 self._idents.remove(each)
         elif isinstance(found, RoleHandle):
             self.release(found.current)
-        elif isinstance(found, NodeHandle):
+        elif isinstance(found, (NodeHandle, OwnerHandle)):
             for each in found.parts:
                 self.release(each)
 

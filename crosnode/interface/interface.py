@@ -32,7 +32,10 @@ __all__ = [
     "CROS_NAME_LENGTH",
     "CROS_TEXT_LENGTH",
     "ApiCallQueue",
+    "CrosAdjustableKind",
     "CrosApiMethod",
+    "CrosDiagnosticLevel",
+    "CrosGoalState",
     "CrosLog",
     "CrosLogLevel",
     "CrosLogQueue",
@@ -43,6 +46,7 @@ __all__ = [
     "CrosNodeStatus",
     "CrosNodeStatusUsr",
     "CrosTime",
+    "CrosTransform",
     "DynBuffer",
     "DynString",
     "ParameterSubscription",
@@ -66,10 +70,13 @@ __all__ = [
     "cRosMessageField",
     "crosERR_CUT",
     "crosERR_FIELD",
+    "crosERR_FULL",
     "crosERR_GONE",
     "crosERR_HANDLE",
     "crosERR_NO_MASTER",
+    "crosERR_NO_TRANSFORM",
     "crosERR_REFUSED",
+    "crosERR_STATE",
     "crosERR_STRUCT",
     "crosERR_VALUE",
 ]
@@ -141,6 +148,78 @@ crosERR_REFUSED: Final = 50206
 
 crosERR_NO_MASTER: Final = 50207
 """The master cannot be reached."""
+
+crosERR_STATE: Final = 50208
+"""The goal's state does not allow it."""
+
+crosERR_NO_TRANSFORM: Final = 50209
+"""No such frames, no way between them, or none at that time."""
+
+crosERR_FULL: Final = 50210
+"""A bound is reached, such as that of static frames or components."""
+
+
+class CrosGoalState(IntEnum):
+    """Enumeration CrosGoalState."""
+
+    CROS_GOAL_PENDING = 0
+    CROS_GOAL_ACTIVE = 1
+    CROS_GOAL_PREEMPTED = 2
+    CROS_GOAL_SUCCEEDED = 3
+    CROS_GOAL_ABORTED = 4
+    CROS_GOAL_REJECTED = 5
+    CROS_GOAL_PREEMPTING = 6
+    CROS_GOAL_RECALLING = 7
+    CROS_GOAL_RECALLED = 8
+    CROS_GOAL_LOST = 9
+
+
+_DECLARED.enumeration(CrosGoalState)
+
+
+class CrosTransform(Struct):
+    """From a frame to its parent: rotate, then translate."""
+
+    _plc_type = _DECLARED["CrosTransform"]
+
+    x: float
+    """M."""
+
+    y: float
+
+    z: float
+
+    qx: float
+    """Unit quaternion."""
+
+    qy: float
+
+    qz: float
+
+    qw: float
+
+
+class CrosDiagnosticLevel(IntEnum):
+    """Enumeration CrosDiagnosticLevel."""
+
+    CROS_DIAGNOSTIC_OK = 0
+    CROS_DIAGNOSTIC_WARN = 1
+    CROS_DIAGNOSTIC_ERROR = 2
+    CROS_DIAGNOSTIC_STALE = 3
+
+
+_DECLARED.enumeration(CrosDiagnosticLevel)
+
+
+class CrosAdjustableKind(IntEnum):
+    """Enumeration CrosAdjustableKind."""
+
+    CROS_ADJUSTABLE_BOOL = 0
+    CROS_ADJUSTABLE_INT = 1
+    CROS_ADJUSTABLE_REAL = 2
+
+
+_DECLARED.enumeration(CrosAdjustableKind)
 
 
 class CrosMessageType(IntEnum):

@@ -33,11 +33,12 @@ if TYPE_CHECKING:
 NS_PER_MS: Final = 1_000_000
 
 
-def _name(context: Context, address: int) -> str:
+def name_at(context: Context, address: int) -> str:
+    """Return the name at an address."""
     return text_at(context, address, CROS_NAME_LENGTH)
 
 
-def _told(context: Context, error: CrosnodeError) -> int:
+def told(context: Context, error: CrosnodeError) -> int:
     """Tell people what a handle cannot: why there is none."""
     controller = Controller.of(context)
     if controller is not None:
@@ -48,11 +49,11 @@ def _told(context: Context, error: CrosnodeError) -> int:
 @function("cRosNodeCreate")
 def create(context: Context, node_name: int) -> int:
     """Make a node; a name such as ``/cell/talker`` brings its namespace."""
-    namespace, _, base = _name(context, node_name).rpartition("/")
+    namespace, _, base = name_at(context, node_name).rpartition("/")
     try:
         node = create_node(context, base, namespace=namespace)
     except CrosnodeError as error:
-        return _told(context, error)
+        return told(context, error)
     return handles_of(context).add(NodeHandle(node))
 
 
@@ -64,10 +65,12 @@ def _node(context: Context, handle: int) -> CrosNode | None:
 @function("cRosNodeDoEventsLoop")
 def do_events_loop(context: Context, node: int) -> int:
     """Do the step of this cycle."""
-    found = _node(context, node)
+    found = handles_of(context).find(NodeHandle, node)
     if found is None:
         return crosERR_HANDLE
-    found.do_events_loop()
+    found.node.do_events_loop()
+    for step in found.steps:
+        step()
     return ERR_OK
 
 
@@ -134,7 +137,7 @@ def _register(context: Context, handle: int, register: Callable[[CrosNode], obje
     try:
         role = register(owner.node)
     except CrosnodeError as error:
-        return _told(context, error)
+        return told(context, error)
     made = handles.add(RoleHandle(owner.node, role))  # type: ignore[arg-type]  # of its kinds
     owner.parts.append(made)
     return made
@@ -149,8 +152,8 @@ def register_publisher(
         context,
         node,
         lambda found: found.register_publisher(
-            _name(context, topic),
-            _name(context, type_name),
+            name_at(context, topic),
+            name_at(context, type_name),
             latching=latching,
             loop_period_ns=max(0, loop_period) * NS_PER_MS,
         ),
@@ -166,7 +169,7 @@ def register_subscriber(
         context,
         node,
         lambda found: found.register_subscriber(
-            _name(context, topic), _name(context, type_name), queue_size=max(1, queue_size)
+            name_at(context, topic), name_at(context, type_name), queue_size=max(1, queue_size)
         ),
     )
 
@@ -178,7 +181,7 @@ def register_provider(context: Context, node: int, service: int, type_name: int)
         context,
         node,
         lambda found: found.register_service_provider(
-            _name(context, service), _name(context, type_name)
+            name_at(context, service), name_at(context, type_name)
         ),
     )
 
@@ -192,7 +195,7 @@ def register_caller(
         context,
         node,
         lambda found: found.register_service_caller(
-            _name(context, service), _name(context, type_name), persistent=persistent
+            name_at(context, service), name_at(context, type_name), persistent=persistent
         ),
     )
 
@@ -200,7 +203,7 @@ def register_caller(
 @function("cRosApiSubscribeParam")
 def subscribe_param(context: Context, node: int, key: int) -> int:
     """Follow a parameter."""
-    return _register(context, node, lambda found: found.subscribe_param(_name(context, key)))
+    return _register(context, node, lambda found: found.subscribe_param(name_at(context, key)))
 
 
 @function("cRosApiUnregister")
