@@ -444,9 +444,15 @@ END_FUNCTION
 
 (* Frames, as tf2 has them *)
 
-FUNCTION cRosTfBroadcast : UINT (*tells with the next cRosTfSend where a frame is in this cycle*)
+FUNCTION cRosTfBroadcaster : UDINT (*returns the handle of what tells frames, in INIT*)
 	VAR_INPUT
 		node : UDINT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION cRosTfBroadcast : UINT (*tells with the next cRosTfSend where a frame is in this cycle*)
+	VAR_INPUT
+		broadcaster : UDINT;
 		parent : STRING[CROS_NAME_LENGTH];
 		child : STRING[CROS_NAME_LENGTH];
 	END_VAR
@@ -457,13 +463,13 @@ END_FUNCTION
 
 FUNCTION cRosTfSend : UINT (*sends what was told, in one message*)
 	VAR_INPUT
-		node : UDINT;
+		broadcaster : UDINT;
 	END_VAR
 END_FUNCTION
 
-FUNCTION cRosTfStatic : UINT (*tells where a frame is for good*)
+FUNCTION cRosTfStatic : UINT (*tells where a frame is for good; the first one in INIT*)
 	VAR_INPUT
-		node : UDINT;
+		broadcaster : UDINT;
 		parent : STRING[CROS_NAME_LENGTH];
 		child : STRING[CROS_NAME_LENGTH];
 	END_VAR
@@ -472,7 +478,7 @@ FUNCTION cRosTfStatic : UINT (*tells where a frame is for good*)
 	END_VAR
 END_FUNCTION
 
-FUNCTION cRosTfListen : UINT (*follows /tf and /tf_static, in INIT*)
+FUNCTION cRosTfListener : UDINT (*returns the handle of what follows /tf and /tf_static, in INIT*)
 	VAR_INPUT
 		node : UDINT;
 	END_VAR
@@ -480,7 +486,7 @@ END_FUNCTION
 
 FUNCTION cRosTfLookup : UINT (*looks up the transform from source to target; crosERR_NO_TRANSFORM where there is none*)
 	VAR_INPUT
-		node : UDINT;
+		listener : UDINT;
 		target : STRING[CROS_NAME_LENGTH];
 		source : STRING[CROS_NAME_LENGTH];
 		time_ns : LINT; (*ROS time, 0 for the newest that all frames have*)

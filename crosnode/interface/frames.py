@@ -1,7 +1,8 @@
-"""Frames: told and looked up, by the node's handle."""
+"""Frames: told and looked up, by handles."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 from crosnode.errors import CrosnodeError, MessageValueError, TransformError
@@ -11,7 +12,6 @@ from crosnode.interface.interface import (
     crosERR_FULL,
     crosERR_HANDLE,
     crosERR_NO_TRANSFORM,
-    crosERR_REFUSED,
 )
 from crosnode.interface.nodes import name_at, told
 from crosnode.tf.node_frames import (
@@ -26,24 +26,52 @@ from st_types.types.values import decode, encode
 from st_types.types.views import type_of
 
 if TYPE_CHECKING:
-    from typing import TypeVar
-
+    from crosnode.node import CrosNode
     from plcsim.core.context import Context
 
-    B = TypeVar("B", TransformBroadcaster, StaticTransformBroadcaster, TransformListener)
+
+@dataclass(eq=False)
+class BroadcasterHandle:
+    """What tells the frames of a node; static ones once it has any."""
+
+    node: CrosNode
+    moving: TransformBroadcaster
+    static: StaticTransformBroadcaster | None = None
 
 
-def _block(context: Context, handle: int, kind: type[B]) -> B | None:
-    """Return what a node has of a class; it is made when first asked for."""
-    found = handles_of(context).find(NodeHandle, handle)
-    if found is None:
-        return None
-    made = found.block(kind)
-    if made is None:
-        made = kind(found.node)
-        found.blocks[kind] = made
-        if isinstance(made, TransformListener):
-            found.steps.append(made.step)
+@dataclass(eq=False)
+class ListenerHandle:
+    """What follows the frames of others."""
+
+    listener: TransformListener
+
+
+@function("cRosTfBroadcaster")
+def broadcaster(context: Context, node: int) -> int:
+    """Make ready to tell frames."""
+    handles = handles_of(context)
+    owner = handles.find(NodeHandle, node)
+    if owner is None:
+        return 0
+    made = handles.add(BroadcasterHandle(owner.node, TransformBroadcaster(owner.node)))
+    owner.parts.append(made)
+    return made
+
+
+@function("cRosTfListener")
+def listener(context: Context, node: int) -> int:
+    """Follow the frames of others."""
+    handles = handles_of(context)
+    owner = handles.find(NodeHandle, node)
+    if owner is None:
+        return 0
+    try:
+        found = TransformListener(owner.node)
+    except CrosnodeError as error:
+        return told(context, error)
+    owner.steps.append(found.step)
+    made = handles.add(ListenerHandle(found))
+    owner.parts.append(made)
     return made
 
 
@@ -56,62 +84,53 @@ def _transform_at(context: Context, address: int) -> Transform:
 
 
 @function("cRosTfBroadcast")
-def broadcast(context: Context, node: int, parent: int, child: int, transform: int) -> int:
+def broadcast(context: Context, broadcaster: int, parent: int, child: int, transform: int) -> int:
     """Tell with the next message where a frame is."""
-    found = _block(context, node, TransformBroadcaster)
+    found = handles_of(context).find(BroadcasterHandle, broadcaster)
     if found is None:
         return crosERR_HANDLE
     names = name_at(context, parent), name_at(context, child)
-    found.add(*names, _transform_at(context, transform))
+    found.moving.add(*names, _transform_at(context, transform))
     return ERR_OK
 
 
 @function("cRosTfSend")
-def send(context: Context, node: int) -> int:
+def send(context: Context, broadcaster: int) -> int:
     """Send what was told."""
-    found = _block(context, node, TransformBroadcaster)
+    found = handles_of(context).find(BroadcasterHandle, broadcaster)
     if found is None:
         return crosERR_HANDLE
-    found.send()
+    found.moving.send()
     return ERR_OK
 
 
 @function("cRosTfStatic")
-def static(context: Context, node: int, parent: int, child: int, transform: int) -> int:
+def static(context: Context, broadcaster: int, parent: int, child: int, transform: int) -> int:
     """Tell where a frame is for good."""
-    found = _block(context, node, StaticTransformBroadcaster)
+    found = handles_of(context).find(BroadcasterHandle, broadcaster)
     if found is None:
         return crosERR_HANDLE
+    if found.static is None:
+        found.static = StaticTransformBroadcaster(found.node)
     names = name_at(context, parent), name_at(context, child)
     try:
-        found.send(*names, _transform_at(context, transform))
+        found.static.send(*names, _transform_at(context, transform))
     except MessageValueError:
         return crosERR_FULL
     return ERR_OK
 
 
-@function("cRosTfListen")
-def listen(context: Context, node: int) -> int:
-    """Follow the frames of others."""
-    try:
-        return ERR_OK if _block(context, node, TransformListener) else crosERR_HANDLE
-    except CrosnodeError as error:
-        told(context, error)
-        return crosERR_REFUSED
-
-
 @function("cRosTfLookup")
 def lookup(
-    context: Context, node: int, target: int, source: int, time_ns: int, transform: int
+    context: Context, listener: int, target: int, source: int, time_ns: int, transform: int
 ) -> int:
     """Write the transform from one frame to another to an address."""
-    owner = handles_of(context).find(NodeHandle, node)
-    found = owner.block(TransformListener) if owner else None
+    found = handles_of(context).find(ListenerHandle, listener)
     if found is None:
         return crosERR_HANDLE
     names = name_at(context, target), name_at(context, source)
     try:
-        made = found.lookup(*names, max(0, time_ns))
+        made = found.listener.lookup(*names, max(0, time_ns))
     except TransformError:
         return crosERR_NO_TRANSFORM
     keys = ("x", "y", "z", "qx", "qy", "qz", "qw")

@@ -35,7 +35,7 @@ class NodeHandle:
         node: the node.
         parts: handles of what was registered.
         steps: done behind the node's, each cycle.
-        blocks: what a node has once, by its class, such as its listener of frames.
+        blocks: what a node has once, by its class: its adjustable values.
     """
 
     node: CrosNode

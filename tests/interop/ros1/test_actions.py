@@ -112,6 +112,24 @@ def test_a_roscpp_client_drives_our_server(ros: Ros, roscpp: Path) -> None:
     ]
 
 
+def test_a_rospy_client_drives_an_arm_in_structured_text(ros: Ros, tmp_path: Path) -> None:
+    arm = ros.program("arm_st")
+    text = tmp_path / "action.txt"
+    text.write_text(MessageTypes().message(f"{FOLLOW}Action").full_text)
+    ros.until(lambda: "/arm/follow/goal" in ros.tool("rostopic", "list"), 60)
+    client = peer(ros, "client", str(text), "/arm/follow", "a,b")
+    ros.until(lambda: not client.is_running, 90)
+    told = [line for line in client.text.splitlines() if "not tracking" not in line]
+    assert told == [
+        "connected True",
+        "goal 0.5 SUCCEEDED 0 feedback",
+        "goal 50.0 PREEMPTED -5 feedback",
+        "goal 1.0 SUCCEEDED 0 feedback",
+    ]
+    assert arm.is_running
+    assert 'child_frame_id: "hand"' in ros.tool("rostopic", "echo", "-n", "1", "/tf")
+
+
 def test_a_rospy_client_drives_the_cell(ros: Ros, tmp_path: Path) -> None:
     cell = ros.program("robot_cell")
     text = tmp_path / "action.txt"
