@@ -11,6 +11,8 @@ import sys
 import time
 from typing import Any
 
+from ros_processes import answers
+
 from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions
@@ -22,6 +24,11 @@ from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
 
 HOST = "127.0.0.1"
+STRING = "std_msgs/String"
+BYTES = "std_msgs/UInt8MultiArray"
+IMAGE = "sensor_msgs/Image"
+DIGITS = 8
+"""Of the number that a message with a rate begins with."""
 
 
 def environment(port: int) -> dict[str, str]:
@@ -35,10 +42,27 @@ def make_node(name: str, port: int, **options: Any) -> tuple[Context, CrosNode]:
     return context, CrosNode(context, settings, options=NodeOptions(bind_ip=HOST, **options))
 
 
-def message_for(publisher: Any, size: int) -> Any:
-    if publisher.message_type.name == "std_msgs/String":
-        return publisher.new(data="x" * size)
-    return publisher.new(data=bytes(size))
+def message_for(publisher: Any, size: int, number: int = 0) -> Any:
+    """Return a message of a size that begins with a number."""
+    text = f"{number:0{DIGITS}}".ljust(size, "x")
+    if publisher.message_type.name == STRING:
+        return publisher.new(data=text)
+    return publisher.new(data=text.encode())
+
+
+def number_of(message: Any) -> int:
+    """Return the number that a message begins with."""
+    return int(bytes(message.data[:DIGITS]) if not isinstance(message.data, str)
+               else message.data[:DIGITS])  # fmt: skip
+
+
+def await_master(port: int) -> None:
+    """Wait until the master of a pair answers."""
+    end = time.monotonic() + 20
+    while not answers(port):
+        if time.monotonic() > end:
+            raise SystemExit(f"no master at port {port}")
+        time.sleep(0.05)
 
 
 class Talk:
@@ -49,6 +73,7 @@ class Talk:
         self.body = self.publisher.message_type.encode(message_for(self.publisher, int(size)))
         self.period_ns = int(1e9 / float(rate)) if float(rate) else 0
         self.due_ns = 0
+        self.size, self.number = int(size), 0
 
     def step(self, now_ns: int) -> None:
         publisher = self.publisher
@@ -62,7 +87,8 @@ class Talk:
                     publisher.send_raw(self.body)
             return
         while now_ns >= self.due_ns:
-            publisher.send_raw(self.body)
+            publisher.send(message_for(publisher, self.size, self.number))
+            self.number += 1
             self.due_ns += self.period_ns
 
 

@@ -34,14 +34,12 @@ from _outcome import (
     write_json,
 )
 from _ports import free_port
-from _ros_peer import HOST, make_node
-from node_step import BYTES, STRING
-from ros_processes import answers
+from _ros_peer import BYTES, HOST, STRING, await_master, make_node
+from _rospy import HOST_ENVIRONMENT, rospy_command
 
 from crosnode.transport.budget import UNPACED
 
 HERE = Path(__file__).parent
-PYTHON = "/usr/bin/python3"
 SIZES = {"String 16 B": (STRING, 16), "1 MB": (BYTES, 1_000_000)}
 SHARE = 1.0
 """What ours shall reach of rospy -> rospy: unpaced, and as a subscriber in a scan."""
@@ -95,16 +93,6 @@ Rates = dict[tuple[str, Pair], list[float]]
 """Messages a second of each round, by message and pair."""
 
 
-def rospy_command() -> list[str] | None:
-    """Return what runs a rospy peer, None where rospy is not installed."""
-    probe = [PYTHON, "-c", "import rospy, std_msgs.msg"]
-    if not Path(PYTHON).exists():
-        return None
-    if subprocess.run(probe, capture_output=True, check=False).returncode:
-        return None
-    return [PYTHON, "-W", "ignore", "-c", ROSPY]
-
-
 def roscpp_command(folder: Path) -> list[str] | None:
     """Compile the roscpp peer and return what runs it, None where roscpp is not installed."""
     if not (shutil.which("g++") and shutil.which("pkg-config")):
@@ -135,7 +123,7 @@ class Rival:
         """Start it with the master at ``port``; ``act`` is "talk" or "listen"."""
         command = [*self._command, act, kind.partition("/")[2], str(size), str(seconds)]
         environment = {
-            "ROS_MASTER_URI": f"http://{HOST}:{port}/", "ROS_IP": HOST, "PATH": "/usr/bin:/bin"
+            "ROS_MASTER_URI": f"http://{HOST}:{port}/", **HOST_ENVIRONMENT
         }  # fmt: skip
         return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
 
@@ -199,15 +187,6 @@ def ping_pong(port: int, cycle_ns: int, count: int) -> list[int]:
             publisher.send(publisher.new(data="ping"))
     node.destroy(steps=200)
     return took[count // 10 :]  # past the start
-
-
-def await_master(port: int) -> None:
-    """Wait until the master of a pair answers."""
-    end = time.monotonic() + 20
-    while not answers(port):
-        if time.monotonic() > end:
-            raise SystemExit(f"no master at port {port}")
-        time.sleep(0.05)
 
 
 class Measurement:
@@ -320,7 +299,7 @@ def main() -> int:
     hosts = [print_machine("before")]
     rates: Rates = {}
     with tempfile.TemporaryDirectory() as folder:
-        commands = {"rospy": rospy_command(), "roscpp": roscpp_command(Path(folder))}
+        commands = {"rospy": rospy_command(ROSPY), "roscpp": roscpp_command(Path(folder))}
         rivals = {name: Rival(command) for name, command in commands.items() if command}
         measurement = Measurement(rivals, options.seconds)
         for _ in range(options.rounds):

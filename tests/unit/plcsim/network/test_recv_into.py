@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import time
+from typing import TYPE_CHECKING
 
 import pytest
 
 from plcsim.network import Address, Network, OsNetwork, Outcome, Socket, VirtualNetwork
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 
 @pytest.fixture(name="pair", params=["virtual", "os"])
-def _pair(request: pytest.FixtureRequest) -> tuple[Socket, Socket]:
+def _pair(request: pytest.FixtureRequest) -> Iterator[tuple[Socket, Socket]]:
     network: Network = (
         VirtualNetwork(lambda: 0).host("192.168.0.10")
         if request.param == "virtual"
@@ -26,7 +30,9 @@ def _pair(request: pytest.FixtureRequest) -> tuple[Socket, Socket]:
     while (server := listener.accept().socket) is None:
         assert time.monotonic() < end
     listener.close()
-    return client, server
+    yield client, server
+    client.close()
+    server.close()
 
 
 def filled(socket: Socket, target: memoryview) -> tuple[Outcome, int]:
