@@ -28,8 +28,8 @@ from typing import Any
 
 from _outcome import Target, console, number_above_0, print_machine, print_targets, write_json
 from _ports import free_port
+from _rospy import PYTHON
 from ros_processes import HOST, PLCSIM, PROGRAMS, Project
-from ros_throughput import PYTHON
 
 from crosnode.messages import MessageTypes
 
@@ -83,6 +83,14 @@ class Peers:
         master = self.running.pop("master")
         os.killpg(master.pid, signal.SIGKILL)
         master.wait()
+
+    def knows_cell(self) -> bool:
+        """Whether the master knows who publishes the joint states."""
+        try:
+            _, _, (publishers, _, _) = xmlrpc.client.ServerProxy(self.uri).getSystemState("/cell")
+        except OSError:
+            return False
+        return any(topic == "/joint_states" for topic, _ in publishers)
 
     def send(self, name: str, number: int) -> None:
         """Send a signal to a process."""
@@ -139,20 +147,32 @@ def compiled_listener(folder: Path) -> str:
 
 
 def trouble(peers: Peers, seconds: int, restart_s: int) -> int:
-    """Kill and restart the master, stop and continue a peer; return how often the master died."""
-    deaths = 0
+    """Kill and restart the master, stop and continue a peer; return how often the master died.
+
+    Each restart is printed with the seconds that it took until the master knew the cell again.
+    """
+    deaths, stops, restarted = 0, 0, None
     for second in range(seconds):
+        if restarted is not None and peers.knows_cell():
+            console.print(f"second {second}: the cell is registered again, {second - restarted} s "
+                          f"after the master was started")  # fmt: skip
+            restarted = None
         if second % restart_s == restart_s // 2:
             peers.kill_master()
             deaths += 1
+            console.print(f"second {second}: master killed with -9, the {deaths}. time")
         elif "master" not in peers.running and second % restart_s == restart_s // 2 + MASTER_AWAY_S:
             peers.start_master()
+            restarted = second
+            console.print(f"second {second}: master started again")
         if second % STOP_EVERY_S == 5:
             peers.send("stopped", signal.SIGSTOP)
+            stops += 1
         elif second % STOP_EVERY_S == 5 + STOP_S:
             peers.send("stopped", signal.SIGCONT)
         time.sleep(1)  # what happens at which second is the measurement
     peers.send("stopped", signal.SIGCONT)
+    console.print(f"listener 'stopped' was stopped for {STOP_S} s and continued, {stops} times")
     return deaths
 
 
@@ -177,12 +197,12 @@ def measure(seconds: int, restart_s: int) -> dict[str, Any]:
 
 def found_targets(found: dict[str, Any], seconds: int) -> list[Target]:
     planner, report = found["planner"], found["report"]
-    lost = sum(each[1] for each in found["heard"].values())
     succeeded = planner["ended"].get("SUCCEEDED", 0)
     steady = found["heard"]["steady"]
     violations = report["task_classes"][0]["violations"]
     return [
-        Target("messages lost on open connections", lost, 0, "messages"),
+        *(Target(f"lost on the open connection of {name!r}", each[1], 0, "messages")
+          for name, each in found["heard"].items()),
         Target("goals without success", planner["sent"] - succeeded, 0, "goals"),
         Target("goals", succeeded, seconds // 3, "goals", at_least=True),
         Target("joint states heard", steady[0] / seconds, STATES_PER_S * 0.9, "/s", at_least=True),
