@@ -129,6 +129,10 @@ class VirtualClock:
         """Return how often `wait_ns` was called."""
         return self._waits
 
+    def wind_back_to_ns(self, earlier_ns: int) -> None:
+        """Be again where the clock was, to run from there once more."""
+        self._now_ns = min(self._now_ns, earlier_ns)
+
     def spend_ns(self, duration_ns: int) -> None:
         """Let a program use ``duration_ns`` of CPU time."""
         self._now_ns += duration_ns

@@ -28,6 +28,7 @@ from plcsim.testing.times import duration_ns
 from plcsim.testing.trace import Trace
 from plcsim.testing.wall_clock import WallClock
 from plcsim.testing.watchdog import watchdog
+from plcsim.testing.winding import Winding
 from plcsim.testing.world import CONTROLLER_IP, World
 
 if TYPE_CHECKING:
@@ -65,6 +66,7 @@ class Plc(World, Expectations):
         traces: all traces made by `record`.
         settings: of the extensions in plc.toml, by table, as they hold in tests.
         image: what services of the project would share with the controller.
+        winding: what `rewind` goes back by.
         after_cycle: functions called after every cycle, to step what runs beside the controller.
         interleaving: how the task classes meet, where `every_interleaving` made this controller.
     """
@@ -108,6 +110,7 @@ class Plc(World, Expectations):
         self._pending: BaseException | None = None
         self._last_release_ns = 0
         self._earlier_ns = 0
+        self.winding = Winding(self)
         self.controller.image.inputs.append(self._latch)
         self.controller.image.watchers.append(self._publish)
 
@@ -249,6 +252,33 @@ class Plc(World, Expectations):
             raise pending
         self._check_fault()
         return self._stopped
+
+    def rewind(self, cycles: int) -> None:
+        """Go back by cycles of the task class under test, to look there, or to go on otherwise.
+
+        ::
+
+            plc.run("10s")
+            plc.rewind(100)
+            plc["tank.valve"] = False
+            plc.run("1s")
+
+        The controller starts again, at the same time of its clock, and runs up to there on what
+        came in then: what the test, plants and forces stored. Every cycle must end as it did. What
+        came later is forgotten; acts that were planned are dropped.
+
+        Raises:
+            PlcTestError: there were not so many cycles since the start, the clock is the real one,
+                or a cycle does not end as it did: what a program has from sockets, files or
+                ``random`` cannot be wound back.
+        """
+        if not isinstance(self.clock, VirtualClock):
+            raise PlcTestError("rewind: the real clock cannot be wound back")
+        earlier_ns = self._earlier_ns
+        self.winding.back(cycles)
+        self._earlier_ns = earlier_ns
+        for trace in self.traces:
+            trace.cut(self._last_release_ns if self.cycle_count else 0)
 
     def __getitem__(self, path: str) -> Any:
         """Return the plain value of a tag: a dict for a STRUCT, a list for an ARRAY.
@@ -413,14 +443,17 @@ class Plc(World, Expectations):
             self._act(task_class, time_ns, under_test=task_class is self._class)
         except PlantError as error:
             self._end_run(error)
+        self.winding.latched()
 
     def _publish(self, task_class: TaskClass) -> None:
         """Record, and look whether what the test waits for has come."""
         time_ns = self.controller.context.release_ns - self.controller.scan.origin_ns
         self._last_release_ns = time_ns
         self.history.add(task_class)
-        for trace in self.traces:
-            trace.sample(self.controller.memory, task_class.number, task_class.cycles, time_ns)
+        self.winding.ended(task_class)
+        if not self.winding.is_winding:
+            for trace in self.traces:
+                trace.sample(self.controller.memory, task_class.number, task_class.cycles, time_ns)
         for act in self.after_cycle:
             act()
         try:

@@ -69,6 +69,11 @@ class Trace:
         raw = tuple(memory.read(tag.address, tag.data_type.size) for tag in self.tags)
         self.add(TraceRow(time_ns, task_class, cycle, raw))
 
+    def cut(self, time_ns: int) -> None:
+        """Forget what came after a time."""
+        self.rows = [row for row in self.rows if row.time_ns <= time_ns]
+        self.end_ns = min(self.end_ns, time_ns)
+
     def __len__(self) -> int:
         return len(self.rows)
 

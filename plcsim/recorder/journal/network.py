@@ -14,10 +14,10 @@ from plcsim.network import (
     Filled,
     Opened,
     OpenedDatagrams,
-    OptionValue,
     Outcome,
     Received,
     Sent,
+    Socket,
 )
 from plcsim.recorder.journal.answers import (
     I64,
@@ -31,18 +31,18 @@ from plcsim.recorder.journal.answers import (
     u32_from,
 )
 from plcsim.recorder.journal.datagrams import OPEN, RecordedDatagrams, ReplayDatagrams
+from plcsim.recorder.journal.port import RecordedPort, ReplayPort
 
 if TYPE_CHECKING:
-    from plcsim.network import DatagramNetwork, Network, Option, Socket
+    from plcsim.network import DatagramNetwork, Network
     from plcsim.recorder.journal.feed import Feed
     from plcsim.recorder.journal.journal import Journal
 
 _NONE: Final = -1
 
-_OPEN, _ACCEPT, _LISTEN, _CONNECT = map(heads, (b"o", b"a", b"l", b"c"))
-_SEND, _RECV, _SHUTDOWN = map(heads, (b"s", b"r", b"d"))
-_SET_OPTION, _OPTION, _SET_LINGER = map(heads, (b"t", b"p", b"i"))
-_CLOSE, _LISTENING, _LOCAL, _PEER, _LINGER = b"x", b"n", b"h", b"e", b"g"
+_OPEN, _ACCEPT, _LISTEN = map(heads, (b"o", b"a", b"l"))
+_SEND, _RECV, _SHUTDOWN, _SET_LINGER = map(heads, (b"s", b"r", b"d", b"i"))
+_LISTENING, _LINGER = b"n", b"g"
 _LOOK = b"k"
 _NO_NEWS = _LOOK + NOTHING + U32.pack(0)
 _OPEN_DATAGRAMS = heads(OPEN)
@@ -103,7 +103,7 @@ class RecordedNetwork:
         return OpenedDatagrams(outcome, made)
 
 
-class RecordedSocket:
+class RecordedSocket(RecordedPort[Socket]):
     """A socket whose answers go into the journal; for what its calls do see `Socket`.
 
     Attributes:
@@ -111,30 +111,15 @@ class RecordedSocket:
     """
 
     def __init__(self, socket: Socket, network: RecordedNetwork, number: int) -> None:
+        super().__init__(socket, network.answers)
         self.number = number
-        self._socket = socket
         self._network = network
-        self._answers = network.answers
 
     @property
     def listening(self) -> bool:
         """See `Socket`."""
         value = self._socket.listening
         self._answers += _LISTENING + bytes([value])
-        return value
-
-    @property
-    def local(self) -> Address:
-        """See `Socket`."""
-        value = self._socket.local
-        self._answers += _LOCAL + NOTHING + address_text(value)
-        return value
-
-    @property
-    def peer(self) -> Address | None:
-        """See `Socket`."""
-        value = self._socket.peer
-        self._answers += _PEER + NOTHING + address_text(value)
         return value
 
     def listen(self, backlog: int) -> Outcome:
@@ -151,12 +136,6 @@ class RecordedSocket:
             return Accepted(outcome, None, peer)
         self._answers += address_text(peer)
         return Accepted(outcome, self._network.record(socket), peer)
-
-    def connect(self, peer: Address) -> Outcome:
-        """See `Socket`."""
-        outcome = self._socket.connect(peer)
-        self._answers += _CONNECT[outcome]
-        return outcome
 
     def send(self, data: bytes | memoryview, *, urgent: bool = False, direct: bool = False) -> Sent:
         """See `Socket`."""
@@ -192,21 +171,7 @@ class RecordedSocket:
     def close(self) -> None:
         """See `Socket`."""
         self._network.forget(self._socket)
-        self._socket.close()
-        self._answers += _CLOSE + NOTHING
-
-    def set_option(self, option: Option, value: int) -> Outcome:
-        """See `Socket`."""
-        outcome = self._socket.set_option(option, value)
-        self._answers += _SET_OPTION[outcome]
-        return outcome
-
-    def option(self, option: Option) -> OptionValue:
-        """See `Socket`."""
-        answer = self._socket.option(option)
-        self._answers += _OPTION[answer.outcome]
-        self._answers += I64.pack(answer.value)
-        return answer
+        super().close()
 
     def set_linger(self, seconds: int | None) -> Outcome:
         """See `Socket`."""
@@ -263,33 +228,18 @@ class ReplayNetwork:
         return OpenedDatagrams(outcome, made)
 
 
-class ReplaySocket:
+class ReplaySocket(ReplayPort):
     """A socket that answers what was recorded."""
 
     def __init__(self, feed: Feed, network: ReplayNetwork, number: int) -> None:
-        self._feed = feed
+        super().__init__(feed)
         self._network = network
         self._number = number
-
-    def _outcome(self, call: bytes) -> Outcome:
-        return OUTCOMES[self._feed.answer(call)]
 
     @property
     def listening(self) -> bool:
         """See `Socket`."""
         return bool(self._feed.answer(_LISTENING))
-
-    @property
-    def local(self) -> Address:
-        """See `Socket`."""
-        self._feed.answer(_LOCAL)
-        return address_from(self._feed) or Address("", 0)
-
-    @property
-    def peer(self) -> Address | None:
-        """See `Socket`."""
-        self._feed.answer(_PEER)
-        return address_from(self._feed)
 
     def listen(self, backlog: int) -> Outcome:
         """See `Socket`."""
@@ -302,10 +252,6 @@ class ReplaySocket:
             return Accepted(outcome)
         peer = address_from(self._feed) or Address("", 0)
         return Accepted(outcome, self._network.replay(), peer)
-
-    def connect(self, peer: Address) -> Outcome:
-        """See `Socket`."""
-        return self._outcome(b"c")
 
     def send(self, data: bytes | memoryview, *, urgent: bool = False, direct: bool = False) -> Sent:
         """See `Socket`."""
@@ -334,16 +280,7 @@ class ReplaySocket:
     def close(self) -> None:
         """See `Socket`."""
         self._network.forget(self._number)
-        self._feed.answer(_CLOSE)
-
-    def set_option(self, option: Option, value: int) -> Outcome:
-        """See `Socket`."""
-        return self._outcome(b"t")
-
-    def option(self, option: Option) -> OptionValue:
-        """See `Socket`."""
-        outcome = self._outcome(b"p")
-        return OptionValue(outcome, i64_from(self._feed))
+        super().close()
 
     def set_linger(self, seconds: int | None) -> Outcome:
         """See `Socket`."""

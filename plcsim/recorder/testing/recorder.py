@@ -10,14 +10,12 @@ from plcsim.core.control import Step
 from plcsim.recorder.bag.difference import difference
 from plcsim.recorder.bag.head import Head
 from plcsim.recorder.bag.reading import open_bag
-from plcsim.recorder.bag.values import first_difference
 from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.journal import Journal
 from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.tape import Tape
 from plcsim.recorder.replay.replay import Replay
-from plcsim.recorder.testing.winding import Winding
 from plcsim.testing.errors import PlcTestError
 
 if TYPE_CHECKING:
@@ -40,31 +38,12 @@ class RecorderFixture:
         self._folder = folder
         self._update = update
         self._records: list[bytes] = []
-        self._winding = Winding(plc, lambda now, then: first_difference(self._head(), now, then))
         Tape(plc.controller, Journal(), self._keep)
 
     def _keep(self, _time_ns: int, record: bytes) -> None:
-        if self._winding.is_winding and record_of(record).step == Step.BOOT.value:
+        if self._plc.winding.is_winding and record_of(record).step == Step.BOOT.value:
             self._records.clear()
         self._records.append(record)
-
-    def rewind(self, cycles: int) -> None:
-        """Go back by cycles of the task class under test, to try something else from there.
-
-        ::
-
-            plc.run("10s")
-            recorder.rewind(100)
-            plc["tank.valve"] = False
-
-        The controller starts again and runs up to there on what came in then: what tests, plants
-        and forces stored. Every cycle must end as it did. What was recorded later is forgotten.
-
-        Raises:
-            PlcTestError: there were not so many cycles, or one does not end as it did: what a
-                program has from sockets, files or ``random`` cannot be wound back.
-        """
-        self._winding.back(cycles)
 
     def save(self, file: str | Path) -> Path:
         """Write what was recorded so far into a bag; one that is there is replaced.
