@@ -25,13 +25,13 @@ def check_output(option: str, file: Path | None) -> None:
         raise ConfigurationError(f"{option} {file}: cannot be written")
 
 
-def write_output(option: str, file: Path, text: str) -> None:
+def write_output(option: str, file: Path, content: str | bytes) -> None:
     """Write a file.
 
     Raises:
         ConfigurationError: it cannot be written; the option is named.
     """
     try:
-        file.write_text(text, "utf-8")
+        file.write_bytes(content.encode() if isinstance(content, str) else content)
     except OSError as err:
         raise ConfigurationError(f"{option} {file}: {err.strerror}") from None

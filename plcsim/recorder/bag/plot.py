@@ -19,6 +19,7 @@ LANE: Final = 96
 DIGITAL_LANE: Final = 44
 GAP: Final = 14
 FOOT: Final = 34
+HEAD: Final = 34
 TICKS: Final = 8
 COLOURS: Final = ("#1b6ca8", "#b5541c", "#2f7d4f", "#7a4b9a", "#9a7b13", "#b03052")
 
@@ -37,7 +38,7 @@ def draw(series: Sequence[Series], title: str) -> str:
     """
     end_ns = max(1, *(each.points[-1][0] for each in series))
     parts: list[str] = []
-    top = 34
+    top = HEAD
     for number, each in enumerate(series):
         height = DIGITAL_LANE if isinstance(each.points[0][1], bool) else LANE
         colour = COLOURS[number % len(COLOURS)]
@@ -67,22 +68,21 @@ def _x(time_ns: int, end_ns: int) -> float:
 
 
 def _grid(end_ns: int, bottom: int) -> Iterator[str]:
-    step_ns = _step_ns(end_ns)
-    for time_ns in range(0, end_ns + 1, step_ns):
+    for time_ns in ticks_ns(end_ns):
         x = _x(time_ns, end_ns)
         text = format_duration(time_ns) if time_ns else "0"
         yield f'<line class="g" x1="{x:.1f}" x2="{x:.1f}" y1="30" y2="{bottom}"/>'
         yield (f'<text class="d" x="{x:.1f}" y="{bottom + 16}" text-anchor="middle">{text}</text>')
 
 
-def _step_ns(end_ns: int) -> int:
-    """Return a round step of which about `TICKS` make the whole."""
+def ticks_ns(end_ns: int) -> range:
+    """Return times from 0 in round steps, about `TICKS` of them."""
     step_ns = 1
     for factor in _round_factors():
         step_ns = factor
         if end_ns / step_ns <= TICKS:
             break
-    return step_ns
+    return range(0, end_ns + 1, step_ns)
 
 
 def _round_factors() -> Iterator[int]:

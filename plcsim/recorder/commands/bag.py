@@ -16,6 +16,7 @@ from plcsim.recorder.bag.difference import difference
 from plcsim.recorder.bag.names import ACTIVE
 from plcsim.recorder.bag.parquet import write_parquet
 from plcsim.recorder.bag.plot import draw, page
+from plcsim.recorder.bag.plot_png import draw_png
 from plcsim.recorder.bag.reading import open_bag
 from plcsim.recorder.bag.reindex import reindex as recover
 from plcsim.recorder.bag.series import columns_of, rows_of, series_of
@@ -65,15 +66,18 @@ def _records(records: Iterator[tuple[int, JournalRecord]]) -> str:
 def plot(options: argparse.Namespace) -> int:
     """Draw tags over time."""
     check_output("--output", options.output)
-    if options.output.suffix not in (".svg", ".html"):
-        raise RecordingError(f"{options.output}: a picture ends in .svg or .html")
+    form = options.output.suffix
+    if form not in (".png", ".svg", ".html"):
+        raise RecordingError(f"{options.output}: a picture ends in .png, .svg or .html")
     with open_bag(options.bag) as bag:
         head = bag.head()
         found = series_of(head, bag.records(), options.tags)
     title = f"{head.project}: {options.bag.name}"
+    if form == ".png":
+        write_output("--output", options.output, draw_png(found, title))
+        return ExitCode.DONE
     picture = draw(found, title)
-    is_page = options.output.suffix == ".html"
-    write_output("--output", options.output, page(picture, title) if is_page else picture)
+    write_output("--output", options.output, page(picture, title) if form == ".html" else picture)
     return ExitCode.DONE
 
 

@@ -146,7 +146,7 @@ def _add_plot(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> 
     parser.add_argument("bag", type=Path, metavar="BAG", help=BAG_HELP)
     parser.add_argument("tags", nargs="+", metavar="TAG", help="such as tank.level")
     parser.add_argument(
-        "-o", "--output", type=Path, required=True, metavar="FILE", help=".svg or .html"
+        "-o", "--output", type=Path, required=True, metavar="FILE", help=".png, .svg or .html"
     )
     parser.set_defaults(func=_later("plcsim.recorder.commands.bag", "plot"))
 

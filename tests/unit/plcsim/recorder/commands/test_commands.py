@@ -1,5 +1,6 @@
 """``plcsim replay``, ``why`` and ``bag``, as they are typed."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -109,6 +110,28 @@ def test_diff_tells_the_first_cycle_that_differs(
 def test_plot_draws(bag: str, tmp_path: Path, name: str) -> None:
     assert main(["bag", "plot", bag, "cell.count", "-o", str(tmp_path / name)]) == 0
     assert "cell.count" in (tmp_path / name).read_text()
+
+
+def test_plot_draws_a_png(bag: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "p.png"
+    words = ["bag", "plot", bag, "cell.count", "cell.even", "-o", str(picture)]
+    assert main(words) == 0
+    assert picture.read_bytes().startswith(b"\x89PNG\r\n")
+    first = picture.read_bytes()
+    assert main(words) == 0
+    assert picture.read_bytes() == first
+
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    assert main(words) == 1
+
+
+@pytest.mark.parametrize("name", ["p.pdf", "p"])
+def test_other_pictures_are_refused(
+    bag: str, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["bag", "plot", bag, "cell.count", "-o", str(tmp_path / name)]) == 1
+    assert "a picture ends in .png, .svg or .html" in capsys.readouterr().err
 
 
 def test_export_writes_a_row_for_every_cycle(bag: str, capsys: pytest.CaptureFixture[str]) -> None:
