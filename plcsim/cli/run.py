@@ -155,7 +155,7 @@ def run_project(options: argparse.Namespace, project: Project) -> int:
         virtual=options.virtual,
         for_ns=options.for_ns,
         cycles=options.cycles,
-        serves=options.web,
+        serves=["record", *["web"] * options.web],
         stays=stays,
         cold=options.cold,
         output=output,

@@ -18,7 +18,7 @@ from plcsim.shared_image.layout import HEADER_SIZE, make_file
 from plcsim.shared_image.status_page import ServiceState
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
     from typing import Any
 
     from plcsim.process.output import ChildOutput, Output
@@ -122,7 +122,7 @@ class ServiceProcesses:
         page: the status page.
         output: carries what the services print.
         quiet: the services print nothing but errors.
-        virtual: the scan is on the virtual clock; then only those run that can do with it.
+        only: tables whose services run, None for all.
 
     Attributes:
         image_fd: the shared image, for the scan process to lay out.
@@ -136,7 +136,7 @@ class ServiceProcesses:
         output: Output,
         *,
         quiet: bool = False,
-        virtual: bool = False,
+        only: Collection[str] | None = None,
     ) -> None:
         self.image_fd = make_file()
         self._is_laid_out = self._is_closed = False
@@ -155,7 +155,7 @@ class ServiceProcesses:
             for number, ((name, module), wake_fd) in enumerate(
                 zip(modules.items(), self.wake_fds, strict=True)
             )
-            if not virtual or extensions()[name].serves_virtual_clock
+            if only is None or name in only
         ]
 
     def tend(self, now_ns: int) -> None:

@@ -41,7 +41,7 @@ from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.status_page import StatusPage
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection
 
     from plcsim.core.logbook import Entry
     from plcsim.process.output import ChildOutput
@@ -77,14 +77,15 @@ class Supervisor:
         for_ns: stop after this time of the controller's clock.
         cycles: stop after as many cycles of the first class.
         stays: STOPPED and SERVICE do not end the run: the scan waits for a restart.
-        serves: services that can do with the virtual clock run beside it; without it, none does.
+        serves: tables whose services run beside the virtual clock as well: their peers are people
+            or others who have no part in the time of the controller.
         output: carries what the processes print; by default to this process' stdout and stderr.
         quiet: the services print nothing but errors.
         cold: retained variables begin with their initial values.
 
     Attributes:
         page: the status page.
-        services: the service processes; few can do with the virtual clock.
+        services: the service processes.
     """
 
     def __init__(  # noqa: PLR0913  # a run has so many choices, each by its name
@@ -95,7 +96,7 @@ class Supervisor:
         for_ns: int | None = None,
         cycles: int | None = None,
         stays: bool = False,
-        serves: bool = False,
+        serves: Collection[str] = (),
         output: Output | None = None,
         quiet: bool = False,
         cold: bool = False,
@@ -112,11 +113,11 @@ class Supervisor:
         self._system = SystemArea.of_file(self._system_fd)
         given = project.extensions
         self.services = ServiceProcesses(
-            given if not virtual else in_process(given, VIRTUAL_IP) if serves else {},
+            in_process(given, VIRTUAL_IP) if virtual else given,
             self.page,
             self._output,
             quiet=quiet,
-            virtual=virtual,
+            only=serves if virtual else None,
         )
         self._run = Run(os.getpid(), self.services.image_fd, self.page.fd)
         files = self.page.fd, self._result_fd, self._dump_fd, self.services.image_fd

@@ -46,14 +46,7 @@ class Attachment(NamedTuple):
 
 
 class Extension(Protocol):
-    """One table of plc.toml and what it stands for; subclass it for what is not said here.
-
-    Attributes:
-        serves_virtual_clock: its service runs beside a scan on the virtual clock as well. Its peers
-            are people or others who have no part in the time of the controller.
-    """
-
-    serves_virtual_clock: bool = False
+    """One table of plc.toml and what it stands for; subclass it for what is not said here."""
 
     def read(self, table: Table) -> Any:
         """Return the settings in the table; called for every command that reads the project.

@@ -18,7 +18,7 @@ from plcsim.recorder.settings import RecordProject, read_settings
 from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from plcsim.core.clock import Clock
@@ -53,8 +53,10 @@ class RecordExtension(Extension):
 
     def service(self, settings: RecordProject) -> str:
         """Return the module that writes the bag."""
-        in_scan = settings.is_in_process or settings.is_off
-        return "" if in_scan else "plcsim.recorder.service.process"
+        if settings.is_off or (settings.is_in_process and not settings.settings.live):
+            return ""
+        module = "live_process" if settings.is_in_process else "process"
+        return f"plcsim.recorder.service.{module}"
 
     def stopping_s(self, settings: RecordProject) -> float:
         """Return the time to write what is still in the image, and the index."""
@@ -79,11 +81,13 @@ class RecordExtension(Extension):
         if not isinstance(clock, RecordedClock):
             return Attachment()
         head = _head_of(settings, controller, clock)
-        if settings.is_in_process:
-            _InScan(settings, controller, head, clock.journal)
-            return Attachment()
         sender = _Sender()
-        Tape(controller, clock.journal, sender.send)
+        write = sender.send
+        if settings.is_in_process:
+            write = _InScan(settings, controller, head, show=sender.send).write
+        Tape(controller, clock.journal, write)
+        if not self.service(settings):
+            return Attachment()
         given = {
             "file": str(settings.file),
             "head": head.to_json(),
@@ -156,7 +160,11 @@ class _InScan:
     """
 
     def __init__(
-        self, settings: RecordProject, controller: Controller, head: Head, journal: Journal
+        self,
+        settings: RecordProject,
+        controller: Controller,
+        head: Head,
+        show: Callable[[int, bytes], None],
     ) -> None:
         # not at the top: beside a recorder of its own the scan has no use for rosbags
         from plcsim.recorder.bag.writing import Writing  # noqa: PLC0415
@@ -164,18 +172,20 @@ class _InScan:
         limits = settings.settings.limits
         self._writing: Writing | None = Writing(settings.file, head, limits)
         self._number = 0
+        self._show = show
         self._controller = controller
-        Tape(controller, journal, self._write)
         controller.logbook.follow(self._log)
         controller.follow_steps(self._stepped)
 
-    def _write(self, _time_ns: int, record: bytes) -> None:
+    def write(self, time_ns: int, record: bytes) -> None:
+        """Write a record, then show it."""
         if self._writing is not None:
             try:
                 self._writing.record(self._number, record_of(record))
             except OSError as err:
                 self._give_up(err)
             self._number += 1
+        self._show(time_ns, record)
 
     def _log(self, entry: Entry) -> None:
         if self._writing is not None:

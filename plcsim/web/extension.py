@@ -29,8 +29,6 @@ NEEDED: Final = ("starlette", "uvicorn", "websockets", "argon2")
 class WebExtension(Extension):
     """The controller in a browser."""
 
-    serves_virtual_clock = True
-
     def read(self, table: Table) -> WebProject:
         """Return the settings."""
         return read_settings(table)

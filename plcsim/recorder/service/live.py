@@ -2,17 +2,20 @@
 
 A WebSocket server of foxglove-sdk (subprotocol ``foxglove.sdk.v1``) runs in the recorder's
 process. Each tag is a channel, CDR with a schema of ros2msg, which all three understand, and a
-parameter that can be set. The parameter `PAUSED` stops the task classes and lets them go on.
+parameter that can be set. The parameter `PAUSED` stops the task classes and lets them go on. On the
+virtual clock the viewer's own buttons do so too, and set how fast it runs.
 """
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim.core.control import Action
+from plcsim.core.control import REAL_TIME, Action
 from plcsim.core.tag import leaves
 from plcsim.recorder.bag.types import messages_of, typestore
+from plcsim.recorder.bag.writing import tag_messages
 from plcsim.recorder.errors import RecordingError
 from plcsim.shared_image import CommandRefused
 from plcsim.shared_image.command import Control, StoreCommand, Write
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from plcsim.core.tag import Tag
+    from plcsim.process.service_main import Service
     from plcsim.recorder.bag.head import Head
     from plcsim.recorder.bag.types import TagMessages
     from plcsim.shared_image.command import Command
@@ -32,8 +36,23 @@ PAUSED: Final = "plcsim.paused"
 PERIOD_NS: Final = 20_000_000
 """Tags are shown at most so often: people look at them."""
 
+LONGEST_NS: Final = 24 * 3600 * 1_000_000_000
+"""A viewer wants to know where a virtual run ends, and nobody does: a day after its start."""
+
 SERVICE: Final = "live"
 """Who asks for a pause, in the logbook."""
+
+
+def open_live(service: Service, head: Head) -> Live | None:
+    """Return the live view, None where none is wanted; that it cannot be had ends nothing else."""
+    port = service.given["live"]
+    if not port:
+        return None
+    try:
+        return Live(head, port, tag_messages(head), service.image.send)
+    except RecordingError as err:
+        sys.stderr.write(f"plcsim: {err}\n")
+        return None
 
 
 class Live:
@@ -63,7 +82,10 @@ class Live:
             ) from None
         self._head = head
         self._send = send
+        self._websocket = websocket
         self._parameter = websocket.Parameter
+        self._speed = 1.0
+        self._now_ns = start_ns = head.epoch_ns + head.origin_ns
         self._leaves, self._tags = _shown(head, tags)
         self._variables = b""
         self._next_ns = 0
@@ -85,6 +107,9 @@ class Live:
                 host=HOST,
                 port=port,
                 capabilities=[websocket.Capability.Parameters, websocket.Capability.Time],
+                playback_time_range=(
+                    (start_ns, start_ns + LONGEST_NS) if head.is_virtual else None
+                ),
                 server_listener=_Listener(self),
                 context=context,
             )
@@ -103,8 +128,10 @@ class Live:
             return
         self._next_ns = time_ns + PERIOD_NS
         self._variables = variables
-        epoch_ns = self._head.epoch_ns + time_ns
+        epoch_ns = self._now_ns = self._head.epoch_ns + time_ns
         self._server.broadcast_time(epoch_ns)
+        if self._head.is_virtual:
+            self._server.broadcast_playback_state(self._playback())
         store, changed = typestore(ros2=True), []
         for tag in self._tags:
             data = variables[tag.start : tag.start + tag.size]
@@ -167,10 +194,30 @@ class Live:
                 found.append(self._parameter(name, value=value))
         return found
 
+    def play(self, request: Any) -> Any:
+        """Pause or go on, at a speed, as a viewer's buttons say; return what came of it."""
+        if request.playback_speed > 0 and request.playback_speed != self._speed:
+            self._speed = request.playback_speed
+            self._send(Control(Action.SPEED, int(self._speed * REAL_TIME), SERVICE))
+        self._pause(request.playback_command == self._websocket.PlaybackCommand.Pause)
+        return self._playback(request.request_id)
+
+    def _playback(self, request: str = "") -> Any:
+        """Return how the virtual clock runs; it cannot be sent elsewhere."""
+        status = self._websocket.PlaybackStatus
+        is_paused = status.Paused if self._is_paused else status.Playing
+        return self._websocket.PlaybackState(
+            is_paused, self._now_ns, self._speed, did_seek=False, request_id=request
+        )
+
+    def _pause(self, is_paused: bool) -> None:  # a state
+        if is_paused != self._is_paused:
+            self._is_paused = is_paused
+            self._send(Control(Action.PAUSE if is_paused else Action.CONTINUE, by=SERVICE))
+
     def _set(self, name: str, value: object) -> None:
         if name == PAUSED:
-            self._is_paused = bool(value)
-            self._send(Control(Action.PAUSE if value else Action.CONTINUE, by=SERVICE))
+            self._pause(bool(value))
             return
         tag = self._leaves[name][0]
         if isinstance(value, float) and value.is_integer() and not _is_real(tag):
@@ -194,6 +241,9 @@ class _Listener:
         self, _client: object, parameters: list[Any], _request: object
     ) -> list[Any]:
         return self._live.set(parameters)
+
+    def on_playback_control_request(self, request: object) -> Any:
+        return self._live.play(request)
 
     def on_parameters_subscribe(self, names: list[str]) -> None:
         self._live.follow(names, on=True)

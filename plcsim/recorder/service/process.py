@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.control import Step
 from plcsim.recorder.bag.head import head_from
 from plcsim.recorder.bag.names import active
-from plcsim.recorder.bag.writing import Limits, Writing, tag_messages
+from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE, record_of
-from plcsim.recorder.service.live import HOST, Live
+from plcsim.recorder.service.live import HOST, Live, open_live
 from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from plcsim.process.service_main import Service
-    from plcsim.recorder.bag.head import Head
     from plcsim.shared_image.stream import StreamRecord
 
 POLL_S: Final = 0.01
@@ -43,7 +42,7 @@ def serve(service: Service) -> None:
     file = Path(service.given["file"])
     head = head_from(service.given["head"])
     writing = Writing(file, head, Limits(**service.given["limits"]), beside_others=True)
-    live = _live(service, head)
+    live = open_live(service, head)
     where = f", live view at ws://{HOST}:{live.port}" if live else ""
     service.serving(f"recording into {writing.files[-1]}{where}")
     try:
@@ -53,18 +52,6 @@ def serve(service: Service) -> None:
         left = active(writing.files[-1])
         hint = f"; plcsim bag reindex {left} makes readable what is there" if left.is_file() else ""
         raise RecordingError(f"{file}: cannot be written: {err}{hint}") from None
-
-
-def _live(service: Service, head: Head) -> Live | None:
-    """Return the live view, None where none is wanted; that it cannot be had ends no recording."""
-    port = service.given["live"]
-    if not port:
-        return None
-    try:
-        return Live(head, port, tag_messages(head), service.image.send)
-    except RecordingError as err:
-        sys.stderr.write(f"plcsim: {err}\n")
-        return None
 
 
 class Recorder:

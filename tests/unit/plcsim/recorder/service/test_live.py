@@ -24,6 +24,11 @@ pytest.importorskip("foxglove")
 client = pytest.importorskip("websockets.sync.client")
 
 
+PLAY, PAUSE = 0, 1
+PLAYING, PAUSED = 0, 1
+"""Commands and states of the protocol."""
+
+
 class Viewer:
     """A client."""
 
@@ -48,6 +53,18 @@ class Viewer:
             if isinstance(data, bytes) and data[0] == 1:
                 return *struct.unpack_from("<IQ", data, 1), data[13:]
 
+    def press(self, command: int, speed: float) -> None:
+        """Send a PlaybackControlRequest: no seek, an identifier."""
+        self._socket.send(struct.pack("<BBfBQI2s", 3, command, speed, 0, 0, 2, b"id"))
+
+    def playback(self) -> tuple[int, float]:
+        """Return status and speed of the next PlaybackState."""
+        while True:
+            data = self._socket.recv(timeout=10)
+            if isinstance(data, bytes) and data[0] == 5:
+                status, _, speed = struct.unpack_from("<BQf", data, 1)
+                return status, speed
+
     def say(self, operation: str, **values: object) -> None:
         self._socket.send(json.dumps({"op": operation, **values}))
 
@@ -56,14 +73,14 @@ class Viewer:
 
 
 class Scene:
-    def __init__(self, *tags: str) -> None:
+    def __init__(self, *tags: str, is_virtual: bool = False) -> None:
         clock = VirtualClock()
         net = VirtualNetwork(clock.now_ns).host("192.168.0.10")
         self.controller = make_controller(application_of(Fast).setup, network=net, clock=clock)
         self.controller.boot()
         self.head = Head(
             "cell",
-            is_virtual=False,
+            is_virtual=is_virtual,
             epoch_ns=100,
             origin_ns=0,
             classes=[(1, 10_000_000)],
@@ -177,6 +194,30 @@ def test_time_is_stopped_and_goes_on_by_a_parameter(scene: Scene) -> None:
         assert scene.viewer.told("parameterValues")["parameters"] == wanted
 
     assert scene.sent == [Control(Action.PAUSE, by="live"), Control(Action.CONTINUE, by="live")]
+
+
+def test_the_buttons_of_a_viewer_stop_and_pace_the_virtual_clock() -> None:
+    scene = Scene(is_virtual=True)
+    info = scene.viewer.told("serverInfo")
+    assert "playbackControl" in info["capabilities"]
+    start = info["dataStartTime"]
+    assert (start["sec"], start["nsec"]) == (0, 100)
+
+    def press(command: int, speed: float) -> tuple[int, float]:
+        scene.viewer.press(command, speed)
+        return scene.viewer.playback()
+
+    assert press(PLAY, 1.0) == (PLAYING, 1.0)
+    assert press(PAUSE, 1.0) == (PAUSED, 1.0)
+    assert press(PLAY, 2.5) == (PLAYING, 2.5)
+    scene.show(count=5)
+    assert scene.viewer.playback() == (PLAYING, 2.5)
+    assert scene.sent == [
+        Control(Action.PAUSE, by="live"),
+        Control(Action.SPEED, 2_500_000, "live"),
+        Control(Action.CONTINUE, by="live"),
+    ]
+    scene.close()
 
 
 def test_a_port_in_use_is_told(scene: Scene) -> None:
