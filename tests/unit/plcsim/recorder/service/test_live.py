@@ -1,10 +1,6 @@
 """The live view, asked by a plain WebSocket client as Foxglove asks."""
 
-import json
-import struct
 from collections.abc import Iterator
-from contextlib import ExitStack
-from typing import Any
 
 import pytest
 
@@ -19,57 +15,10 @@ from plcsim.recorder.service.live import PERIOD_NS, Live
 from plcsim.shared_image.command import Command, Control, StoreCommand, Write
 
 from ..conftest import Fast, application_of
+from .viewer import PAUSE, PAUSED, PLAY, PLAYING, Viewer
 
 pytest.importorskip("foxglove")
-client = pytest.importorskip("websockets.sync.client")
-
-
-PLAY, PAUSE = 0, 1
-PLAYING, PAUSED = 0, 1
-"""Commands and states of the protocol."""
-
-
-class Viewer:
-    """A client."""
-
-    def __init__(self, port: int) -> None:
-        self._open = ExitStack()
-        connection = client.connect(
-            f"ws://127.0.0.1:{port}", subprotocols=["foxglove.sdk.v1"], proxy=None
-        )
-        self._socket = self._open.enter_context(connection)
-
-    def told(self, operation: str) -> Any:
-        """Return the next text message of a kind; others are passed over."""
-        while True:
-            data = self._socket.recv(timeout=100)
-            if isinstance(data, str) and (found := json.loads(data))["op"] == operation:
-                return found
-
-    def data(self) -> tuple[int, int, bytes]:
-        """Return subscription, time and bytes of the next message of a channel."""
-        while True:
-            data = self._socket.recv(timeout=100)
-            if isinstance(data, bytes) and data[0] == 1:
-                return *struct.unpack_from("<IQ", data, 1), data[13:]
-
-    def press(self, command: int, speed: float) -> None:
-        """Send a PlaybackControlRequest: no seek, an identifier."""
-        self._socket.send(struct.pack("<BBfBQI2s", 3, command, speed, 0, 0, 2, b"id"))
-
-    def playback(self) -> tuple[int, float]:
-        """Return status and speed of the next PlaybackState."""
-        while True:
-            data = self._socket.recv(timeout=10)
-            if isinstance(data, bytes) and data[0] == 5:
-                status, _, speed = struct.unpack_from("<BQf", data, 1)
-                return status, speed
-
-    def say(self, operation: str, **values: object) -> None:
-        self._socket.send(json.dumps({"op": operation, **values}))
-
-    def close(self) -> None:
-        self._open.close()
+pytest.importorskip("websockets.sync.client")
 
 
 class Scene:
