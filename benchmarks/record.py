@@ -1,4 +1,4 @@
-"""What recording costs the scan, and how quick a replay is.
+"""What recording costs the scan, what the recorder needs, and how quick a replay is.
 
     python benchmarks/record.py [--seconds 4] [--rounds 7] [--long 0] [--json FILE]
 
@@ -6,10 +6,12 @@
 cycle, at 1 ms on the real clock, with and without a recorder beside it; the rounds begin with
 another one each time. Of each run: CPU time of the scan in a cycle (the median of its cycles), grid
 points missed, records lost. The cost is the difference within a round; the median of the rounds is
-told, so that what else the machine does counts little. (b) With
-``--long SECONDS`` one run of 10,000 messages a second: memory of both processes from its start to
-its end, records lost. (c) A bag of 10 topics of 100 messages a second is played to a program on the
-virtual clock: how many times as fast as real time, by the wall clock and by CPU time.
+told, so that what else the machine does counts little. So are the grid points that runs with a
+recorder missed beyond those without, and the real-time rights. (b) With ``--long
+SECONDS`` one run of 10,000 messages of topics a second, and 50,000 of tags: memory of both
+processes from its start to its end, CPU time of the recorder, records lost. (c) A bag of 10 topics
+of 100 messages a second is played to a program on the virtual clock: how many times as fast as real
+time, by the wall clock and by CPU time.
 """
 
 from __future__ import annotations
@@ -37,8 +39,8 @@ from st_types import UDINT, var
 
 TAGS = 50
 TOPICS = 10
-LOOKS = 9
-"""At the memory in (b)."""
+PARTS = (0.1, 0.5, 1.0)
+"""Of the time of (b): when the memory is looked at."""
 
 WARMING_UP = 500
 """Cycles that do not count."""
@@ -110,9 +112,11 @@ def run(folder: Path, seconds: float, bag: Path | None) -> dict[str, Any]:
     if bag is not None:
         words += ["--record", bag]
     done = subprocess.run(plcsim(*words), stdout=subprocess.PIPE, text=True, check=True)
-    (task_class,) = json.loads(report.read_text())["task_classes"]
+    run_report = json.loads(report.read_text())
+    (task_class,) = run_report["task_classes"]
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     figures["missed"] = task_class["missed_grid_points"]
+    figures["rights"] = run_report["realtime_rights"]
     figures["lost"] = 0
     if bag is not None:
         told = subprocess.run(
@@ -134,8 +138,9 @@ def costs(folder: Path, seconds: float, rounds: int) -> dict[str, Any]:
             bag = folder.parent / "run.bag" if name == "with" else None
             runs[name].append(run(folder, seconds, bag))
     pairs = zip(runs["without"], runs["with"], strict=True)
-    cost_us = statistics.median(w["cpu_us"] - o["cpu_us"] for o, w in pairs)
-    return {"runs": runs, "cost_us": cost_us}
+    differences = [(w["cpu_us"] - o["cpu_us"], w["missed"] - o["missed"]) for o, w in pairs]
+    cost_us, extra_missed = map(statistics.median, zip(*differences, strict=True))
+    return {"runs": runs, "cost_us": cost_us, "extra_missed": extra_missed}
 
 
 def resident_mib(pid: int) -> float:
@@ -154,26 +159,50 @@ def children(pid: int) -> dict[str, int]:
     return found
 
 
+def cpu_s(pid: int) -> float:
+    """Return the CPU time that a process has used."""
+    words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def look_at(supervisor: int, bag: Path) -> dict[str, float]:
+    """Return MiB of both processes and of the bag, and CPU seconds of the recorder."""
+    found: dict[str, float] = {"s": time.monotonic()}
+    processes = children(supervisor)
+    found |= {name: resident_mib(pid) for name, pid in processes.items()}
+    found["cpu_s"] = cpu_s(processes["recorder"]) if "recorder" in processes else 0.0
+    found["bag"] = sum(f.stat().st_size for f in bag.parent.glob("long*")) / (1 << 20)
+    return found
+
+
 def memory(folder: Path, seconds: float) -> dict[str, Any]:
-    """Return MiB of both processes of a long run, `LOOKS` times, and what was recorded."""
+    """Return what `look_at` saw of a long run at its start and at `PARTS`, and what it recorded."""
     bag = folder.parent / "long.bag"
     words = ["run", folder, "--for", f"{seconds + 10}s", "--quiet", "--record", bag]
     process = subprocess.Popen(plcsim(*words), stdout=subprocess.DEVNULL)
-    found = []
-    time.sleep(8)
+    while "recorder" not in children(process.pid) and process.poll() is None:
+        time.sleep(0.1)
+    time.sleep(5)
     start_s = time.monotonic()
-    for look in range(LOOKS):
-        time.sleep(max(0.0, start_s + look * seconds / (LOOKS - 1) - time.monotonic()))
-        sizes = {name: resident_mib(pid) for name, pid in children(process.pid).items()}
-        written = sum(f.stat().st_size for f in bag.parent.glob("long*"))
-        found.append({"s": time.monotonic() - start_s, **sizes, "bag": written})
+    looks = [look_at(process.pid, bag)]
+    for part in PARTS:
+        time.sleep(max(0.0, start_s + part * seconds - time.monotonic()))
+        looks.append(look_at(process.pid, bag))
     process.wait()
     told = subprocess.run(plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True)
-    sent = sum(int(n) for n in re.findall(r"/busy/out_\d+ +std_msgs/Float64 +(\d+)", told.stdout))
+    counts = [int(n) for n in re.findall(r"std_msgs/\w+ +(\d+)", told.stdout)]
+    topics = re.findall(r"/busy/out_\d+ +std_msgs/Float64 +(\d+)", told.stdout)
     lost = re.search(r"steps, (\S+) lost", told.stdout)
     for file in bag.parent.glob("long*"):
         file.unlink()
-    return {"looks": found, "messages": sent, "lost": lost[1] if lost else "?"}
+    first, last = looks[0], looks[-1]
+    return {
+        "looks": looks,
+        "messages": sum(map(int, topics)),
+        "all_messages": sum(counts),
+        "processors": (last["cpu_s"] - first["cpu_s"]) / (last["s"] - first["s"]),
+        "lost": lost[1] if lost else "?",
+    }
 
 
 class Hears(Program):
@@ -241,16 +270,23 @@ def main() -> None:
             for each in runs:
                 missed, lost = each["missed"], each["lost"]
                 print(f"{kind:<10} {each['cpu_us']:16.1f} us {missed:7} {lost:13}")
-        print(f"recording costs {found['costs']['cost_us']:.1f} us of a cycle (median)")
+        costly = found["costs"]
+        rights = costly["runs"]["with"][0]["rights"]
+        print(f"recording costs {costly['cost_us']:.1f} us of a cycle (median)")
+        print(f"{costly['extra_missed']:g} grid points missed beyond those without (median)")
+        print(f"real-time rights: {', '.join(rights) or 'none'}")
         if options.long:
             found["memory"] = memory(folder, options.long)
             print("(b) MiB:        scan recorder      bag")
             for each in found["memory"]["looks"]:
-                bag = each["bag"] / (1 << 20)
-                scan, recorder = each.get("scan", 0), each.get("recorder", 0)
-                print(f"{each['s']:7.0f} s {scan:8.1f} {recorder:8.1f} {bag:8.1f}")
-            per_s = found["memory"]["messages"] / (options.long + 10)
-            print(f"{per_s:.0f} messages a second; records lost: {found['memory']['lost']}")
+                seconds = each["s"] - found["memory"]["looks"][0]["s"]
+                sizes = [each.get(name, 0) for name in ("scan", "recorder", "bag")]
+                print(f"{seconds:7.0f} s {sizes[0]:8.1f} {sizes[1]:8.1f} {sizes[2]:8.1f}")
+            ran_s = options.long + 10
+            per_s = [found["memory"][name] / ran_s for name in ("messages", "all_messages")]
+            print(f"{per_s[0]:.0f} messages of topics a second, with tags {per_s[1]:.0f}; ", end="")
+            print(f"records lost: {found['memory']['lost']}")
+            print(f"the recorder used {found['memory']['processors']:.2f} of a processor")
         found["replay"] = replay(folder, 60)
         times = found["replay"]
         print(
