@@ -69,7 +69,12 @@ class ReportComparison(NamedTuple):
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command."""
     text = "compare the reports of two test runs"
-    parser = subparsers.add_parser("report", help=text, description=f"{text.capitalize()}.")
+    parser = subparsers.add_parser(
+        "report",
+        help=text,
+        description=f"{text.capitalize()}.",
+        epilog=epilog(DONE="", FAILED="a report cannot be read", DIFFERENT=""),
+    )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     command = commands.add_parser(
         "compare",

@@ -165,20 +165,20 @@ class Controller:
             self.fault = None
             self.stop_requested = False
             self.context.restart()
-        self.context.release_ns = self.clock.now_ns()
+        self.context.release_ns = self.clock.now_ns()  # INIT knows a time, as every cycle does
         self._heartbeat.changed(self.state)
         for area in self.areas:
             self.memory.write(area.address, initial_image(area.data_type))
         self.memory.restore()
         self.retained.restore()
         for task in self.tasks:
-            task.resume()
+            task.resume()  # what a program has suspended runs again after a restart
         for task in self.tasks:
             self._run_unit(task, Unit.INIT)
             if self.state is not State.BOOT:
                 return self.state
         self._enter(Event.INITIALISED)
-        self._started = False
+        self._started = False  # the grid begins with `start`, after what the caller still has to do
         return self.state
 
     def start(self) -> None:
@@ -320,7 +320,7 @@ class Controller:
             self.scan.run_exception_program(self._exception_task)
 
     def _program_failed(self, task: Task, unit: Unit, error: BaseException) -> None:
-        self.memory.system.rearm()
+        self.memory.system.rearm()  # or the next compiled program would be ended in its stead
         fault = ProgramError(task.name, unit.value, task.fault_of(error))
         fault.__cause__ = error
         self.log(Severity.ERROR, task.name, str(fault))
@@ -328,7 +328,7 @@ class Controller:
 
     def _go_to_service(self, fault: ProgramError | Violation) -> None:
         self.scan.halt()
-        if self.fault is None:
+        if self.fault is None:  # the first one is the cause; an exception program may add others
             self.fault = fault
         if self.state is not State.SERVICE:
             self._enter(Event.FAULT)

@@ -97,7 +97,7 @@ class Memory:
             self.system = SystemArea.of_file(system_fd)
             files.append((os.dup(system_fd), SYSTEM_AREA, PAGE))
         self.files = tuple(files)
-        for fd, _, _ in files:
+        for fd, _, _ in files:  # with us, or at the interpreter's end
             weakref.finalize(self, os.close, fd)
 
     @property
@@ -122,7 +122,7 @@ class Memory:
                 f"the PLC memory of {self.size} bytes is full: {size} more bytes do not fit."
             )
         self._top = address + size
-        limit = align_up(self._top, PAGE)
+        limit = align_up(self._top, PAGE)  # by pages, as compiled code checks: all meet one fault
         if limit != self._limit:
             self._limit = limit
             self._tell()
@@ -180,6 +180,7 @@ class Memory:
 
     def check(self, address: int, size: int) -> None:
         """Raise PageFault unless all ``size`` bytes at ``address`` are valid."""
+        # One comparison for nearly every access; the stack of compiled programs is the rare case.
         if size < 0 or not LIBRARY_AREA <= address <= self._limit - size:
             self._check_stack(address, size)
 
@@ -220,7 +221,7 @@ class Memory:
         Raises:
             PageFault: the string runs into an address that is not valid.
         """
-        self.check(address, 1)
+        self.check(address, 1)  # the NUL may come before the end of what is valid, so no more yet
         end = min(address + limit, self._limit if address >= LIBRARY_AREA else SYSTEM_AREA)
         found = self._map.find(b"\0", address, end)
         if found < 0:

@@ -190,6 +190,8 @@ class Scan:
         while self._goes_on():
             now_ns = self._clock.now_ns()
             wake_ns = self._end_ns
+            # One pass finds the first class that is due, or the earliest release: the classes stand
+            # in the order of their priority, and this loop is what an idle scan costs.
             for task_class in self.classes:
                 if task_class.release_ns < wake_ns:
                     wake_ns = task_class.release_ns
@@ -198,7 +200,7 @@ class Scan:
                         break
             else:
                 if wake_ns == self._end_ns and now_ns >= wake_ns:
-                    return
+                    return  # not before: who runs for a second of real time wants to wait for it
                 for idle in self.idlers:
                     idle(wake_ns - now_ns)
                 self._clock.sleep_until_ns(wake_ns)
@@ -210,6 +212,8 @@ class Scan:
     def _run_class(self, task_class: TaskClass) -> None:
         """Run one cycle of a class; what it interrupts goes on as it was."""
         cells, clock, image = self._cells, self._clock, self._image
+        # A class that preempts runs inside the RUN of another one, whose programs must find their
+        # release time, and whose figures must go on, as if nothing had been.
         outer = self.phase, cells[RELEASE], self._own_ns, self._aborted
         elsewhere_ns = self._elsewhere_ns
         cells[RELEASE] = task_class.release_ns
@@ -228,6 +232,7 @@ class Scan:
             self.phase = _PUBLISH
             image.publish(task_class)
             used_ns = clock.cpu_ns() - cpu_ns
+            # What is neither a program's nor a preempting class' is that of LATCH and PUBLISH.
             self._account(task_class, start_ns, used_ns - self._elsewhere_ns)
             elsewhere_ns += used_ns
         finally:
@@ -238,12 +243,12 @@ class Scan:
     def _run_tasks(self, task_class: TaskClass) -> None:
         order = self.classes.index(task_class)
         for task in task_class.tasks:
-            if order:
+            if order:  # between two programs and never inside one: a program is never interrupted
                 self._run_higher(order)
             if self.halted:
                 return
             error = self._run_task(task)
-            if error is not None:
+            if error is not None:  # judged with the cycle, so that there is one record of both
                 self._aborted = task, task.fault_of(error).location
 
     def _run_higher(self, below: int) -> None:
@@ -280,7 +285,7 @@ class Scan:
         try:
             self.active = task
             task.cyclic()
-            self.active = None
+            self.active = None  # first of all: a signal of the watchdog that comes now is too late
         except CycleTimeViolation as error:
             self.active = None
             self._context.memory.system.rearm()
@@ -291,7 +296,7 @@ class Scan:
         used_ns = clock.cpu_ns() - cpu_ns
         self._elsewhere_ns += used_ns
         end_ns = clock.now_ns()
-        if clock.waits() != waits:
+        if clock.waits() != waits:  # it waited itself: CPU time would acquit a program that sleeps
             used_ns = max(used_ns, end_ns - start_ns)
         task.execution.record(used_ns)
         if self.run_follower is not None:
@@ -326,7 +331,7 @@ class Scan:
             task_class.in_tolerance += 1
         if self.run_follower is not None:
             self.run_follower.cycled(task_class, start_ns, end_ns)
-        task_class.advance(end_ns)
+        task_class.advance(end_ns)  # before the exception program, whose time is not this cycle's
         if violation is not None:
             self._supervisor.violated(violation, task_class.policy_for(violation.cause))
         self._heartbeat.finished(task_class)
@@ -336,6 +341,8 @@ class Scan:
         limit_ns = task_class.cycle_ns + task_class.tolerance_ns
         own, others, controller_ns = task_class.used_by_own_and_others()
         own_ns, others_ns = sum(own.values()), sum(others.values())
+        # From the nearest to the farthest: each has to explain the whole excess together with those
+        # before it; what nobody here has used the host has taken.
         if own_ns > limit_ns or self._aborted:
             cause = Cause.PROGRAM
         elif own_ns + others_ns > limit_ns:

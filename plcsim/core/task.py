@@ -229,6 +229,7 @@ class TaskClass:
             used_ns: CPU time used between the two.
         """
         release_ns = self.release_ns
+        # Comparisons, not max() and min(): this runs for each program and class in every cycle.
         overlap_ns = end_ns - (start_ns if start_ns > release_ns else release_ns)
         if overlap_ns > 0:
             noted_ns = used_ns if used_ns < overlap_ns else overlap_ns
@@ -245,7 +246,9 @@ class TaskClass:
 
     def skip_to(self, now_ns: int) -> None:
         """Go to the first grid point that has not passed, without missing any."""
-        passed = -(-(now_ns - self.release_ns) // self.cycle_ns)
+        passed = -(
+            -(now_ns - self.release_ns) // self.cycle_ns
+        )  # rounded up: a point at now counts
         if passed > 0:
             self.release_ns += passed * self.cycle_ns
         self._used_ns.clear()
@@ -256,7 +259,7 @@ class TaskClass:
         The points in between are missed.
         """
         self._used_ns.clear()
-        if end_ns <= self.release_ns + self.cycle_ns:
+        if end_ns <= self.release_ns + self.cycle_ns:  # on the point itself is in time
             self.release_ns += self.cycle_ns
             return
         passed = -(-(end_ns - self.release_ns) // self.cycle_ns)

@@ -39,6 +39,8 @@ EXAMPLES = {
     ),
 }
 
+EXITS = epilog(DONE="", FAILED="the project or its map is wrong")
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Add the command and its own commands."""
@@ -46,6 +48,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "tags",
         help="check, list and export the Modbus map of a project",
         description="The Modbus map of a project: tags.csv, automatic addresses, or both.",
+        epilog=EXITS,
     )
     commands = tags.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add(commands, "check", check, "say whether the map fits the programs")
@@ -67,7 +70,7 @@ def _add(
         help=text,
         description=f"{text[0].upper()}{text[1:]}.",
         examples=EXAMPLES[name],
-        epilog=epilog(DONE="", FAILED="the project or its map is wrong"),
+        epilog=EXITS,
     )
     add_project(parser)
     parser.set_defaults(func=function)

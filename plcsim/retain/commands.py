@@ -41,6 +41,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="show, clear, export or import what retained variables keep",
         description="The values that VAR RETAIN and permanent variables of a project have when it "
         "starts next, from the files of its table [retain].",
+        epilog=EXITS,
     )
     commands = retain.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, func, text in (

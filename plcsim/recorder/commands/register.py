@@ -26,6 +26,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "bag",
         help="look into a recording: what it holds, and where two differ",
         description="What `plcsim run --record` has written.",
+        epilog=epilog(DONE="", FAILED="a bag is wrong", DIFFERENT=""),
     )
     commands = bag.add_subparsers(title="commands", metavar="COMMAND", required=True)
     _add_info(commands)
