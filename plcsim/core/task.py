@@ -246,9 +246,8 @@ class TaskClass:
 
     def skip_to(self, now_ns: int) -> None:
         """Go to the first grid point that has not passed, without missing any."""
-        passed = -(
-            -(now_ns - self.release_ns) // self.cycle_ns
-        )  # rounded up: a point at now counts
+        # Rounded up: a point at this very moment has not passed.
+        passed = -(-(now_ns - self.release_ns) // self.cycle_ns)
         if passed > 0:
             self.release_ns += passed * self.cycle_ns
         self._used_ns.clear()
