@@ -30,7 +30,7 @@ export async function show(page, ears) {
     const cells = new Map();
     const colour = highlighter(file);
     const body = h("tbody", {}, read.lines.map(([text, names], at) => h("tr", {},
-      h("td", { class: "no" }, String(at + 1)), h("td", { class: "code" }, colour(text).map(([kind, part]) => (kind ? h("span", { class: `hl-${kind}` }, part) : part))),
+      h("td", { class: "no" }, String(at + 1)), h("td", { class: "code" }, colour(text).map(([kind, part]) => (kind && !own(names).has(part) ? h("span", { class: `hl-${kind}` }, part) : part))),
       h("td", { class: "values" }, names.filter(([, path]) => described.has(path)).map(([name, path]) => {
         const value = h("span", { class: "num" }, "…");
         if (!cells.has(path)) cells.set(path, []);
@@ -53,3 +53,6 @@ export async function show(page, ears) {
   };
   await open();
 }
+
+// names of variables on a line: one that is called like a keyword is none
+function own(names) { return new Set(names.flatMap(([name]) => name.split(/\W+/))); }
