@@ -250,6 +250,7 @@ class Hub:
             "project": directory.project,
             "folder": self.given["folder"],
             "is_virtual": self.given["is_virtual"],
+            "started_s": round(time.time() - self.page.elapsed_ns / 1e9),
             "stays": self.page.stays,
             "memory_size": self.given["memory_size"],
             "variables_size": sum(area.data_type.size for area in directory.areas),

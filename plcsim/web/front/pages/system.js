@@ -18,9 +18,11 @@ export function show(page, ears) {
       card("Controller", h("dl", {},
         fact("project", "Project", facts.project),
         fact("state", "State"),
+        fact("started", "Started", facts.is_virtual ? "" : new Date(facts.started_s * 1000).toLocaleString("sv")),
         fact("elapsed", "Running for"),
         fact("clock", "Clock", facts.is_virtual ? "virtual" : "real"),
-        fact("cpu", "Processor of the scan"))),
+        fact("cpu", "Processor of the scan"),
+        fact("rights", "Rights of the scan"))),
       card("Memory", h("dl", {},
         fact("memory", "PLC memory", bytes(facts.memory_size)),
         fact("variables", "Variables", bytes(facts.variables_size)),
@@ -47,6 +49,8 @@ export function show(page, ears) {
   const drawSystem = (told) => {
     const scan = told.processes.find((process) => process.name === "scan");
     setText(rows.cpu, told.cpu === null ? "any" : String(told.cpu));
+    const rights = scan ? [scan.policy === "other" ? null : scan.policy, scan.locked ? "locked memory" : null].filter(Boolean) : [];
+    setText(rows.rights, rights.join(", ") || "none");
     setText(rows.rss, scan ? bytes(scan.rss) : "–");
     setText(rows.locked, scan ? bytes(scan.locked) : "–");
     put(processes, table(
