@@ -192,6 +192,8 @@ def _groups_of(
         yield _Group(folder.name, together, outer, is_library)
     alone = [file for file in files if file not in together]
     if alone:
-        siblings = Scope(folder.name, [*map(declarations_of, alone)], outer, dialect=IEC)
+        uses = program_uses(file.tokens.source.text for file in alone)
+        declared = [declarations_of(file, uses) for file in alone]
+        siblings = Scope(folder.name, declared, outer, dialect=IEC)
         for file in alone:
             yield _Group(Path(file.path).stem, [file], (siblings,))

@@ -33,6 +33,7 @@ VARIABLE_SECTIONS = frozenset(
     [
         *("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_GLOBAL", "VAR_EXTERNAL"),
         *("VAR_TEMP", "VAR_CONFIG", "VAR_ACCESS", "VAR_STAT", "VAR_INST"),
+        "VAR_GENERIC",
     ]
 )
 """Keywords that start a block of variables."""

@@ -50,6 +50,14 @@ if TYPE_CHECKING:
     from st_types.syntax.tree import Declaration
 
 _INPUTS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT"])
+_OF_CODESYS: Final = frozenset(
+    [
+        *("__NEW", "__DELETE", "__QUERYINTERFACE", "__QUERYPOINTER", "__VARINFO", "__POSITION"),
+        *("BITADR", "INDEXOF", "TEST_AND_SET", "__XADD"),
+    ]
+)
+"""Functions that are known by name and not supported."""
+
 _PARAMETERS: Final = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
 
 
@@ -352,6 +360,9 @@ class CallChecker(MethodChecker):
             self.error(
                 node, FindingCode.NOT_CALLABLE, message, f"declare x : {name.name}; then x()"
             )
+            return NOTHING
+        if name.name.upper() in _OF_CODESYS and not scope.dialect.case_sensitive:
+            self.error(node, FindingCode.NOT_SUPPORTED, f"{name.name} is not supported")
             return NOTHING
         known = (each for outer in scope.chain for each in outer.index.names("functions"))
         message = f"no function is called {name.name}{self.findings.near(name.name, known)}"

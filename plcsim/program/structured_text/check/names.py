@@ -198,9 +198,13 @@ class ScopeNames:
     def _variable(self, node: Name, entry: VariableEntry) -> Value:
         symbol = self.symbols.of(entry)
         if symbol is None:
-            self.findings.error(
-                node, FindingCode.UNKNOWN_TYPE, f"the type of {entry.name} is not known"
-            )
+            type_name = getattr(entry.node.specification, "name", "").upper()
+            if type_name == "ANY" or type_name.startswith("ANY_"):
+                message = f"{entry.name} is of type {type_name}, which is not supported"
+                self.findings.error(node, FindingCode.NOT_SUPPORTED, message)
+            else:
+                message = f"the type of {entry.name} is not known"
+                self.findings.error(node, FindingCode.UNKNOWN_TYPE, message)
             return NOTHING
         symbol.used = True
         direct = self.direct(entry)

@@ -19,8 +19,8 @@ from plcsim.program.structured_text.check.classes import (
     key_of_method,
 )
 from plcsim.program.structured_text.check.findings import FileFindings
-from plcsim.program.structured_text.check.kinds import kind_of, plain
-from plcsim.program.structured_text.check.names import BY_ADDRESS, ScopeNames, Symbols, named
+from plcsim.program.structured_text.check.kinds import plain
+from plcsim.program.structured_text.check.names import ScopeNames, Symbols, named
 from plcsim.program.structured_text.check.open_arrays import OpenFunction, takes_any_bounds
 from plcsim.program.structured_text.check.programs import (
     ALL_PROGRAMS,
@@ -30,6 +30,7 @@ from plcsim.program.structured_text.check.programs import (
     instance_of,
     is_shared,
 )
+from plcsim.program.structured_text.check.recursion import needs_memory, reaches
 from plcsim.program.structured_text.check.statements import StatementChecker
 from plcsim.program.structured_text.check.surroundings import Surroundings
 from plcsim.program.structured_text.codes import FindingCode
@@ -313,6 +314,7 @@ class _ProgramChecker:
             self._undeclared(unit, "FUNCTION_BLOCK", name)
         elif self._is_new(unit, "block", name):
             self.symbols.storages[block.scope] = "instance"
+            self._refuse_sections(unit.declaration.blocks)
             own = self._class(unit, block, block.data_type)
             self._owner = owner = _Owner(block.scope, block.data_type, this=own)
             self._owners[own] = owner
@@ -337,10 +339,7 @@ class _ProgramChecker:
         if this is None:
             self._refused(unit)
             return
-        for block in declaration.blocks:
-            if block.section == "VAR_INST":
-                message = "VAR_INST is not supported"
-                self._findings.error(block, FindingCode.NOT_SUPPORTED, message)
+        self._refuse_sections(declaration.blocks)
         key = key_of_method(unit, self._scope.dialect.key(declaration.name))
         if "PROPERTY" in unit.words and not key.endswith((GET, SET)):
             return  # its accessors follow
@@ -348,6 +347,12 @@ class _ProgramChecker:
             message = f"{this.block.name} has two methods {declaration.name}"
             self._findings.error(unit, FindingCode.DECLARED_TWICE, message)
         this.methods[key] = unit
+
+    def _refuse_sections(self, blocks: Sequence[VariableBlock]) -> None:
+        for block in blocks:
+            if block.section in _REFUSED:
+                message = f"{block.section} is not supported"
+                self._findings.error(block, FindingCode.NOT_SUPPORTED, message)
 
     def _undeclared(self, unit: FunctionUnit | FunctionBlockUnit, word: str, name: str) -> None:
         if self._scope.lookup("types" if word == "FUNCTION_BLOCK" else "functions", name):
@@ -460,10 +465,11 @@ class _ProgramChecker:
     def _check_recursion(self) -> None:
         """Refuse functions that call themselves and need memory for what lives in one call."""
         functions = {job.name: job for job in self._jobs if job.function is not None}
+        calls = {name: job.calls for name, job in functions.items()}
         for job in functions.values():
             body = job.body
-            needs_memory = body is not None and (_needs_memory(body) or self._copies_inputs(body))
-            if body is None or not needs_memory or not _reaches(job, job.name, functions):
+            is_large = body is not None and (needs_memory(body) or self._copies_inputs(body))
+            if body is None or not is_large or not reaches(job.name, calls):
                 continue
             message = f"{job.name} calls itself, and has variables that are no single values"
             hint = "such variables of a FUNCTION exist once"
@@ -569,25 +575,8 @@ class _ProgramChecker:
         return parameters, others
 
 
-def _needs_memory(body: typed.CheckedBody) -> bool:
-    """Return True for a function with an array, a structure, a string, or an address taken."""
-    others = [*body.locals, *([body.result] if body.result is not None else [])]
-    addressed = [symbol for symbol in body.parameters if not symbol.by_address]
-    return any(
-        symbol.has_address or kind_of(symbol.type) in BY_ADDRESS for symbol in [*others, *addressed]
-    )
-
-
-def _reaches(job: _Job, name: str, functions: Mapping[str, _Job]) -> bool:
-    """Return True if a function calls ``name``, by whatever others."""
-    waiting, seen = [job], set[str]()
-    while waiting:
-        for called in waiting.pop().calls - seen:
-            seen.add(called)
-            if called in functions:
-                waiting.append(functions[called])
-    return name in seen
-
+_REFUSED = frozenset(["VAR_INST", "VAR_GENERIC"])
+"""Sections of CODESYS that are read and not supported."""
 
 _OWN = frozenset(["VAR", "VAR_TEMP", "VAR_STAT"])
 """Sections whose variables are there for the bodies alone."""

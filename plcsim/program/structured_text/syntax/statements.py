@@ -295,8 +295,10 @@ class StatementParser(DeclarationParser):
             trivia = self.trivia[self.index]
             key = self.keys[self.index]
             if key not in _STOPS and (key == ":" or ("\n" not in trivia and "\r" not in trivia)):
-                raise
-            self.tell(err.offset, err.message, err.hint)
+                raise UnexpectedTokenError(
+                    err.offset, err.message, err.hint or _hint_at(statement)
+                ) from None
+            self.tell(err.offset, err.message, err.hint or _hint_at(statement))
         return statement
 
     def _expected_end(self, statement: Statement) -> str:
@@ -528,3 +530,18 @@ _RULES: dict[str, Callable[[StatementParser], Statement]] = {
     "RETURN": StatementParser._return,
     "JMP": StatementParser._jump,
 }
+
+
+_INSTRUCTION_LIST = frozenset(
+    ["LD", "LDN", "ST", "STN", "S", "R", "AND", "ANDN", "OR", "ORN", "ADD", "SUB", "CAL", "CALC"]
+)
+_EXCEPTIONS = frozenset(["__TRY", "__CATCH", "__FINALLY", "__ENDTRY"])
+
+
+def _hint_at(statement: Statement) -> str:
+    """Return what a statement that is no more than a name may be of another language."""
+    name = statement.expression if isinstance(statement, ExpressionStatement) else None
+    word = name.name.upper() if isinstance(name, Name) else ""
+    if word in _EXCEPTIONS:
+        return f"{word} of CODESYS is not supported"
+    return "Instruction List is not supported" if word in _INSTRUCTION_LIST else ""

@@ -114,3 +114,11 @@ def test_several_programs_in_a_file_are_checked_each_for_itself(check):
     found = check({"main.st": text})
     places = ["1:44 ST2001", "3:34 ST2001", "4:17 ST1001"]
     assert sorted(set(found)) == [f"main.st:{place}" for place in places]
+
+
+def test_programs_in_files_of_their_own_name_each_other(check):
+    files = {
+        "main.st": unit("VAR n : INT; END_VAR sub(k := 2);\nn := sub.m + sub.o;", "main"),
+        "sub.st": "PROGRAM sub VAR_INPUT k : INT; END_VAR VAR m : INT; END_VAR END_PROGRAM",
+    }
+    assert check(files) == ["main.st:3:18 ST2002"]

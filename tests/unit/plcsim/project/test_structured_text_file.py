@@ -104,6 +104,26 @@ def test_large_arrays_at_an_address_are_refused(load_text):
         load_text(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("VAR p : UDINT; END_VAR p := __NEW(INT);", "ST4001: __NEW is not supported"),
+        ("VAR n : UDINT; b : BOOL; END_VAR n := BITADR(b);", "ST4001: BITADR is not supported"),
+        ("VAR b : BOOL; END_VAR LD b", "hint: Instruction List is not supported"),
+        ("VAR n : INT; END_VAR __TRY n := 1;", "hint: __TRY of CODESYS is not supported"),
+        ("VAR f : G; END_VAR f();", "ST4001: VAR_GENERIC is not supported"),
+        ("VAR b : BOOL; END_VAR b := a(b);", "ST4001: x is of type ANY, which is not supported"),
+    ],
+)
+def test_what_only_codesys_has_is_refused_by_name(load_text, text, told):
+    others = """
+        FUNCTION_BLOCK G VAR_GENERIC CONSTANT n : UDINT := 5; END_VAR END_FUNCTION_BLOCK
+        FUNCTION a : BOOL VAR_INPUT x : ANY; END_VAR a := x = 1; END_FUNCTION"""
+    with pytest.raises(ConfigurationError) as raised:
+        load_text(f"PROGRAM p {text} END_PROGRAM {others}")
+    assert told in str(raised.value)
+
+
 OPEN = """
 FUNCTION first : INT VAR_IN_OUT a : ARRAY[*] OF INT; i : INT; END_VAR first := a[i]; END_FUNCTION
 PROGRAM p VAR a : ARRAY[2..4] OF INT; m : ARRAY[1..2, 1..2] OF INT; n, i : INT; END_VAR
