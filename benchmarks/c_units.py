@@ -67,7 +67,7 @@ class Nothing:
     def variable(self, _name: str) -> None:
         """There is none."""
 
-    def function(self, _name: str) -> None:
+    def function(self, _name: str, _wanted: object = None) -> None:
         """There is none."""
 
 

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from plcsim.machine import Extern, Machine
+    from plcsim.machine.engine import Type
     from plcsim.machine.shared_module import SharedModule
 
 SOURCES: Final = Path(__file__).parent / "libc" / "src"
@@ -122,7 +123,7 @@ class _Host:
     def variable(self, _name: str) -> int | None:
         return None
 
-    def function(self, name: str) -> Extern | None:
+    def function(self, name: str, _wanted: Type | None = None) -> Extern | None:
         return self._functions.get(name)
 
     def _write(self, file: int, address: int, length: int) -> None:

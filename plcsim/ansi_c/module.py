@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from plcsim.ansi_c.line_table import LineTable
     from plcsim.machine import Extern, Frame, Machine
+    from plcsim.machine.engine import Type
     from plcsim.machine.placement import PlacedModule
     from plcsim.machine.shared_module import SharedModule
 
@@ -31,8 +32,13 @@ class ModuleSurroundings(Protocol):
     def variable(self, name: str) -> int | None:
         """Return the address of a variable of the controller, None where there is none."""
 
-    def function(self, name: str) -> Extern | None:
-        """Return a function or a block's body, None where there is none."""
+    def function(self, name: str, wanted: Type | None = None) -> Extern | None:
+        """Return a function or a block's body, None where there is none.
+
+        Args:
+            name: its name.
+            wanted: its type, where it is known; of several with the name it is one of this type.
+        """
 
 
 class CModule:
@@ -112,7 +118,8 @@ class CModule:
 
     def _functions(self) -> dict[tuple[str, str], Extern | int]:
         find, jumps = self._surroundings.function, self._machine.shared(NonlocalJumps)
-        found = {name: find(name) or jumps.extern(name) for name in self._linked.called}
+        called = self._linked.called.items()
+        found = {name: find(name, type_) or jumps.extern(name) for name, type_ in called}
         return {("env", name): extern for name, extern in self._complete(found, "function").items()}
 
     def _complete(self, found: Mapping[str, V | None], kind: str) -> dict[str, V]:

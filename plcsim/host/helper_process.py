@@ -22,8 +22,12 @@ def can_help() -> bool:
 
     A copy has one thread: locks that another thread holds here would stay locked there for ever.
     """
-    is_alone = threading.active_count() == 1 and sys.gettrace() is None
-    return is_alone and len(os.sched_getaffinity(0)) > 1
+    return is_alone() and len(os.sched_getaffinity(0)) > 1
+
+
+def is_alone() -> bool:
+    """Whether a copy of this process can work, if beside it or while it waits."""
+    return threading.active_count() == 1 and sys.gettrace() is None
 
 
 @contextmanager

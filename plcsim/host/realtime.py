@@ -61,6 +61,11 @@ def sharpen_timers() -> None:
     _libc.prctl(_PR_SET_TIMERSLACK, 1)
 
 
+def is_held() -> bool:
+    """Return whether the calling thread runs before all that have no real-time rights."""
+    return os.sched_getscheduler(0) & ~os.SCHED_RESET_ON_FORK in (os.SCHED_FIFO, os.SCHED_RR)
+
+
 def acquire(priority: int, cpu: int | None) -> Rights:
     """Take what rights there are for the calling thread.
 

@@ -63,6 +63,11 @@ class CodeCache:
         self._max_bytes = max_bytes
         self._max_entries = max_entries
 
+    @property
+    def keeps(self) -> bool:
+        """Whether anything that is stored can be loaded again."""
+        return self._folder is not None
+
     def load(self, key: str) -> bytes | None:
         """Return the code stored under a key, None where there is none that can be used."""
         if self._folder is None:

@@ -14,6 +14,7 @@ from ctypes import byref, c_void_p
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from plcsim.host import helper_process, realtime
 from plcsim.machine.address_space import GUARD, RESERVATION, AddressSpace, must_compare
 from plcsim.machine.api import (
     FINALIZER,
@@ -118,9 +119,7 @@ class Engine:
         """
         key = key_of(identity, self._settings)
         code = (
-            self._codes.pop(key, None)
-            or self._load(key, cache)
-            or self._compile(make(), key, cache)
+            self._codes.pop(key, None) or self._load(key, cache) or self._made(make(), key, cache)
         )
         self._codes[key] = code
         if len(self._codes) > CODES_KEPT:
@@ -137,6 +136,20 @@ class Engine:
             api.wasmtime_error_delete(error)
             return None
         return MachineCode(module.value or 0, self)
+
+    def _made(self, wasm: bytes, key: str, cache: CodeCache) -> MachineCode:
+        """Compile a module; a process with real-time rights has a copy of itself do it.
+
+        What compiling takes of a processor and of memory is then neither in the way of others nor
+        locked.
+        """
+        if cache.keeps and realtime.is_held() and helper_process.is_alone():
+            with helper_process.helper_process(lambda: self._compile(wasm, key, cache)) as wait:
+                wait()
+            found = self._load(key, cache)
+            if found is not None:
+                return found
+        return self._compile(wasm, key, cache)
 
     def _compile(self, wasm: bytes, key: str, cache: CodeCache) -> MachineCode:
         _refuse_data(wasm)

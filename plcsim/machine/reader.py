@@ -162,6 +162,22 @@ def _skip_limits(reader: Reader, kind: int) -> None:
         reader.uleb()
 
 
+def function_types(wasm: bytes, section: ModuleSection) -> Iterator[tuple[bytes, bytes]]:
+    """Yield parameters and results of each type of a type section, one byte for each value.
+
+    Raises:
+        MachineError: it is none of a function.
+    """
+    reader = Reader(wasm, section.start, section.end)
+    for _ in range(reader.uleb()):
+        if reader.byte() != _FUNCTION_TYPE:
+            raise MachineError("a module has a type that is none of a function")
+        yield reader.bytes(reader.uleb()), reader.bytes(reader.uleb())
+
+
+_FUNCTION_TYPE = 0x60
+
+
 def exports(wasm: bytes, section: ModuleSection) -> Iterator[tuple[str, int, int]]:
     """Yield name, kind and index of each export."""
     reader = Reader(wasm, section.start, section.end)

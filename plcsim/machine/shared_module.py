@@ -12,7 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from plcsim.machine.api import FUNCTION as EXTERN_FUNCTION
+from plcsim.machine.engine import Type
 from plcsim.machine.errors import MachineError
+from plcsim.machine.opcodes import F32, F64, I32, I64
 from plcsim.machine.reader import (
     CODE,
     CUSTOM,
@@ -21,11 +24,13 @@ from plcsim.machine.reader import (
     GLOBAL,
     GLOBALS,
     IMPORTS,
+    TYPES,
     ModuleImport,
     ModuleSection,
     Reader,
     constant,
     exports,
+    function_types,
     imports,
     sections,
 )
@@ -77,9 +82,15 @@ class SharedModule:
         return [i.name for i in self.imports if i.module == FUNCTION_INDICES]
 
     @property
-    def called(self) -> list[str]:
-        """Names of the functions that it calls and does not hold."""
-        return [i.name for i in self.imports if i.kind == FUNCTION]
+    def called(self) -> dict[str, Type]:
+        """Types of the functions that it calls and does not hold, by name."""
+        types = [
+            Type(EXTERN_FUNCTION, *map(_codes, both))
+            for section in self.sections
+            if section.number == TYPES
+            for both in function_types(self.wasm, section)
+        ]
+        return {i.name: types[i.type] for i in self.imports if i.kind == FUNCTION}
 
     def section(self, name: str) -> bytes:
         """Return the content of a custom section, nothing where there is none."""
@@ -92,6 +103,13 @@ class SharedModule:
     def code_start(self) -> int:
         """Place of the content of the code section, from which debug information counts."""
         return next((s.start for s in self.sections if s.number == CODE), 0)
+
+
+_CODES = {I32: "i", I64: "q", F32: "f", F64: "d"}
+
+
+def _codes(types: bytes) -> str:
+    return "".join(_CODES.get(each, "?") for each in types)
 
 
 def read_shared(wasm: bytes) -> SharedModule:

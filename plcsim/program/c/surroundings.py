@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.tag import Tag
     from plcsim.machine import Extern
+    from plcsim.machine.engine import Type
     from plcsim.machine.shared_module import SharedModule
     from plcsim.program.site import Site
     from st_types.resolve.scope import Scope
@@ -60,11 +61,19 @@ class ProgramSurroundings:
             plain = plain[:-1]  # headers write it behind words of C, and behind names of types
         return known.get(plain) or self._library.variable(name)
 
-    def function(self, name: str) -> Extern | None:
-        """Return a block, a FUNCTION of a library or a function of C, None where there is none."""
+    def function(self, name: str, wanted: Type | None = None) -> Extern | None:
+        """Return a block, a FUNCTION of a library or a function of C, None where there is none.
+
+        A FUNCTION goes before one of C, other than where only the latter is of the type that is
+        wanted: ``floor`` is one of AsMath with REAL, and one of math.h with double.
+        """
         if is_of_heap(name):
             return self._own_heap().extern(name)
-        return self._block(name) or self._compiled_function(name) or self._any_function(name)
+        found = self._block(name) or self._compiled_function(name)
+        if found is None:
+            return self._any_function(name)
+        of_c = self._library.extern(name)
+        return found if of_c is None or found.type == wanted or of_c.type != wanted else of_c
 
     def _block(self, name: str) -> Extern | None:
         block = self._scope.find_function_block(name)

@@ -1,18 +1,22 @@
-"""Compilers of the host beside those of units."""
+"""Compilers of the host beside those of units, and sources of others."""
 
 import shutil
 import subprocess
+import sys
+import tarfile
 
 import pytest
 
 from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.module import CModule
-from plcsim.ansi_c.toolchain import system_clang, zig
+from plcsim.ansi_c.toolchain import find_toolchain, system_clang, zig
+from plcsim.core.errors import ConfigurationError
 from plcsim.core.memory import PAGE, Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.machine.shared_module import read_shared
 
+LONGEST_DOWNLOAD_S = 400
 GCC = ("gcc", "-m32", "-msse2", "-mfpmath=sse", "-ffp-contract=off", "-fno-strict-aliasing")
 
 
@@ -27,7 +31,7 @@ class _CLibraryAlone:
     def variable(self, name):
         return self._library.variable(name)
 
-    def function(self, name):
+    def function(self, name, _wanted=None):
         return self._library.extern(name)
 
 
@@ -82,3 +86,27 @@ def host_results(tmp_path):
         return [int(line) for line in told.stdout.split()]
 
     return host_results
+
+
+@pytest.fixture(scope="session")
+def sources_of(pytestconfig):
+    """``sources_of("package==1.0")``: the folder with its source distribution, fetched once."""
+
+    def sources_of(package):
+        try:
+            find_toolchain()
+        except ConfigurationError:
+            pytest.skip("no compiler for C is installed")
+        folder = pytestconfig.cache.mkdir(package.partition("==")[0])
+        fetch = f"{sys.executable} -m pip download -q --no-deps --no-binary :all: {package}"
+        if not [*folder.glob("*.tar.gz")]:
+            try:
+                subprocess.run(fetch.split(), cwd=folder, timeout=LONGEST_DOWNLOAD_S, check=True)
+            except (subprocess.SubprocessError, OSError) as error:
+                pytest.skip(f"the package index cannot be reached: {error}")
+        (archive,) = folder.glob("*.tar.gz")
+        with tarfile.open(archive) as content:
+            content.extractall(folder, filter="data")
+        return folder
+
+    return sources_of

@@ -10,15 +10,10 @@ rand() by the interface that libsodium has for that.
 """
 
 import shutil
-import subprocess
-import sys
-import tarfile
 
 import pytest
 
-from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.core.clock import VirtualClock
-from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
 from plcsim.project.assembly import assemble, load
 from plcsim.project.plc_toml import read_project
@@ -27,7 +22,6 @@ PACKAGE = "pynacl==1.5.0"
 NEEDS_A_SYSTEM = {"randombytes", "sodium_core", "sodium_utils2", "sodium_utils3"}
 LEAST_TESTS = 70
 FAULT = -2
-LONGEST_DOWNLOAD_S = 400
 VERSION = {
     "@VERSION@": "1.0.18",
     "@SODIUM_LIBRARY_VERSION_MAJOR@": "10",
@@ -71,22 +65,9 @@ void _INIT begin(void) { randombytes_set_implementation(&own); }
 
 
 @pytest.fixture(scope="session")
-def libsodium(pytestconfig):
+def libsodium(sources_of):
     """The folder of its sources."""
-    try:
-        find_toolchain()
-    except ConfigurationError:
-        pytest.skip("no compiler for C is installed")
-    folder = pytestconfig.cache.mkdir("libsodium")
-    command = [*f"{sys.executable} -m pip download -q --no-deps --no-binary :all:".split(), PACKAGE]
-    if not [*folder.glob("*.tar.gz")]:
-        try:
-            subprocess.run(command, cwd=folder, timeout=LONGEST_DOWNLOAD_S, check=True)
-        except (subprocess.SubprocessError, OSError) as error:
-            pytest.skip(f"the package index cannot be reached: {error}")
-    (archive,) = folder.glob("*.tar.gz")
-    with tarfile.open(archive) as content:
-        content.extractall(folder, filter="data")
+    folder = sources_of(PACKAGE)
     (found,) = folder.glob("*/src/libsodium")
     return found
 

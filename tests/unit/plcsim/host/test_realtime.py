@@ -107,6 +107,20 @@ def test_memory_is_locked_only_where_no_limit_stops_a_later_allocation(
     assert refused == ["locked memory: the limit is 64 KiB"] * (not granted)
 
 
+@pytest.mark.parametrize(
+    ("policy", "held"),
+    [
+        (os.SCHED_OTHER, False),
+        (os.SCHED_FIFO, True),
+        (os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, True),
+        (os.SCHED_BATCH | os.SCHED_RESET_ON_FORK, False),
+    ],
+)
+def test_it_is_known_whether_rights_are_held(monkeypatch, policy, held):
+    monkeypatch.setattr(os, "sched_getscheduler", lambda _: policy)
+    assert realtime.is_held() is held
+
+
 def test_timers_are_sharpened():
     get_timer_slack = 30
     libc = ctypes.CDLL(None)

@@ -1,11 +1,14 @@
 import itertools
+import os
 import subprocess
 import sys
 
 import pytest
 
 from plcsim.machine.api import FUNCTION, GLOBAL
-from plcsim.machine.engine import CODES_KEPT, Type, compile_wasm, engine_of
+from plcsim.machine.cache import CodeCache
+from plcsim.machine.engine import CODES_KEPT, Engine, Type, compile_wasm, engine_of
+from plcsim.machine.errors import MachineError
 
 from .units import NO_CACHE, assemble
 
@@ -38,6 +41,27 @@ def test_only_the_latest_modules_are_remembered():
     assert len(engine._codes) == CODES_KEPT
     assert compile_wasm(assemble(texts[-1]), cache=NO_CACHE) is codes[-1]
     assert compile_wasm(assemble(texts[0]), cache=NO_CACHE) is not codes[0]
+
+
+def test_a_process_with_real_time_rights_has_a_copy_compile(monkeypatch, tmp_path):
+    pids = []
+    compiled = Engine._compile
+
+    def compiling(*arguments):
+        pids.append(os.getpid())
+        return compiled(*arguments)
+
+    monkeypatch.setattr(Engine, "_compile", compiling)
+    monkeypatch.setattr("plcsim.host.realtime.is_held", lambda: True)
+    wasm = assemble("(func (result i32) (i32.const 27182))")
+    code = compile_wasm(wasm, cache=CodeCache(tmp_path))
+    assert code.imports == [("env", "memory")]
+    assert pids == []
+    with pytest.raises(MachineError, match="no WebAssembly module"):
+        compile_wasm(b"", cache=CodeCache(tmp_path))
+    assert pids == [os.getpid()]  # to tell what is wrong
+    compile_wasm(assemble("(func (result i32) (i32.const 27183))"), cache=NO_CACHE)
+    assert len(pids) == 2  # or it would be lost
 
 
 FAULTHANDLER = """

@@ -4,6 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plcsim.machine.api import FUNCTION
+from plcsim.machine.engine import Type
 from plcsim.machine.errors import MachineError
 from plcsim.machine.reader import CODE, sections
 from plcsim.machine.shared_module import read_shared
@@ -17,7 +19,7 @@ def test_a_module_tells_what_it_holds_and_what_it_needs():
     assert (module.memory_size, module.memory_alignment, module.table_size) == (24, 8, 2)
     assert module.addresses == ["outside", "own"]
     assert module.pointers == ["seven"]
-    assert module.called == ["host"]
+    assert module.called == {"host": Type(FUNCTION)}
     assert module.variables == {"own": 8}
     assert module.functions[:3] == ["seven", "addresses", "indirect"]
 
