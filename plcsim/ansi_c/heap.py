@@ -7,8 +7,9 @@ one, so what a program allocates is its own: its use is known, and a restart fre
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
+from plcsim.core.heap_use import HeapUse
 from plcsim.core.tag import Tag
 from plcsim.machine.encoder import ModuleWriter, Signature, sleb, uleb
 from plcsim.machine.opcodes import CALL, I32, I32_CONST, LOCAL_GET
@@ -46,24 +47,6 @@ _USE_TYPE: Final[StructType[object]] = StructType(
     USE, [Member(name, UDINT) for name in ("Size", "Used", "Most", "Areas", "Refused")]
 )
 _USE_OFFSET = 4  # of what `HeapUse` tells, in struct plc_heap
-
-
-class HeapUse(NamedTuple):
-    """What a program has on its heap, in bytes.
-
-    Attributes:
-        size: of the heap.
-        used: in areas that were not freed.
-        most: that ever were.
-        areas: that were not freed.
-        refused: requests for which there was no room.
-    """
-
-    size: int
-    used: int
-    most: int
-    areas: int
-    refused: int
 
 
 class ProgramHeap:

@@ -132,6 +132,8 @@ def print_summary(
         text = Text(escaped(f"SERVICE: {fault}"), style="bold red")
         console.print(text, soft_wrap=True)  # so that no file name is cut
         console.print(source_line(result["fault"]["location"]), end="", soft_wrap=True)
+    for line in lines_of_heaps(result):
+        console.print(Text(line), soft_wrap=True)
     entries = [
         e
         for e in result["logbook"]
@@ -147,6 +149,18 @@ def print_summary(
         console.print(f"{lost:,} bytes that were printed are lost: nobody took them in time")
     if len(entries) > 10:
         console.print(f"... and {len(entries) - 10} earlier entries; --report FILE keeps them")
+
+
+def lines_of_heaps(result: dict[str, Any]) -> Iterator[str]:
+    """Yield which programs and libraries in C left something on their heaps, or had no room."""
+    for heap in result.get("heaps", ()):
+        name = f"{heap['name']}: heap of {heap['size_bytes']:,} bytes"
+        if heap["areas"] and result["state"] == "STOPPED":
+            areas = "1 area" if heap["areas"] == 1 else f"{heap['areas']:,} areas"
+            yield f"{name}: {areas} with {heap['used_bytes']:,} bytes not freed at the end"
+        if heap["refused"]:
+            requests = "1 request" if heap["refused"] == 1 else f"{heap['refused']:,} requests"
+            yield f"{name}: no room for {requests}; most in use: {heap['most_bytes']:,} bytes"
 
 
 def _summary_table(classes: list[dict[str, Any]]) -> Table:

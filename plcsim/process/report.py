@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
-from plcsim.ansi_c.heap import USE
 from plcsim.core.controller import describe_violation
 from plcsim.core.errors import ProgramError
+from plcsim.core.heap_use import Heaps
 from plcsim.core.statistics import Summary
 
 if TYPE_CHECKING:
@@ -60,6 +60,21 @@ def violation_report(violation: Violation) -> dict[str, Any]:
     }
 
 
+def heaps_report(controller: Controller) -> list[dict[str, Any]]:
+    """Return what programs and libraries in C have on their heaps."""
+    return [
+        {
+            "name": name,
+            "size_bytes": use.size,
+            "used_bytes": use.used,
+            "most_bytes": use.most,
+            "areas": use.areas,
+            "refused": use.refused,
+        }
+        for name, use in Heaps.of(controller.context).uses().items()
+    ]
+
+
 def fault_report(fault: ProgramError | Violation | None) -> dict[str, Any] | None:
     """Return what led to SERVICE: kind "program_error" or "cycle_time_violation"."""
     if fault is None:
@@ -81,17 +96,6 @@ def entry_report(entry: Entry) -> dict[str, Any]:
     return {**entry._asdict(), "severity": entry.severity.value}
 
 
-def heap_reports(controller: Controller) -> list[dict[str, Any]]:
-    """Return the heap of each program in C, in bytes: what is in use after its EXIT has leaked."""
-    found = []
-    for program in dict.fromkeys(area.path for area in controller.areas):
-        use = controller.tags.get(f"{program}.{USE}")
-        if use is not None:
-            figures = cast("dict[str, int]", controller.tags.read(use))
-            found.append({"program": program} | {key.lower(): n for key, n in figures.items()})
-    return found
-
-
 def report(controller: Controller, name: str, elapsed_ns: int, rights: list[str]) -> dict[str, Any]:
     """Return the report of a run.
 
@@ -110,7 +114,7 @@ def report(controller: Controller, name: str, elapsed_ns: int, rights: list[str]
         "fault": fault_report(controller.fault),
         "elapsed_ns": elapsed_ns,
         "memory_bytes": controller.memory.used,
-        "heaps": heap_reports(controller),
+        "heaps": heaps_report(controller),
         "task_classes": [class_report(c) for c in controller.classes],
         "violations": [violation_report(v) for v in controller.violations],
         "logbook": [entry_report(entry) for entry in controller.logbook],

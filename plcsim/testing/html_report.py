@@ -160,7 +160,7 @@ def _test(test: dict[str, Any]) -> str:
 def _of_controller(test: dict[str, Any]) -> str:
     """Return what the controller of a test did."""
     parts = [_classes(test["task_classes"]), _programs(test["programs"])]
-    parts += [_violations(test["violations"]), _traces(test["traces"])]
+    parts += [_heaps(test["heaps"]), _violations(test["violations"]), _traces(test["traces"])]
     return "".join(parts)
 
 
@@ -238,6 +238,16 @@ def _instructions(programs: Sequence[dict[str, Any]]) -> str:
         for name, cycles, i in counted
     )
     return f'<h3>Instructions</h3><div class="charts">{charts}</div>'
+
+
+def _heaps(heaps: Sequence[dict[str, Any]]) -> str:
+    """Return what is on the heaps of programs and libraries at the end of a test."""
+    if not heaps:
+        return ""
+    figures = ("size_bytes", "most_bytes", "used_bytes", "areas", "refused")
+    heads = ("heap of", "bytes", "most in use", "not freed", "in areas", "requests refused")
+    rows = [(heap["name"], *(f"{heap[figure]:,}" for figure in figures)) for heap in heaps]
+    return f'<h3>Heaps</h3><div class="wide">{_table(heads, rows)}</div>'
 
 
 def _violations(violations: Sequence[dict[str, Any]]) -> str:

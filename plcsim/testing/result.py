@@ -9,7 +9,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.statistics import Histogram
-from plcsim.process.report import class_report, fault_report, violation_report
+from plcsim.process.report import class_report, fault_report, heaps_report, violation_report
 from plcsim.testing.costs import overhead_ns
 from plcsim.testing.instructions import summary_of
 
@@ -64,6 +64,7 @@ def result_of(
         "fault": fault_report(plc.controller.fault),
         "calibration_ns": loop_ns,
         "task_classes": [class_report(c) for c in plc.controller.classes],
+        "heaps": heaps_report(plc.controller),
         "programs": [
             _program(name, costs_ns, own_ns, loop_ns)
             | {

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.c_library import CLibrary
 from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
+from plcsim.core.heap_use import Heaps
 from plcsim.library.executable import CompiledExecutable
 from plcsim.machine.placement import Placement, initial_values
 from plcsim.program.c.files import DeviceFiles
@@ -103,6 +104,7 @@ class ProgramSurroundings:
     def _own_heap(self) -> ProgramHeap:
         if self.heap is None:
             self.heap = ProgramHeap(self._name, self._site.machine, self._library, self._heap_size)
+            Heaps.of(self._site.context).add(self._name, self.heap.use)
         return self.heap
 
     def reset(self) -> None:

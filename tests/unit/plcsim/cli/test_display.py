@@ -6,6 +6,7 @@ import pytest
 from rich.console import Console
 
 from plcsim.cli.display import LiveTable, print_summary, source_line
+from plcsim.core.heap_use import Heaps, HeapUse
 from plcsim.core.task import Policy
 from plcsim.process.report import report
 from plcsim.project.plc_toml import read_project
@@ -19,8 +20,10 @@ def summary(make_controller, capsys, monkeypatch):
     """``summary(class, ...)``: the summary of a run of 100 ms, on 80 columns."""
     monkeypatch.setenv("COLUMNS", "80")
 
-    def summary(*classes, name="cell"):
+    def summary(*classes, name="cell", heaps=()):
         controller = make_controller(*classes)
+        for owner, use in heaps:
+            Heaps.of(controller.context).add(owner, lambda use=use: use)
         controller.boot()
         controller.run_for(100 * MS)
         controller.shutdown()
@@ -44,6 +47,20 @@ def test_names_do_nothing_to_the_terminal(summary, task_class, program_of):
     shown = summary(task_class(1, 10, **{name: program_of()}), name=name)
     assert shown.count("\\x1b[2Jcell\\x9b31m") == 2
     assert not {"\x1b", "\x9b"} & set(shown)
+
+
+def test_what_is_left_on_a_heap_and_what_found_no_room_is_told(summary, task_class, program_of):
+    heaps = [
+        ("clean", HeapUse(9000, 0, 800, 0, 0)),
+        ("leaky", HeapUse(9000, 24, 800, 1, 0)),
+        ("library L", HeapUse(1 << 20, 2400, 900_000, 30, 2)),
+    ]
+    lines = summary(task_class(1, 10, a=program_of()), heaps=heaps).splitlines()[4:]
+    assert lines == [
+        "leaky: heap of 9,000 bytes: 1 area with 24 bytes not freed at the end",
+        "library L: heap of 1,048,576 bytes: 30 areas with 2,400 bytes not freed at the end",
+        "library L: heap of 1,048,576 bytes: no room for 2 requests; most in use: 900,000 bytes",
+    ]
 
 
 def test_violations_are_shown_with_their_causes(summary, task_class, program_of, clock):

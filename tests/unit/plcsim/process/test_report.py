@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from plcsim.core.heap_use import Heaps, HeapUse
 from plcsim.core.statistics import Histogram
 from plcsim.core.task import Policy
 from plcsim.process.report import SCHEMA, histogram_report, report, summary_of
@@ -27,6 +28,7 @@ VIOLATION = {
     "location": str,
     "text": str,
 }
+HEAP = ("size_bytes", "used_bytes", "most_bytes", "areas", "refused")
 REPORT = {
     "schema": str,
     "project": str,
@@ -36,7 +38,7 @@ REPORT = {
     "fault": object,
     "elapsed_ns": int,
     "memory_bytes": int,
-    "heaps": list,
+    "heaps": [{"name": str} | dict.fromkeys(HEAP, int)],
     "task_classes": [
         {
             "number": int,
@@ -80,6 +82,7 @@ def report_of(make_controller):
 
     def report_of(*classes, **options):
         controller = make_controller(*classes, **options)
+        Heaps.of(controller.context).add("a", lambda: HeapUse(1000, 24, 48, 3, 1))
         controller.boot()
         controller.run_for(100 * MS)
         controller.shutdown()
@@ -98,6 +101,7 @@ def test_every_field_has_its_type(report_of, task_class, program_of, clock):
     assert found["schema"] == SCHEMA == "plcsim-report/1"
     assert (found["project"], found["clock"], found["state"]) == ("cell", "virtual", "STOPPED")
     assert found["fault"] is None
+    assert found["heaps"] == [{"name": "a"} | dict(zip(HEAP, (1000, 24, 48, 3, 1), strict=True))]
     assert found["realtime_rights"] == ["SCHED_FIFO 50"]
     first, second = found["task_classes"]
     assert [p["name"] for p in first["programs"]] == ["a", "b"]

@@ -14,6 +14,7 @@ pytest_plugins = ["pytester"]
 SUITE = """
     import pytest
     from plcsim import Program
+    from plcsim.core.heap_use import Heaps, HeapUse
     from st_types import BOOL, DINT, var
 
     class Worker(Program):
@@ -28,6 +29,7 @@ SUITE = """
 
     def test_good(plc):
         plc.record("Worker.odd")
+        Heaps.of(plc.controller.context).add("Worker", lambda: HeapUse(9000, 24, 1048, 3, 0))
         plc.run("1s")
 
     def test_bad(plc):
@@ -95,6 +97,7 @@ def test_the_page_is_whole_and_needs_nothing_else(report):
     assert "expected Worker.n = 50" in text
     assert text.count("<svg") == 7  # four histograms, and traces of three tests
     assert "not &lt;yet&gt;" in text
+    assert "<td>Worker</td><td>9,000</td><td>1,048</td><td>24</td><td>3</td><td>0</td>" in text
 
 
 def test_the_figures_are_there_as_json(report):

@@ -4,7 +4,7 @@ from plcsim.ansi_c.toolchain import find_toolchain
 from plcsim.core.clock import VirtualClock
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
-from plcsim.process.report import report
+from plcsim.process.report import heaps_report
 from plcsim.program.c.language import C_LANGUAGE
 from plcsim.program.declarations import Declarations
 from plcsim.program.language import ProgramSource
@@ -324,6 +324,7 @@ def test_the_use_of_the_heap_is_a_variable_of_the_program(run, value):
     assert use == {"Size": 4096, "Used": 1000, "Most": 3000, "Areas": 1, "Refused": 0}
     controller.run(cycles=10)
     assert value(controller, "main.plc_heap.Refused") > 0
+    assert controller.state is State.RUN
 
 
 def test_the_report_tells_what_has_leaked(run):
@@ -334,7 +335,12 @@ def test_the_report_tells_what_has_leaked(run):
         "void _CYCLIC c(void) { free(held); held = 0; }\n"
     )
     controller = run({"main/Main.c": text}, cycles=1)
-    assert report(controller, "cell", 0, [])["heaps"] == [
-        {"program": "main", "size": 4096, "used": 200, "most": 1200, "areas": 1, "refused": 0}
-    ]
-    assert controller.state is State.RUN
+    (reported,) = heaps_report(controller)
+    assert reported == {
+        "name": "main",
+        "size_bytes": 4096,
+        "used_bytes": 200,
+        "most_bytes": 1200,
+        "areas": 1,
+        "refused": 0,
+    }
