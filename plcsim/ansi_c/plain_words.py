@@ -18,6 +18,12 @@ _DUPLICATE = re.compile(r"duplicate symbol: (.+?), defined in (.+?), defined in 
 _DEEPEST = 5
 _MOST_HEADERS = 5_000
 _ASSEMBLER = "this is assembler of the controller's processor; plcsim compiles for another machine"
+_NESTED = re.compile(r"(.+?):(\d+):(\d+): function definition is not allowed here")
+_HEAD_OF_FUNCTION = re.compile(r"(\w+)\s*\([^()]*\)\s*\Z")
+_IS_NESTED = (
+    "is a nested function, an extension of GCC that clang does not have: move it out of the other "
+    "function, and hand it what it uses of that"
+)
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
 _ELSEWHERE = {
     **dict.fromkeys(("sys/socket.h", "netinet/in.h", "netinet/tcp.h", "arpa/inet.h"), _SOCKETS),
@@ -37,7 +43,21 @@ def explained(finding: str, folders: Sequence[Path]) -> str:
     missing = _NO_HEADER.search(finding)
     if missing:
         return finding + _about_header(missing[1], folders)
+    nested = _NESTED.match(finding)
+    if nested:
+        return f"{finding}: {_nested_name(nested)}{_IS_NESTED}"
     return f"{finding} ({_ASSEMBLER})" if " in asm" in finding else finding
+
+
+def _nested_name(found: re.Match[str]) -> str:
+    """Return the name of the function whose body begins at a place of a file, "" if unknown."""
+    try:
+        lines = Path(found[1]).read_text("utf-8", "replace").splitlines()[: int(found[2])]
+    except OSError:
+        return ""
+    lines[-1:] = [line[: int(found[3]) - 1] for line in lines[-1:]]
+    name = _HEAD_OF_FUNCTION.search("\n".join(lines))
+    return f"{name[1]} " if name else ""
 
 
 def _about_header(name: str, folders: Sequence[Path]) -> str:

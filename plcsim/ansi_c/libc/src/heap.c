@@ -3,7 +3,8 @@
  * (M. Masmano and others, TLSF: a new dynamic memory allocator for real-time systems, 2004).
  *
  * What a program does wrong with its memory is a fault: an area that is freed twice or is none, and
- * what was written behind the end of an area or into a freed one, as soon as the heap meets it. */
+ * what was written behind the end of an area or into the beginning of a freed one, as soon as the
+ * heap meets it. */
 
 #include "heap.h"
 
@@ -29,6 +30,11 @@ typedef struct plc_block block;
 static const char damaged[] =
 	"the heap is damaged: something was written behind the end of an area, or into a freed one";
 
+static const char written_after_free[] = "something was written into an area of the heap that was freed";
+
+#define MARKED 64u /* bytes at the beginning of a free area that are known */
+#define MARK 0xF4EEF4EFu /* with FREE: heads of blocks may have lain there */
+
 static size_t size_of(const block *b) { return b->size & ~FREE; }
 static char *area_of(block *b) { return (char *)b + HEAD; }
 static block *block_of(void *area) { return (block *)((char *)area - HEAD); }
@@ -48,11 +54,21 @@ static void find_list(size_t size, unsigned *range, unsigned *step)
 	*step = size >> (power - 4) & (PLC_HEAP_STEPS - 1);
 }
 
+static unsigned long *mark(block *b) { return (unsigned long *)(b + 1); }
+
+static unsigned long *end_of_marks(block *b)
+{
+	size_t size = size_of(b);
+	return (unsigned long *)(area_of(b) + (size < MARKED ? size : MARKED));
+}
+
 static void enter(struct plc_heap *heap, block *b)
 {
 	unsigned range, step;
 	find_list(size_of(b), &range, &step);
 	block *first = heap->free[range][step];
+	for (unsigned long *at = mark(b), *end = end_of_marks(b); at < end; at++)
+		*at = MARK;
 	b->size |= FREE;
 	b->previous = 0;
 	b->next = first;
@@ -82,6 +98,9 @@ static void leave(struct plc_heap *heap, block *b)
 	check(heap, b);
 	if (!(b->size & FREE) || (b->next && (!is_inside(heap, b->next) || b->next->previous != b)))
 		plc_fault(damaged);
+	for (unsigned long *at = mark(b), *end = end_of_marks(b); at < end; at++)
+		if (*at != MARK)
+			plc_fault(written_after_free);
 	find_list(size_of(b), &range, &step);
 	if (b->next)
 		b->next->previous = b->previous;

@@ -30,6 +30,18 @@ def test_other_findings_stay_as_they_are(folder):
     assert explained("main.c:2:1: unknown type name 'x'", [folder]).endswith("'x'")
 
 
+@pytest.mark.parametrize("text", ["{ int inner(int x) { return x; }", "{\n\tint inner(int x)\n\t{"])
+def test_a_nested_function_is_named(tmp_path, text):
+    file = tmp_path / "a.c"
+    file.write_text(f"void outer(void)\n{text} }}\n")
+    line = text.count("\n") + 2
+    column = text.splitlines()[-1].rindex("{") + 1
+    place = f"{file}:{line}:{column}: function definition is not allowed here"
+    assert explained(place, []).startswith(f"{place}: inner is a nested function, an extension of")
+    missing = "gone.c:1:2: function definition is not allowed here"
+    assert explained(missing, []).startswith(f"{missing}: is a nested function")
+
+
 def test_two_definitions_are_told_with_both_places(tmp_path):
     one, other = tmp_path / "a.c", tmp_path / "b.c"
     one.write_text("extern int f(int);\n\nint f(int x) { return x; }\n")
