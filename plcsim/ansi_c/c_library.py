@@ -9,10 +9,11 @@ from __future__ import annotations
 import errno
 import hashlib
 import re
+import struct
 import sys
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NoReturn, Protocol
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, NoReturn, Protocol
 
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.ansi_c.module import CModule
@@ -51,6 +52,25 @@ _STDERR = 2
 _LONGEST_REASON = 500
 
 
+class FolderEntry(NamedTuple):
+    """A file or a folder.
+
+    Attributes:
+        is_folder: whether it is a folder.
+        size: of a file, in bytes.
+        date_s: of the last change, in seconds since 1970-01-01.
+        name: in its folder.
+    """
+
+    is_folder: bool
+    size: int
+    date_s: int
+    name: bytes = b""
+
+
+_ENTRY = struct.Struct("<IIq256s")  # struct plc_entry
+
+
 class Files(Protocol):
     """The files that fopen and its relations find.
 
@@ -78,6 +98,27 @@ class Files(Protocol):
     def rename(self, old: bytes, new: bytes) -> None:
         """Rename a file."""
 
+    def entry(self, path: bytes) -> FolderEntry:
+        """Tell of a file or a folder, without its name."""
+
+    def entry_of_file(self, file: int) -> FolderEntry:
+        """Tell of an open file, without its name."""
+
+    def open_folder(self, path: bytes) -> int:
+        """Open a folder; return a number for it."""
+
+    def next_entry(self, folder: int) -> FolderEntry | None:
+        """Return the next entry of a folder, None behind the last one."""
+
+    def close_folder(self, folder: int) -> None:
+        """Close a folder."""
+
+    def make_folder(self, path: bytes) -> None:
+        """Make a folder."""
+
+    def remove_folder(self, path: bytes) -> None:
+        """Delete an empty folder."""
+
 
 class _Host:
     """What the C library asks of the controller around it (libc/src/host.h)."""
@@ -99,6 +140,19 @@ class _Host:
             "plc_file_rename": self._of_files(
                 lambda f, old, new: f.rename(self._path(old), self._path(new)), 2
             ),
+            "plc_entry_of": self._of_files(
+                lambda f, p, to: self._tell(f.entry(self._path(p)), to), 2
+            ),
+            "plc_entry_of_file": self._of_files(
+                lambda f, file, to: self._tell(f.entry_of_file(file), to), 2
+            ),
+            "plc_folder_open": self._of_files(lambda f, p: f.open_folder(self._path(p)), 1),
+            "plc_folder_next": self._of_files(
+                lambda f, folder, to: self._tell(f.next_entry(folder), to), 2
+            ),
+            "plc_folder_close": self._of_files(lambda f, folder: f.close_folder(folder), 1),
+            "plc_folder_make": self._of_files(lambda f, p: f.make_folder(self._path(p)), 1),
+            "plc_folder_remove": self._of_files(lambda f, p: f.remove_folder(self._path(p)), 1),
         }
 
     def _of_files(self, act: Callable[..., int | None], count: int) -> Extern:
@@ -119,6 +173,15 @@ class _Host:
         if len(path) > LONGEST_PATH:
             raise OSError(errno.ENAMETOOLONG, "path")
         return path
+
+    def _tell(self, entry: FolderEntry | None, address: int) -> int:
+        """Write an entry; return whether there is one."""
+        if entry is None:
+            return 0
+        self._memory.write(
+            address, _ENTRY.pack(entry.is_folder, entry.size, entry.date_s, entry.name[:255])
+        )
+        return 1
 
     def variable(self, _name: str) -> int | None:
         return None

@@ -29,6 +29,10 @@ _FUNCTIONS: Final = {
     "free": ("plc_free", 1, 0),
     "strdup": ("plc_strdup", 1, 1),
     "strndup": ("plc_strndup", 2, 1),
+    "vasprintf": ("plc_vasprintf", 3, 1),
+    "asprintf": ("plc_vasprintf", 3, 1),  # what "..." holds lies in memory
+    "getdelim": ("plc_getdelim", 4, 1),
+    "getline": ("plc_getline", 3, 1),
     # operators new, new[], delete and delete[] of C++, the latter also with a size
     "_Znwm": ("plc_new", 1, 1),
     "_Znam": ("plc_new", 1, 1),

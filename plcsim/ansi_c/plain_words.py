@@ -26,10 +26,8 @@ _IS_NESTED = (
 )
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
 _ELSEWHERE = {
-    **dict.fromkeys(("sys/socket.h", "netinet/in.h", "netinet/tcp.h", "arpa/inet.h"), _SOCKETS),
-    **dict.fromkeys(("netdb.h", "sys/ioctl.h", "poll.h"), _SOCKETS),
+    **dict.fromkeys(("sys/ioctl.h", "sys/un.h", "net/if.h", "sys/epoll.h"), _SOCKETS),
     "pthread.h": "a controller has no threads: a program's units run in its task class",
-    "dirent.h": "folders are read by the library FileIO (FileIO.h)",
 }
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import threading
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
@@ -27,7 +26,7 @@ def can_help() -> bool:
 
 def is_alone() -> bool:
     """Whether a copy of this process can work, if beside it or while it waits."""
-    return threading.active_count() == 1 and sys.gettrace() is None
+    return len(sys._current_frames()) == 1 and sys.gettrace() is None
 
 
 @contextmanager

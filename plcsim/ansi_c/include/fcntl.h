@@ -1,4 +1,4 @@
-/* Flags of POSIX. There is no open(): files are streams (stdio.h), or those of the library FileIO. */
+/* Flags of POSIX. Files lie on the file devices of the controller, as those of stdio.h. */
 
 #ifndef PLCSIM_FCNTL_H
 #define PLCSIM_FCNTL_H
@@ -15,5 +15,22 @@
 #define O_NONBLOCK 0x4000
 #define F_GETFL 3
 #define F_SETFL 4
+#define F_GETFD 1
+#define F_SETFD 2
+#define FD_CLOEXEC 1
+#define O_CLOEXEC 0x40000
+#define O_BINARY 0
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+int open(const char *path, int flags, ...);
+int creat(const char *path, mode_t mode);
+int fcntl(int file, int command, ...); /* EINVAL, other than to get flags */
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -50,6 +50,8 @@ int vsscanf(const char *text, const char *format, va_list targets);
 
 int puts(const char *text);
 int fputs(const char *text, FILE *file);
+int asprintf(char **text, const char *format, ...) PLC_FORMAT(2, 3); /* on the heap */
+int vasprintf(char **text, const char *format, va_list values) PLC_FORMAT(2, 0);
 int putchar(int character);
 int putc(int character, FILE *file);
 int fputc(int character, FILE *file);
@@ -66,11 +68,15 @@ int getc(FILE *file);
 int getchar(void); /* EOF */
 int ungetc(int character, FILE *file);
 char *fgets(char *text, int size, FILE *file);
+long getline(char **text, size_t *size, FILE *file); /* on the heap */
+long getdelim(char **text, size_t *size, int last, FILE *file);
 int fscanf(FILE *file, const char *format, ...) __attribute__((__format__(scanf, 2, 3)));
 int vfscanf(FILE *file, const char *format, va_list targets);
 int scanf(const char *format, ...) __attribute__((__format__(scanf, 1, 2))); /* EOF */
 long ftell(FILE *file);
 int fseek(FILE *file, long offset, int origin);
+long ftello(FILE *file);
+int fseeko(FILE *file, long offset, int origin);
 void rewind(FILE *file);
 int fgetpos(FILE *file, fpos_t *place);
 int fsetpos(FILE *file, const fpos_t *place);

@@ -58,6 +58,11 @@ void _Exit(int status) __attribute__((noreturn));
 int atexit(void (*function)(void)); /* never called: a program does not exit */
 
 char *getenv(const char *name); /* NULL */
+int setenv(const char *name, const char *value, int replace); /* ENOSYS, as the next two */
+int unsetenv(const char *name);
+int putenv(char *text);
+int system(const char *command); /* NULL: 0, there is none; else ENOSYS */
+char *realpath(const char *path, char *real); /* real is to be given */
 long random(void);
 void srandom(unsigned seed);
 char *itoa(int value, char *text, int base);

@@ -5,15 +5,17 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
+from plcsim.ansi_c.c_library import FolderEntry
 from plcsim.core.controller import Controller
 from plcsim.core.logbook import Severity
 from plcsim.library.fileio.settings import FileIoSettings
 from plcsim.library.fileio.volumes import MOST_OPEN, FileRefusedError, Volumes, inside
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     from plcsim.core.context import Context
@@ -34,12 +36,14 @@ class DeviceFiles:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._open: dict[int, int] = {}
+        self._folders: dict[int, Iterator[tuple[Path, bytes]]] = {}
         self._has_told = False
 
     def close_all(self) -> None:
         """Close what is open, as at a restart."""
         while self._open:
             os.close(self._open.popitem()[1])
+        self._folders.clear()
 
     def open(self, path: bytes, flags: int) -> int:
         """Open a file; return the lowest number that is free."""
@@ -91,6 +95,49 @@ class DeviceFiles:
         """Rename a file; one that has the name already goes."""
         self._path(old).rename(self._path(new))
 
+    def entry(self, path: bytes) -> FolderEntry:
+        """Tell of a file or a folder."""
+        return _entry_of(self._path(path).stat())
+
+    def entry_of_file(self, file: int) -> FolderEntry:
+        """Tell of an open file."""
+        return _entry_of(os.fstat(self._fd(file)))
+
+    def open_folder(self, path: bytes) -> int:
+        """Open a folder; its entries come as they are now, in the order of their names."""
+        if len(self._folders) >= MOST_OPEN:
+            raise OSError(errno.EMFILE, "open folders")
+        found = self._path(path)
+        names = sorted(os.fsencode(entry.name) for entry in found.iterdir())
+        number = next(n for n in range(MOST_OPEN) if n not in self._folders)
+        self._folders[number] = iter([(found, name) for name in (b".", b"..", *names)])
+        return number
+
+    def next_entry(self, folder: int) -> FolderEntry | None:
+        """Return the next entry that is a file or a folder, and still there."""
+        if folder not in self._folders:
+            raise OSError(errno.EBADF, "folder")
+        for found, name in self._folders[folder]:
+            with suppress(OSError):
+                is_own = name in (b".", b"..")
+                status = (found if is_own else found / os.fsdecode(name)).lstat()
+                if stat.S_ISREG(status.st_mode) or stat.S_ISDIR(status.st_mode):
+                    return _entry_of(status)._replace(name=name)
+        return None
+
+    def close_folder(self, folder: int) -> None:
+        """Close a folder."""
+        if self._folders.pop(folder, None) is None:
+            raise OSError(errno.EBADF, "folder")
+
+    def make_folder(self, path: bytes) -> None:
+        """Make a folder."""
+        self._path(path).mkdir()
+
+    def remove_folder(self, path: bytes) -> None:
+        """Delete an empty folder."""
+        self._path(path).rmdir()
+
     def _fd(self, file: int) -> int:
         if file not in self._open:
             raise OSError(errno.EBADF, "file")
@@ -133,3 +180,9 @@ class DeviceFiles:
 
     def _first(self) -> Path | None:
         return next(iter(self._devices.values()), None)
+
+
+def _entry_of(status: os.stat_result) -> FolderEntry:
+    is_folder = stat.S_ISDIR(status.st_mode)
+    size = 0 if is_folder else min(status.st_size, 0x7FFF_FFFF)
+    return FolderEntry(is_folder, size, int(status.st_mtime))

@@ -18,6 +18,10 @@ struct timezone {
 	int tz_minuteswest, tz_dsttime;
 };
 
+struct itimerval {
+	struct timeval it_interval, it_value;
+};
+
 int gettimeofday(struct timeval *now, void *zone);
 
 #define timerclear(time) ((time)->tv_sec = (time)->tv_usec = 0)

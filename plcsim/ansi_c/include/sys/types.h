@@ -19,7 +19,7 @@ extern "C" {
 
 typedef struct fd_set {
 	uint32_t bits[FD_SETSIZE / 32];
-} fd_set; /* numbers; there is no select() */
+} fd_set; /* numbers; see sys/select.h */
 
 typedef long ssize_t;
 typedef long off_t;
@@ -27,6 +27,11 @@ typedef int pid_t;
 typedef unsigned uid_t;
 typedef unsigned gid_t;
 typedef unsigned mode_t;
+typedef unsigned dev_t;
+typedef unsigned long ino_t;
+typedef unsigned nlink_t;
+typedef unsigned socklen_t;
+typedef unsigned id_t;
 typedef long suseconds_t;
 typedef unsigned useconds_t;
 typedef unsigned char u_char;

@@ -3,7 +3,9 @@
 #ifndef PLCSIM_HEAP_H
 #define PLCSIM_HEAP_H
 
+#include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,6 +34,10 @@ void *plc_realloc(struct plc_heap *heap, void *area, size_t size);
 void plc_free(struct plc_heap *heap, void *area);
 char *plc_strdup(struct plc_heap *heap, const char *text);
 char *plc_strndup(struct plc_heap *heap, const char *text, size_t most);
+
+int plc_vasprintf(struct plc_heap *heap, char **text, const char *format, va_list values);
+long plc_getdelim(struct plc_heap *heap, char **text, size_t *size, int last, FILE *file);
+long plc_getline(struct plc_heap *heap, char **text, size_t *size, FILE *file);
 
 /* `new` and `delete` of C++: where there is no room, that is a fault. */
 void *plc_new(struct plc_heap *heap, size_t size);

@@ -36,6 +36,21 @@ int plc_file_size(int file);
 int plc_file_remove(const char *path);
 int plc_file_rename(const char *from, const char *to);
 
+struct plc_entry {
+	unsigned is_folder;
+	unsigned size;
+	long long date; /* of the last change, in seconds since 1970-01-01 */
+	char name[256];
+};
+
+int plc_entry_of(const char *path, struct plc_entry *entry); /* without its name */
+int plc_entry_of_file(int file, struct plc_entry *entry);
+int plc_folder_open(const char *path); /* returns a number for the folder, from 0 */
+int plc_folder_next(int folder, struct plc_entry *entry); /* returns 0 behind the last one, else 1 */
+int plc_folder_close(int folder);
+int plc_folder_make(const char *path);
+int plc_folder_remove(const char *path);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,5 +1,6 @@
 /* Numbers out of texts. */
 
+#include <inttypes.h>
 #include <ctype.h>
 #include <errno.h>
 #include <limits.h>
@@ -223,3 +224,12 @@ float strtof(const char *text, char **end)
 
 long double strtold(const char *text, char **end) { return strtod(text, end); }
 double atof(const char *text) { return strtod(text, 0); }
+
+intmax_t strtoimax(const char *text, char **end, int base) { return strtoll(text, end, base); }
+uintmax_t strtoumax(const char *text, char **end, int base) { return strtoull(text, end, base); }
+intmax_t imaxabs(intmax_t number) { return llabs(number); }
+
+imaxdiv_t imaxdiv(intmax_t number, intmax_t by)
+{
+	return (imaxdiv_t){number / by, number % by};
+}

@@ -301,6 +301,9 @@ int fseek(FILE *file, long offset, int origin)
 	return 0;
 }
 
+long ftello(FILE *file) { return ftell(file); }
+int fseeko(FILE *file, long offset, int origin) { return fseek(file, offset, origin); }
+
 void rewind(FILE *file)
 {
 	fseek(file, 0, SEEK_SET);

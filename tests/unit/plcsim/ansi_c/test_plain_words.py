@@ -16,7 +16,7 @@ def folder(tmp_path):
     [
         ("Inner.h", "deep/include/Inner.h: name its folder in [c] include of plc.toml"),
         ("strng.h", "did you mean string.h?"),
-        ("sys/socket.h", "TCP is the library AsTCP (AsTCP.h)"),
+        ("sys/un.h", "TCP is the library AsTCP (AsTCP.h)"),
         ("pthread.h", "a controller has no threads"),
     ],
 )

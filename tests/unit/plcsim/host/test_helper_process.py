@@ -54,11 +54,11 @@ def test_it_ends_with_the_block(tmp_path):
 
 def test_one_processor_or_several_threads_have_no_helper(monkeypatch):
     monkeypatch.setattr(sys, "gettrace", lambda: None)
-    monkeypatch.setattr("threading.active_count", lambda: 1)
+    monkeypatch.setattr("sys._current_frames", lambda: {1: None})
     monkeypatch.setattr(os, "sched_getaffinity", lambda _pid: {0, 1})
     assert can_help()
-    monkeypatch.setattr("threading.active_count", lambda: 2)
+    monkeypatch.setattr("sys._current_frames", lambda: {1: None, 2: None})
     assert not can_help()
-    monkeypatch.setattr("threading.active_count", lambda: 1)
+    monkeypatch.setattr("sys._current_frames", lambda: {1: None})
     monkeypatch.setattr(os, "sched_getaffinity", lambda _pid: {0})
     assert not can_help()
