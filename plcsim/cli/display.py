@@ -154,7 +154,7 @@ def print_summary(
 def lines_of_heaps(result: dict[str, Any]) -> Iterator[str]:
     """Yield which programs and libraries in C left something on their heaps, or had no room."""
     for heap in result.get("heaps", ()):
-        name = f"{heap['name']}: heap of {heap['size_bytes']:,} bytes"
+        name = f"{escaped(heap['name'])}: heap of {heap['size_bytes']:,} bytes"
         if heap["areas"] and result["state"] == "STOPPED":
             areas = "1 area" if heap["areas"] == 1 else f"{heap['areas']:,} areas"
             yield f"{name}: {areas} with {heap['used_bytes']:,} bytes not freed at the end"

@@ -19,7 +19,7 @@ def test_a_module_tells_what_it_holds_and_what_it_needs():
     assert (module.memory_size, module.memory_alignment, module.table_size) == (24, 8, 2)
     assert module.addresses == ["outside", "own"]
     assert module.pointers == ["seven"]
-    assert module.called == {"host": Type(FUNCTION)}
+    assert module.called == {"host": Type(FUNCTION, "i")}
     assert module.variables == {"own": 8}
     assert module.functions[:3] == ["seven", "addresses", "indirect"]
 
