@@ -52,7 +52,8 @@ MOST: Final = 6
 def projects_in(folder: Path) -> list[Path]:
     """Return the folders with a project file, without those inside another one."""
     found = sorted({file.parent for file in folder.rglob("*.[aA][pP][jJ]")})
-    return [each for each in found if not any(other in each.parents for other in found)]
+    outer = [each for each in found if not any(other in each.parents for other in found)]
+    return outer or [folder]
 
 
 def configurations_of(folder: Path) -> list[str]:

@@ -130,20 +130,20 @@ class Configurations:
     def preferred(self) -> str | None:
         """Return the configuration that runs where nobody names one, None if there is none.
 
-        That is the active one, else the first that is made for simulation, else the first; of
-        these, one that runs something.
+        That is the active one, else the first that is made for simulation; of these, one that runs
+        something. Else it is the first of those with the most tasks.
         """
         active = self.active()
         order = [] if active is None else [active]
         order += [name for name in self.folders if self._is_simulation(name)]
-        order += self.folders
-        return next((name for name in order if self._has_tasks(name)), next(iter(order), None))
+        chosen = next((name for name in order if self._task_count(name)), None)
+        return chosen or max([*order, *self.folders], key=self._task_count, default=None)
 
-    def _has_tasks(self, name: str) -> bool:
+    def _task_count(self, name: str) -> int:
         known = len(self.findings)
         file = self._software_file(self._cpu(self._cpu_folder(self.folders[name]))[1])
         del self.findings[known:]  # they are told when the configuration is read
-        return file is not None and bool(read_software(file)[0].tasks)
+        return 0 if file is None else len(read_software(file)[0].tasks)
 
     def _is_simulation(self, name: str) -> bool:
         file = self._hardware_file(self.folders[name])

@@ -53,9 +53,13 @@ def test_hardware_of_another_configuration_and_no_list_of_the_cpu(write):
     assert found.findings == []
 
 
-def test_the_active_one_is_preferred_then_one_for_simulation_then_the_first(write):
+def test_the_active_one_is_preferred_then_one_for_simulation_then_the_one_that_runs_most(write):
     folder = write({**FILES, "Physical/Sim/PC/Cpu.sw": SOFTWARE})
     assert configurations(folder).preferred() == "real"
+    more = '<Task Name="more" Source="more.prg"/></TaskClass>'
+    write({"Physical/Sim/PC/Cpu.sw": SOFTWARE.replace("</TaskClass>", more, 1)})
+    assert configurations(folder).preferred() == "Sim"
+    write({"Physical/Sim/PC/Cpu.sw": SOFTWARE})
     write({"Physical/Sim/Hardware.hw": HARDWARE.format("PC_any")})
     assert configurations(folder).preferred() == "Sim"
     text = '<P><ConfigurationManager ActiveConfigurationName="{}"/></P>'
