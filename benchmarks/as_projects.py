@@ -42,7 +42,7 @@ WALL_S: Final = 180
 """Time of the wall that a project gets for its run."""
 
 GLOBAL: Final = "global variables"
-LARGEST_BYTES: Final = 3 << 30
+LARGEST_BYTES: Final = 16 << 30
 NOT_COPIED: Final = ("Temp", "Binaries", "Diagnosis", ".git")
 COLUMNS: Final = ("load", "tasks", "stubs", "ran", "moves", "bytes", "global")
 HEAD: Final = f"{'project':<44}" + "".join(f"{name:>9}" for name in COLUMNS)

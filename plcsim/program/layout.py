@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.library.library import NESTED, PLAIN, SUFFIXES_OF_C, CBuild, files_in, sources_in
+from plcsim.library.library import NESTED, PLAIN, CBuild, files_in, sources_in
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -130,11 +130,11 @@ class SourceLayout:
     dialect: str = ""
 
     @property
-    def holds_c(self) -> bool:
-        """Whether a program or a library is written in C or C++."""
+    def is_compiled(self) -> bool:
+        """Whether a program or a library is written in Structured Text, C or C++."""
         programs = (file for place in self.programs.values() for file in place.own.files)
         libraries = (file for place in self.libraries for file in place.files)
-        return any(f.suffix.lower() in SUFFIXES_OF_C for f in (*programs, *libraries))
+        return any(f.suffix.lower() in NESTED for f in (*programs, *libraries))
 
 
 def folder_layout(

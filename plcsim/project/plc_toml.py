@@ -118,7 +118,7 @@ class Project:
     def load_timeout_ns(self) -> int:
         """How long loading may take; what is compiled takes longer than Python, and always ends."""
         timeout_ns = self.plc.init_timeout_ns
-        is_compiled = self.automation_studio is not None or self.layout.holds_c
+        is_compiled = self.automation_studio is not None or self.layout.is_compiled
         return max(timeout_ns, COMPILING_NS) if is_compiled else timeout_ns
 
     @property

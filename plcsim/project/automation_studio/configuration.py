@@ -130,12 +130,13 @@ class Configurations:
     def preferred(self) -> str | None:
         """Return the configuration that runs where nobody names one, None if there is none.
 
-        That is the active one, else the first that is made for simulation; of these, one that runs
-        something. Else it is the first of those with the most tasks.
+        That is the active one, else the one with the most tasks of those made for simulation; of
+        these, one that runs something. Else it is the first of those with the most tasks.
         """
         active = self.active()
         order = [] if active is None else [active]
-        order += [name for name in self.folders if self._is_simulation(name)]
+        made_for_it = [name for name in self.folders if self._is_simulation(name)]
+        order += sorted(made_for_it, key=self._task_count, reverse=True)
         chosen = next((name for name in order if self._task_count(name)), None)
         return chosen or max([*order, *self.folders], key=self._task_count, default=None)
 
