@@ -82,7 +82,7 @@ class RecordExtension(Extension):
             return Attachment()
         head = _head_of(settings, controller, clock)
         sender = _Sender()
-        write = sender.send
+        write: Callable[[int, bytes], None] = sender.send
         if settings.is_in_process:
             write = _InScan(settings, controller, head, show=sender.send).write
         Tape(controller, clock.journal, write)
@@ -175,29 +175,25 @@ class _InScan:
         self._show = show
         self._controller = controller
         controller.logbook.follow(self._log)
-        controller.follow_steps(self._stepped)
 
-    def write(self, time_ns: int, record: bytes) -> None:
-        """Write a record, then show it."""
+    def write(self, time_ns: int, data: bytes) -> None:
+        """Write a record, then show it; behind the last one the bag is closed."""
         if self._writing is not None:
+            record = record_of(data)
             try:
-                self._writing.record(self._number, record_of(record))
+                self._writing.record(self._number, record)
+                if record.step == Step.CLOSE.value:
+                    self._writing.close()
+                    self._writing = None
             except OSError as err:
                 self._give_up(err)
             self._number += 1
-        self._show(time_ns, record)
+        self._show(time_ns, data)
 
     def _log(self, entry: Entry) -> None:
         if self._writing is not None:
             try:
                 self._writing.entry(entry)
-            except OSError as err:
-                self._give_up(err)
-
-    def _stepped(self, step: Step, _until_ns: int, _cycles: int) -> None:
-        if step is Step.CLOSE and self._writing is not None:
-            try:
-                self._writing.close()
             except OSError as err:
                 self._give_up(err)
 

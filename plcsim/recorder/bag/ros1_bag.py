@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from plcsim.core.traffic import Topic
 
     Rows = NDArray[np.uint8]
-    Numbers = NDArray[np.uint32]
 
 CHUNK_SIZE: Final = 1 << 20
 """Bytes after which a chunk is written."""
@@ -88,8 +87,8 @@ class Ros1Bag:
         self._data = bytearray()
         self._first_ns, self._last_ns = 1 << 63, 0
         self._stamps: list[tuple[int, int, int]] = []  # seconds, nanoseconds, messages
-        self._numbers: list[Sequence[int] | Numbers] = []
-        self._places: list[Sequence[int] | Numbers] = []
+        self._numbers: list[int] = []
+        self._places: list[int] = []
 
     @property
     def size(self) -> int:
@@ -141,33 +140,30 @@ class Ros1Bag:
 
     def write_rows(self, time_ns: int, connections: Sequence[int], rows: Rows) -> None:
         """See `plcsim.recorder.bag.files.Bag`."""
-        numbers = np.asarray(connections, np.uint32)
         stamp = divmod(time_ns, _SECOND_NS)
         count, size = rows.shape
         first, width = len(self._data), _TO_DATA + size
         made = np.empty((count, width), np.uint8)
-        made[:, :_TO_TIME] = self._head_rows[numbers]
+        made[:, :_TO_TIME] = self._head_rows[connections]
         made[:, _TO_TIME:_TO_DATA] = np.frombuffer(PLACE.pack(*stamp, size), np.uint8)
         made[:, _TO_DATA:] = rows
-        places = np.arange(count, dtype=np.uint32) * width + first
-        self._add(time_ns, stamp, numbers, places, made.tobytes())
+        places = range(first, first + count * width, width)
+        self._add(time_ns, stamp, connections, places, made.tobytes())
 
     def _add(
         self,
         time_ns: int,
         stamp: tuple[int, int],
-        numbers: Sequence[int] | Numbers,
-        places: Sequence[int] | Numbers,
+        numbers: Sequence[int],
+        places: Sequence[int],
         data: bytes,
     ) -> None:
         """Add messages of one time to the chunk."""
-        if not len(numbers):
-            return
         self._first_ns = min(self._first_ns, time_ns)
         self._last_ns = max(self._last_ns, time_ns)
         self._stamps.append((*stamp, len(numbers)))
-        self._numbers.append(numbers)
-        self._places.append(places)
+        self._numbers += numbers
+        self._places += places
         self._data += data
         if len(self._data) >= self._chunk_size:
             self._write_chunk()
@@ -185,12 +181,12 @@ class Ros1Bag:
     def _index(self, position: int) -> tuple[bytes, bytes]:
         """Return the index of the chunk, and what tells of it at the end of the bag."""
         seconds, nanoseconds, counts = np.array(self._stamps, np.uint32).T.reshape(3, -1)
-        numbers = np.concatenate([np.zeros(0, np.uint32), *self._numbers]).astype(np.uint32)
+        numbers = np.array(self._numbers, np.uint32)
         order = np.argsort(numbers, kind="stable")
         places = np.empty((len(numbers), 3), "<u4")
         places[:, 0] = np.repeat(seconds, counts)[order]
         places[:, 1] = np.repeat(nanoseconds, counts)[order]
-        places[:, 2] = np.concatenate([np.zeros(0, np.uint32), *self._places])[order]
+        places[:, 2] = np.array(self._places, np.uint32)[order]
         found, starts, many = np.unique(numbers[order], return_index=True, return_counts=True)
         index = [
             record(

@@ -1,8 +1,11 @@
 """Bags that are played to the programs under test."""
 
+import hashlib
+import struct
 from pathlib import Path
 
 import pytest
+from rosbags.rosbag1 import Writer
 
 from crosnode.plc.project import create_node
 from crosnode.testing import Ros
@@ -88,3 +91,31 @@ def test_a_damaged_bag_is_told(plc: Plc, tmp_path: Path) -> None:
 
     with pytest.raises(PlcTestError, match=r"a\.bag"):
         plc.ros.replay(tmp_path / "a.bag")
+
+
+def of_another_type(path: Path, definition: str) -> Path:
+    """Write a bag with a message of a type that the project does not know."""
+    with Writer(path) as writer:
+        load = writer.add_connection(
+            "/load", "cell_msgs/msg/Load", msgdef=definition, md5sum="1" * 32
+        )
+        writer.write(load, 1, struct.pack("<f", 1.5))
+    return path
+
+
+def test_a_type_that_is_not_known_is_the_one_of_the_bag(plc: Plc, tmp_path: Path) -> None:
+    bag = of_another_type(tmp_path / "a.bag", "float32 kg  # of the load\n")
+
+    with pytest.raises(PlcTestError, match=r"cell_msgs/Load has the MD5 sum 1{32} in") as told:
+        plc.ros.replay(bag, ["/load"])
+    assert hashlib.md5(b"float32 kg").hexdigest() in str(told.value)
+
+
+@pytest.mark.parametrize("definition", ["other_msgs/Part part\n", "float32\n"])
+def test_a_type_that_the_bag_does_not_describe_is_told(
+    plc: Plc, tmp_path: Path, definition: str
+) -> None:
+    bag = of_another_type(tmp_path / "a.bag", definition)
+
+    with pytest.raises(PlcTestError, match=r"a\.bag: .*(other_msgs/Part|cell_msgs/Load)"):
+        plc.ros.replay(bag, ["/load"])

@@ -3,6 +3,7 @@ from pathlib import Path
 
 import pytest
 
+from plcsim.core.control import Step
 from plcsim.core.controller import Controller
 from plcsim.core.errors import TagError
 from plcsim.core.logbook import Severity
@@ -55,6 +56,13 @@ def test_the_next_file_begins_at_a_size(recordings: Recordings) -> None:
     recordings("a.bag", application_of(Fast), size=6_000)
 
     assert len(files(recordings.folder)) > 1
+
+
+def test_the_end_of_the_controller_is_the_last_record(recordings: Recordings) -> None:
+    with open_bag(recordings("a.bag", application_of(Fast))) as bag:
+        *_, (_, last) = bag.records()
+
+    assert last.step == Step.CLOSE.value
 
 
 def test_the_logbook_is_in_the_bag(recordings: Recordings) -> None:
