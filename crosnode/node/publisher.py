@@ -222,11 +222,11 @@ class SubscriberLink:
         if not queue:
             return
         size = link.waiting
-        while queue and size < AREA_SIZE:
-            body = queue.pop()
-            assert body is not None
-            self._connection.send_message(body)
+        bodies: list[bytes | memoryview] = []
+        while size < AREA_SIZE and (body := queue.pop()) is not None:
+            bodies.append(body)
             size += len(body) + 4
+        self._connection.send_messages(bodies)
 
     def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Forget the subscriber."""

@@ -16,12 +16,12 @@ from crosnode.tcpros.connection import (
     TcprosLimits,
     TypeInfo,
 )
-from crosnode.tcpros.reader import length_of
+from crosnode.tcpros.reader import LARGE, length_of
 from crosnode.transport.budget import MESSAGE_WORK
 from crosnode.transport.connection import Closed, ConnectionEvent, ConnectionState, Table, Trigger
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
+    from collections.abc import Generator, Iterable
 
 PUBLISHER: Final[Table] = {
     ConnectionState.HANDSHAKE: {
@@ -80,10 +80,19 @@ class PublisherConnection(ServerConnection):
         )
         return True
 
-    def send_message(self, body: bytes | memoryview) -> None:
-        """Send a message; ``body`` must not change until it is written."""
+    def send_messages(self, bodies: Iterable[bytes | memoryview]) -> None:
+        """Send messages; a large one must not change until it is written, small ones are joined."""
         self._move(Trigger.MESSAGE)
-        self.outbox += (length_of(body), body)
+        joined: list[bytes | memoryview] = []
+        for body in bodies:
+            joined.append(length_of(body))
+            if len(body) >= LARGE:
+                self.outbox += (b"".join(joined), body)
+                joined.clear()
+            else:
+                joined.append(body)
+        if joined:
+            self.outbox.append(b"".join(joined))
 
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_offer())

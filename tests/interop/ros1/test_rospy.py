@@ -109,7 +109,7 @@ def our_publisher(uri: str, topic: str, info: TypeInfo, body: bytes) -> Iterator
         connection = PublisherConnection(LIMITS, 0)
         assert isinstance(shell.next_event(connection, sock), HeaderReceived)
         if connection.accept(info, "/ours", latching=True):
-            connection.send_message(body)
+            connection.send_messages([body])
         shell.next_event(connection, sock)
 
     with shell.listening(serve) as port:

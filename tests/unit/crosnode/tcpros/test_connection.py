@@ -153,7 +153,7 @@ def test_reading_waits_until_events_are_taken(role: Callable[[], TcprosConnectio
 @pytest.mark.parametrize(
     "act",
     [
-        lambda: publisher().send_message(b""),  # type: ignore[attr-defined]
+        lambda: publisher().send_messages([b""]),  # type: ignore[attr-defined]
         lambda: publisher().accept(STRING, "/us"),  # type: ignore[attr-defined]
         lambda: server().send_response(b""),  # type: ignore[attr-defined]
         lambda: server().refuse("no"),  # type: ignore[attr-defined]

@@ -14,6 +14,7 @@ from crosnode.tcpros import (
 )
 from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
+from crosnode.tcpros.reader import LARGE
 from crosnode.transport.connection import Closed, ConnectionState, Failed
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
@@ -58,7 +59,7 @@ def test_handshake_and_messages() -> None:
         }
     )
     for body in (b"\x01", b"", memoryview(b"abc")):
-        publisher.send_message(body)
+        publisher.send_messages([body])
     carry(publisher, subscriber)
     subscriber.most = 2
     events = [subscriber.next_event(0) for _ in range(3)]
@@ -170,3 +171,20 @@ def test_no_deadline_between_messages() -> None:
     subscriber.receive_data(encode_header({}))
     subscriber.next_event(5)
     assert subscriber.deadline_ns is None
+
+
+def test_small_messages_leave_in_one_piece_and_large_ones_as_they_are() -> None:
+    publisher, subscriber = pair()
+    carry(subscriber, publisher)
+    publisher.next_event(0)
+    publisher.accept(STRING, "/talker")
+    publisher.data_to_send()
+    large = bytes(LARGE)
+    publisher.send_messages([b"a", b"", large, b"bc"])
+    pieces = publisher.data_to_send()
+    assert pieces == [
+        b"\1\0\0\0a" + b"\0\0\0\0" + LARGE.to_bytes(4, "little"),
+        large,
+        b"\2\0\0\0bc",
+    ]
+    assert pieces[1] is large
