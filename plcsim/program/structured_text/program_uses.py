@@ -8,6 +8,7 @@ exists once: it becomes a function block, and its instance a variable that all s
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ _NO_CODE: Final = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _HEADER: Final = re.compile(r"\bPROGRAM\s+(\w+)", re.IGNORECASE)
+_IN_CAPITALS: Final = re.compile(r"PROGRAM(?=\s+(\w+))")
 _END: Final = re.compile(r"\bEND_PROGRAM\b", re.IGNORECASE)
 _OF_A_BLOCK: Final = re.compile(r"\b(?:METHOD|PROPERTY|VAR_IN_OUT)\b", re.IGNORECASE)
 _CONFIGURATION: Final = re.compile(
@@ -62,9 +64,12 @@ def program_uses(texts: Iterable[str]) -> ProgramUses:
     Args:
         texts: of all files of a program or a project.
     """
-    known = list(texts)
-    headers = [name.upper() for text in known for name in _HEADER.findall(text)]
-    names = frozenset(headers).difference(UNITS)
+    return _program_uses(tuple(texts))
+
+
+@lru_cache(maxsize=1)  # all steps of one program ask in turn
+def _program_uses(known: tuple[str, ...]) -> ProgramUses:
+    names = {name for text in known for name in _names_in(text.upper())}.difference(UNITS)
     if not names or (len(names) == 1 and not any(map(_OF_A_BLOCK.search, known))):
         return NO_USES
     sections = [section for text in known for section in _sections(text)]
@@ -79,6 +84,14 @@ def program_uses(texts: Iterable[str]) -> ProgramUses:
         if section.owner in names and _OF_A_BLOCK.search(section.text):
             named.add(section.owner)
     return ProgramUses(frozenset(called), frozenset(named))
+
+
+def _names_in(capitals: str) -> Iterator[str]:
+    """Yield what follows the word PROGRAM; a search for a bare word takes a tenth of the time."""
+    for match in _IN_CAPITALS.finditer(capitals):
+        before = capitals[match.start() - 1 : match.start()]
+        if not before.isalnum() and before != "_":
+            yield match[1]
 
 
 def _named_in(section: _Section, pattern: re.Pattern[str]) -> tuple[set[str], set[str]]:

@@ -30,6 +30,11 @@ def test_names_before_calls_and_members_count(body, expected):
     assert uses(body) == expected
 
 
+def test_a_program_may_stand_right_behind_another():
+    text = "PROGRAM a END_PROGRAM\nPROGRAM b VAR n : INT; END_VAR END_PROGRAM\nPROGRAM c b();"
+    assert program_uses([text]).called == {"B"}
+
+
 def test_a_configuration_names_tasks_of_programs():
     text = (
         "CONFIGURATION c PROGRAM i WITH t : Two; PROGRAM j WITH t : Two(n := 1); END_CONFIGURATION"
