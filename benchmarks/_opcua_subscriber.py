@@ -27,7 +27,8 @@ async def subscribe(port: int, project: str, seconds: float) -> None:
     from asyncua import Client, ua  # noqa: PLC0415  # a benchmark imports the numbers above
 
     counter = _Counter()
-    async with Client(f"opc.tcp://127.0.0.1:{port}", timeout=60) as client:
+    client = Client(f"opc.tcp://127.0.0.1:{port}", timeout=60, watchdog_intervall=30)
+    async with client:
         index = await client.get_namespace_index(f"urn:plcsim:{project}")
         for number in range(SUBSCRIPTIONS):
             subscription = await client.create_subscription(PUBLISHING_MS, counter)
