@@ -107,6 +107,7 @@ def unit(libsodium, tmp_path_factory):
         yield controller, names
 
 
+@pytest.mark.timeout(900)  # the download may take 400 s, and 36,000 lines are compiled
 def test_its_own_tests_pass(unit, subtests):
     controller, names = unit
     assert len(names) >= LEAST_TESTS
