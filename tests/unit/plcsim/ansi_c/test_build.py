@@ -22,7 +22,7 @@ def test_several_files_become_one_module(each_toolchain, source):
     module = read_shared(built.wasm)
     assert "_CYCLIC" in module.functions
     assert module.addresses == ["counter"]
-    assert module.called == []
+    assert module.called == {}
 
 
 def test_c_and_cpp_are_linked(each_toolchain, source):

@@ -30,13 +30,13 @@ def test_of_a_static_library_is_linked_what_is_needed(source, each_toolchain, tm
     linked = module(source, each_toolchain, text, [library])
     assert {"run", "used", "deeper"} <= set(linked.functions)
     assert "other" not in linked.functions
-    assert linked.called == []
+    assert linked.called == {}
 
 
 def test_a_library_whose_headers_nobody_reads_is_not_compiled(source, toolchain, tmp_path):
     file = source("broken.c", "this is no C")
     library = StaticLibrary([file], (tmp_path / "elsewhere",))
-    assert module(source, toolchain, "int run(void) { return 1; }", [library]).called == []
+    assert module(source, toolchain, "int run(void) { return 1; }", [library]).called == {}
 
 
 def test_a_weak_function_is_the_modules_own(source, each_toolchain):
@@ -44,7 +44,7 @@ def test_a_weak_function_is_the_modules_own(source, each_toolchain):
         "__attribute__((weak)) int weak(int x) { return x; }\nint run(int x) { return weak(x); }\n"
     )
     linked = module(source, each_toolchain, text)
-    assert linked.called == []
+    assert linked.called == {}
     assert "weak" in linked.functions
 
 
@@ -54,7 +54,7 @@ def test_a_strong_function_is_taken_before_a_weak_one(source, toolchain, tmp_pat
         source("b.c", "int f(void) { return 2; }\nint run(void) { return f(); }"),
     ]
     order = BuildOrder("program", files, [INCLUDE])
-    assert read_shared(build(order, toolchain, CodeCache(None)).wasm).called == []
+    assert read_shared(build(order, toolchain, CodeCache(None)).wasm).called == {}
 
 
 def test_a_variable_with_two_initial_values_is_refused_with_both_places(source, each_toolchain):
