@@ -65,3 +65,25 @@ def test_without_a_table_time_is_that_of_the_host_on_its_network_and_0_on_a_virt
     node.core.loop.close(0)
     virtual = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
     assert create_node(virtual, "x").now_ns == virtual.release_ns
+
+
+def test_bounds_of_steps_and_of_what_comes_in_are_those_of_the_table() -> None:
+    context = Context(Memory(), VirtualNetwork(lambda: 0).host("10.0.0.2"))
+    values = {
+        "step": {"messages": 7},
+        "limits": {"message": "1MiB", "parameter": "8MiB", "service_timeout": "2s"},
+    }
+    settings = read_settings(Table(Path("plc.toml"), "ros", values), {})
+    context.give_settings(RosContext(settings, Epoch(), lambda: 0))
+    options = create_node(context, "x").options
+    assert options.step == {"messages": 7}
+    assert (options.tcpros.max_message, options.tcpros.timeout_ns) == (1 << 20, 2_000_000_000)
+    assert options.xmlrpc.values.max_size == 8 << 20
+
+
+def test_a_node_is_of_ipv6_where_the_environment_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_IPV6", "on")
+    monkeypatch.delenv("ROS_IP", raising=False)
+    monkeypatch.delenv("ROS_HOSTNAME", raising=False)
+    context = Context(Memory(), VirtualNetwork(lambda: 0).host("fd00::2"))
+    assert create_node(context, "x").uri.startswith("http://[::1]:")
