@@ -184,7 +184,7 @@ class Leg:
 
 def await_services(process: subprocess.Popen[bytes], told: Path) -> None:
     """Wait until all services serve."""
-    deadline_s = time.monotonic() + 60
+    deadline_s = time.monotonic() + 180
     while True:
         text = told.read_text()
         if all(f"\n{table}: " in f"\n{text}" for table in SERVICES):
