@@ -50,9 +50,6 @@ _OPTIONS = (
     # a jump through a table is one that the processor often takes to the wrong place first: the
     # kernel of texts in benchmarks/c_kernels takes a tenth longer with it
     "-fno-jump-tables",
-    # several rounds of a short loop for one poll: the same kernel takes an eighth less; where the
-    # rounds are known to be no more than these, LLVM writes all of them out as it would anyway
-    *("-mllvm", "-unroll-count=8"),
     *("-mllvm", "-enable-emscripten-sjlj"),  # setjmp; see plcsim.ansi_c.nonlocal_jumps
     "-UNDEBUG",  # zig defines it where it optimises
     "-U__EMSCRIPTEN__",  # what the target is called says nothing about the system
