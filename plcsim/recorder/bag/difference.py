@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from itertools import zip_longest
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from plcsim.recorder.bag.types import CYCLES, HEAD, LOGBOOK
+from plcsim.recorder.bag.types import CYCLES, DIAGNOSTICS, HEAD, LOGBOOK
 from plcsim.recorder.bag.values import first_difference
 from plcsim.recorder.journal.record import CYCLE
 from plcsim.shared_image.directory import describe_type
@@ -17,12 +17,15 @@ if TYPE_CHECKING:
     from plcsim.recorder.bag.reading import BagReader
     from plcsim.recorder.journal.record import JournalRecord
 
+_APART: Final = frozenset((CYCLES, DIAGNOSTICS, HEAD, LOGBOOK))
+"""Topics whose messages are compared in another way, or not at all."""
+
 
 def difference(first: BagReader, second: BagReader) -> str:
     """Return the first difference of two recordings as a line, "" where there is none.
 
-    The variables of every cycle count, then the messages of all other topics; not the logbook, and
-    not what clock and network gave: on the real clock these are never the same twice.
+    The variables of every cycle count, then the messages of all other topics; not the logbook,
+    the timing, and what clock and network gave: on the real clock these are never the same twice.
 
     Raises:
         RecordingError: a bag is damaged, or plcsim has not recorded it.
@@ -76,7 +79,7 @@ def _name(record: JournalRecord) -> str:
 
 def _of_messages(first: BagReader, second: BagReader) -> str:
     """Return the first message of a topic that differs, by its bytes."""
-    topics = {t.name for bag in (first, second) for t in bag.topics} - {CYCLES, HEAD, LOGBOOK}
+    topics = {t.name for bag in (first, second) for t in bag.topics} - _APART
     for topic in sorted(topics):
         pairs = zip_longest(first.messages([topic]), second.messages([topic]))
         for number, (one, other) in enumerate(pairs, 1):

@@ -24,11 +24,14 @@ if TYPE_CHECKING:
 CYCLES: Final = "/plcsim/cycles"
 HEAD: Final = "/plcsim/recording"
 LOGBOOK: Final = "/plcsim/logbook"
+DIAGNOSTICS: Final = "/plcsim/diagnostics"
+"""Not ``/diagnostics``, which nodes of the project may publish themselves."""
 
 CYCLE_TYPE: Final = "plcsim_msgs/msg/Cycle"
 TEXT_TYPE: Final = "std_msgs/msg/String"
 LOG_TYPE: Final = "rosgraph_msgs/msg/Log"
 LOG_TYPE_2: Final = "rcl_interfaces/msg/Log"
+DIAGNOSTIC_TYPE: Final = "diagnostic_msgs/msg/DiagnosticArray"
 
 CYCLE_DEFINITION: Final = """\
 # One cycle of a task class, or one step of the controller between cycles.

@@ -1,4 +1,4 @@
-"""Writes a recording: records, the logbook and chosen tags, into one bag after another."""
+"""Writes a recording: records, the logbook, timing and chosen tags, into one bag after another."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.tag import find_tag
 from plcsim.recorder.bag.changes import changes
+from plcsim.recorder.bag.diagnostics import TimingDiagnostics
 from plcsim.recorder.bag.files import create
 from plcsim.recorder.bag.head import head_text
 from plcsim.recorder.bag.names import active
@@ -14,6 +15,8 @@ from plcsim.recorder.bag.tag_block import TagBlock, equally_long
 from plcsim.recorder.bag.types import (
     CYCLE_TYPE,
     CYCLES,
+    DIAGNOSTIC_TYPE,
+    DIAGNOSTICS,
     HEAD,
     LOG_TYPE,
     LOGBOOK,
@@ -83,6 +86,7 @@ class Writing:
         self._head = head
         self._limits = limits
         self._tags = tag_messages(head)
+        self._diagnostics = TimingDiagnostics(head)
         self._number = 0
         self._next = 0
         self._before = b""
@@ -107,6 +111,7 @@ class Writing:
         self.files.append(path)
         self._cycles = self._bag.add(CYCLES, CYCLE_TYPE)
         self._logbook = self._bag.add(LOGBOOK, LOG_TYPE)
+        self._timing = self._bag.add(DIAGNOSTICS, DIAGNOSTIC_TYPE)
         self._blocks = [TagBlock(tags) for tags in equally_long(self._tags)]
         self._borders: dict[int, Any] = {}
         self._before = b""
@@ -157,6 +162,8 @@ class Writing:
             self._describe(topic_number, topic)
         crossings = [self._crossing(*each) for each in record.messages]
         written = [(self._cycles, message.to_bytes()), *[each for each in crossings if each]]
+        if told := self._diagnostics.message(record, bag_ns):
+            written.append((self._timing, told))
         self._bag.write(bag_ns, written)
         if is_cycle and record.variables:
             self._before = record.variables

@@ -87,6 +87,7 @@ class Journal:
         cycle: int,
         time_ns: int,
         variables: Sequence[bytes | memoryview],
+        timings: Sequence[tuple[int, ...]] = _NONE,
     ) -> bytes:
         """Return what was gathered as the bytes of a record, and begin the next.
 
@@ -96,12 +97,13 @@ class Journal:
             cycle: see there.
             time_ns: see there.
             variables: see there, in pieces.
+            timings: see there, each a plain tuple.
         """
         self._left -= 1
         is_known = self._left and len(self.topics) == self._described
         topics = _NONE if is_known else self._descriptions()
         clock, network, writes, messages = self.clock, self.network, self._writes, self.messages
-        gathered: Any = clock, network, writes, topics, messages, variables
+        gathered: Any = clock, network, writes, topics, messages, variables, timings
         # one call, for after each sleep the caches are cold, and new code costs most
         data = dumps((step, task_class, cycle, time_ns, *gathered), _FORMAT)
         clock.clear()  # the lists stay the same: clock and network hold on to them

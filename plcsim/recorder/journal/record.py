@@ -21,6 +21,31 @@ LIMITS: Final = struct.Struct("<qq")
 _ENTRY: Final = struct.Struct("<III")
 
 
+class ClassTiming(NamedTuple):
+    """Timing of a task class, as known in PUBLISH of one of its cycles or before a step.
+
+    Attributes:
+        task_class: its number.
+        cycles: begun so far.
+        executed: the cycle that ``execution_ns`` is of; in PUBLISH the one before, for the time of
+            this one is not over.
+        missed: grid points skipped so far.
+        violations: of the cycle time, so far.
+        lateness_ns: from the release to the start of the latest cycle.
+        execution_ns: CPU time of the programs of a cycle.
+        is_service: the controller is in SERVICE.
+    """
+
+    task_class: int
+    cycles: int
+    executed: int
+    missed: int
+    violations: int
+    lateness_ns: int
+    execution_ns: int
+    is_service: bool
+
+
 class JournalRecord(NamedTuple):
     """One record.
 
@@ -36,6 +61,8 @@ class JournalRecord(NamedTuple):
         variables: all variables afterwards, empty where they are too many; of a step see `LIMITS`.
         topics: that are described here, by their numbers; none in what is read from a bag.
         messages: that programs sent and received, with the numbers of their topics; as above.
+        timings: of the class whose cycle ends; before a boot and at the end of all. As above, for a
+            replay makes no use of them.
     """
 
     step: int
@@ -48,13 +75,14 @@ class JournalRecord(NamedTuple):
     variables: bytes
     topics: Sequence[tuple[int, Topic]] = ()
     messages: Sequence[tuple[int, bytes]] = ()
+    timings: Sequence[ClassTiming] = ()
 
 
 def record_of(data: bytes) -> JournalRecord:
     """Return the record of `plcsim.recorder.journal.journal.Journal.take`."""
-    step, task_class, cycle, time_ns, clock, network, writes, topics, messages, variables = (
-        marshal.loads(data)  # noqa: S302  # from the scan, through its own memory
-    )
+    values = marshal.loads(data)  # noqa: S302  # from the scan, through its own memory
+    step, task_class, cycle, time_ns, *gathered = values
+    clock, network, writes, topics, messages, variables, timings = gathered
     return JournalRecord(
         step,
         task_class,
@@ -66,6 +94,7 @@ def record_of(data: bytes) -> JournalRecord:
         b"".join(variables),
         [(number, Topic(*each)) for number, each in topics],
         messages,
+        [*map(ClassTiming._make, timings)],
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
+from plcsim.core.system import State
+from plcsim.core.task import HIGHEST_CLASS
 from plcsim.recorder.journal.record import CYCLE, LIMITS
 from plcsim.shared_image.force_list import encode_forces
 
@@ -12,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from plcsim.core.controller import Controller
-    from plcsim.core.task import TaskClass
+    from plcsim.core.task import TaskClass, Violation
     from plcsim.recorder.journal.journal import Journal
 
 MOST_VARIABLES: Final = 256 * 1024
@@ -34,6 +36,8 @@ class Tape:
         self._controller = controller
         self._journal = journal
         self._write = write
+        self._scan = controller.scan
+        self._violations = [0] * (HIGHEST_CLASS + 1)  # by number: to add up causes takes longer
         memory = controller.memory
         self._views = [memory.view(a.address, a.data_type.size) for a in controller.areas]
         if sum(map(len, self._views)) > MOST_VARIABLES:
@@ -44,6 +48,7 @@ class Tape:
         controller.forces.follow(self._forced)
         controller.follow_steps(self._stepped)
         controller.follow_endings(journal.asked_to_end)
+        controller.follow_violations(self._violated)
         traffic = controller.context.traffic
         journal.topics = traffic.topics
         traffic.followers.append(journal.messages.append)
@@ -55,10 +60,34 @@ class Tape:
     def _forced(self) -> None:
         self._journal.wrote(0, encode_forces(list(self._controller.forces)))
 
+    def _violated(self, violation: Violation) -> None:
+        self._violations[violation.task_class] += 1
+
     def _publish(self, task_class: TaskClass) -> None:
         time_ns, views = self._controller.context.release_ns, self._views
         number, cycles = task_class.number, task_class.cycles
-        self._write(time_ns, self._journal.take(CYCLE, number, cycles, time_ns, views))
+        timing = self._timing(task_class, cycles - 1, is_service=self._scan.halted)
+        self._write(time_ns, self._journal.take(CYCLE, number, cycles, time_ns, views, (timing,)))
+
+    def _timing(self, task_class: TaskClass, executed: int, *, is_service: bool) -> tuple[int, ...]:
+        """Return a `plcsim.recorder.journal.record.ClassTiming` as marshal takes it."""
+        number = task_class.number
+        return (
+            number,
+            task_class.cycles,
+            executed,
+            task_class.missed,
+            self._violations[number],
+            task_class.lateness.last_ns,
+            task_class.execution.last_ns,
+            is_service,
+        )
+
+    def _timings(self) -> list[tuple[int, ...]]:
+        """Return the timing of all classes that have run."""
+        is_service = self._controller.state is State.SERVICE
+        ran = [each for each in self._controller.classes if each.cycles]
+        return [self._timing(each, each.cycles, is_service=is_service) for each in ran]
 
     def _stepped(self, step: Step, until_ns: int, cycles: int) -> None:
         time_ns = self._controller.clock.stamp_ns()
@@ -67,4 +96,5 @@ class Tape:
             given = LIMITS.pack(until_ns, cycles)
         elif step is Step.BOOT:
             given = self._controller.retained.to_bytes()
-        self._write(time_ns, self._journal.take(step.value, 0, 0, time_ns, (given,)))
+        timings = self._timings() if step in (Step.BOOT, Step.CLOSE) else ()
+        self._write(time_ns, self._journal.take(step.value, 0, 0, time_ns, (given,), timings))

@@ -24,4 +24,7 @@ def test_every_cycle_and_every_step_is_a_record() -> None:
     steps = [Step(each.step).name if each.step else f"#{each.task_class}" for each in records]
     assert steps == ["BOOT", "START", "RUN", "#1", "#2", "#1", "SHUTDOWN", "CLOSE"]
     assert LIMITS.unpack(records[2].variables) == (0, 2)
+    timings = [[(t.task_class, t.cycles, t.executed) for t in r.timings] for r in records]
+    cycles = [[(1, 1, 0)], [(2, 1, 0)], [(1, 2, 1)]]
+    assert timings == [[], [], [], *cycles, [], [(1, 2, 2), (2, 1, 1)]]
     assert [r.variables[:4] for r in records if r.task_class == 1] == [b"\1\0\0\0", b"\2\0\0\0"]
