@@ -12,6 +12,7 @@ from plcsim.process.supervisor import Supervisor
 from plcsim.project.assembly import load
 from plcsim.project.plc_toml import read_project
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.types import DIAGNOSTICS, typestore
 from plcsim.recorder.replay.replay import Replay
 
 MAIN = """
@@ -58,6 +59,18 @@ def test_a_run_on_the_real_clock_is_repeated_cycle_by_cycle(project: Path) -> No
     assert again.cycles == task_class["cycles"] > 0
     assert again.controller.classes[0].missed == task_class["missed_grid_points"]
     assert [f.name for f in project.glob("run*")] == ["run.bag"]
+
+
+def test_the_timing_at_the_end_is_that_of_the_report(project: Path) -> None:
+    (task_class,) = run(project)["task_classes"]
+
+    with open_bag(project / "run.bag") as reader:
+        *_, last = reader.messages([DIAGNOSTICS])
+    decoded: Any = typestore().deserialize_ros1(last.data, last.type_name)
+    values = {each.key: each.value for each in decoded.status[0].values}
+    assert int(values["cycles"]) == task_class["cycles"]
+    assert int(values["missed grid points"]) == task_class["missed_grid_points"]
+    assert int(values["cycle time violations"]) == sum(task_class["violations"].values())
 
 
 def test_the_bag_of_a_scan_that_was_killed_is_closed(project: Path) -> None:
