@@ -137,6 +137,7 @@ class Playback:
             wanted = sorted(self._topics or found)
             self._player = Player(self._bag, self._node, wanted, self._traffic)
             self.state = PlaybackState.CONNECTING
+            self._begun_ns = now_ns
         elif not found and now_ns - since_ns >= PATIENCE_NS:
             names = ", ".join(sorted(there)[:8]) or "none"
             raise RecordingError(
@@ -146,8 +147,17 @@ class Playback:
     def _connect(self, now_ns: int) -> None:
         player = self._player
         assert player is not None
-        heard = [each for name, each in player.publishers.items() if name in self._known]
-        if not all(each.subscribers for each in heard):
+        deaf = [
+            f"{name} ({each.message_type.name})"
+            for name, each in player.publishers.items()
+            if name in self._known and not each.subscribers
+        ]
+        if deaf and now_ns - self._begun_ns >= PATIENCE_NS:
+            raise RecordingError(
+                f"{self._bag.path}: subscribers do not take {', '.join(deaf)}; "
+                "is the type of the bag theirs?"
+            )
+        if deaf:
             self._since_ns = now_ns
         elif self._since_ns is None or now_ns - self._since_ns >= CONNECTED_NS:
             self.state = PlaybackState.PLAYING

@@ -14,6 +14,8 @@ from plcsim.core.system import State
 from plcsim.project.assembly import assemble, load
 from plcsim.project.plc_toml import read_project
 
+pytestmark = pytest.mark.timeout(900)  # a download, and 100,000 lines are compiled
+
 PACKAGE = "dukpy==0.5.0"
 PLC = """
 [plc]

@@ -120,7 +120,7 @@ def theirs(ros: Ros, roscpp: Path, tmp_path: Path) -> Path:
     bag = tmp_path / "theirs.bag"
     peers = [ros.start([str(roscpp / "talker")]), ros.rospy("talk", "/words", "")]
     ros.until(lambda: {"/chatter", "/words"} <= set(ros.tool("rostopic", "list").split()))
-    ros.tool("rosbag", "record", "-O", str(bag), "--duration=3", "/chatter", "/words")
+    ros.tool("rosbag", "record", "-O", str(bag), "--limit=60", "/chatter", "/words")
     for peer in peers:
         peer.kill()
     deadline = time.monotonic() + 10

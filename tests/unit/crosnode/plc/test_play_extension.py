@@ -173,6 +173,20 @@ def test_a_bag_that_nobody_listens_to_is_told(play: Play, monkeypatch: pytest.Mo
     assert text.endswith("a.bag: nobody subscribes to any of its topics: /other")
 
 
+def test_a_bag_of_another_type_is_told(play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(playback, "PATIENCE_NS", 1000 * MS)
+    bag = create(play.folder / "a.bag")
+    bag.write(50_000 * MS, [(bag.add("/in", "std_msgs/msg/UInt32"), b"\1\0\0\0")])
+    bag.close()
+    play(play.folder / "a.bag")
+
+    (text,) = play.told
+    assert text.endswith(
+        "a.bag: subscribers do not take /in (std_msgs/UInt32); is the type of the bag theirs?"
+    )
+    assert len(play.seen) < 500  # the run does not wait for ever
+
+
 def test_a_long_bag_has_progress(play: Play, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(playback, "LONG_NS", 1000 * MS)
     play(write(play.folder / "a.bag", 0, 1000))
