@@ -26,7 +26,7 @@ GROUP: Final = "plcsim.libraries"
 
 _OWN: Final = Path(__file__).parent
 
-_OF_THE_NORM: Final = "plcsim.library.iec"
+OF_THE_NORM: Final = "iec"
 """The library that is no controller's: it has types that Automation Studio does not know."""
 
 
@@ -88,7 +88,7 @@ def installed() -> Mapping[str, Library]:
         Library(folder, package, scopes) for package, folder in (*_own(), *_of_packages())
     )
     for library in libraries:
-        if library.package == _OF_THE_NORM:
+        if library.package == f"plcsim.library.{OF_THE_NORM}":
             library.dialect = IEC
     return {library.package: library for library in libraries}
 

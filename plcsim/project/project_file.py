@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import os
 from typing import TYPE_CHECKING, Final
@@ -52,14 +53,17 @@ def find_project(path: Path) -> Path:
     return _readable(found or path / FILE_NAME, path)
 
 
-def _below(path: Path) -> list[Path]:
+def _below(path: Path, deepest: int = DEEPEST) -> list[Path]:
     """Return the folders of Automation Studio projects below a folder, those of samples too."""
     if not os.path.isdir(path):  # noqa: PTH112  # no error for what can be no path
         return []
     files = itertools.chain.from_iterable(
-        path.glob(f"{'*/' * depth}*{AUTOMATION_STUDIO}") for depth in range(1, DEEPEST + 1)
+        path.glob(f"{'*/' * depth}*{AUTOMATION_STUDIO}") for depth in range(1, deepest + 1)
     )
-    found = dict.fromkeys(file.parent for file in itertools.islice(files, MOST_HINTS))
+    found: dict[Path, None] = {}
+    with contextlib.suppress(OSError):  # folders that come, go or may not be read
+        for file in itertools.islice(files, MOST_HINTS):
+            found[file.parent] = None
     return [folder for folder in found if logical_folder(folder) is not None]
 
 
@@ -79,7 +83,9 @@ def _nearby(path: Path) -> str:
         if project_file(parent) is not None:
             return f"; did you mean {parent}?"
     folder = path if path.is_dir() else path.parent
-    files = itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
-    folders = [*(file.parent for file in files), *_below(folder)]
+    folders = _below(path) if path.is_dir() else _below(folder, 1)
+    with contextlib.suppress(OSError):
+        files = itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
+        folders += [file.parent for file in files]
     found = sorted(dict.fromkeys(map(str, folders)))
     return f"; there are projects in {', '.join(found)}" if found else "; a project has one"

@@ -8,6 +8,7 @@ from plcsim.cli import types
 from plcsim.cli.declaration_scopes import LIBRARY
 from plcsim.cli.parser import CommandParser
 from plcsim.core.errors import PlcError
+from plcsim.library.installed import OF_THE_NORM
 from st_types.syntax.declarations import parse_text
 
 Run = Callable[..., tuple[int, str, str]]
@@ -156,4 +157,5 @@ def test_print_writes_files_as_they_are_encoded(run: Run, project: Path) -> None
 
 
 def test_our_own_library_is_sound(run: Run) -> None:
-    assert run("check", "--strict", LIBRARY)[0] == 0
+    folders = [each for each in LIBRARY.iterdir() if each.is_dir() and each.name != OF_THE_NORM]
+    assert run("check", "--strict", *folders)[0] == 0

@@ -33,23 +33,28 @@ def test_how_it_ends_does_not_matter(capfd):
     assert capfd.readouterr() == ("", "")
 
 
-def test_it_ends_with_the_block(tmp_path):
+def test_it_ends_with_the_block():
+    begun, pid = os.pipe()
+
     def work():
-        (tmp_path / "begun").touch()
+        os.write(pid, os.getpid().to_bytes(8, "little"))
         time.sleep(60)
 
     def break_off():
         with helper_process(work):
-            while not (tmp_path / "begun").exists():
-                time.sleep(0.001)
+            helpers.append(int.from_bytes(os.read(begun, 8), "little"))
             raise ValueError(1)
+
+    helpers = []
 
     start = time.monotonic()
     with pytest.raises(ValueError, match="1"):
         break_off()
     assert time.monotonic() - start < 30
     with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
+        os.waitpid(helpers[0], os.WNOHANG)
+    os.close(begun)
+    os.close(pid)
 
 
 def test_one_processor_or_several_threads_have_no_helper(monkeypatch):

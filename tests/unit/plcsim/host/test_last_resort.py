@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 
 ENDLESS = """
 import sys
@@ -49,7 +50,9 @@ def test_it_is_told_where_it_is_asked_for(tmp_path):
     other = os.memfd_create("errors")
     (tmp_path / "endless.py").write_text(ENDLESS.replace('return")', f'return", {other})'))
     done = run(ENDLESS_CALL, str(tmp_path), pass_fds=(other,))
-    told = os.pread(other, 1000, 0).decode()
+    deadline = time.monotonic() + 60
+    while not (told := os.pread(other, 1000, 0).decode()) and time.monotonic() < deadline:
+        time.sleep(0.01)  # the reader tells it after the process has ended
     os.close(other)
     assert (done.stderr, told) == ("", f"plcsim: {tmp_path}/endless.py:6: does not return\n")
 

@@ -53,6 +53,7 @@ def test_a_process_with_real_time_rights_has_a_copy_compile(monkeypatch, tmp_pat
 
     monkeypatch.setattr(Engine, "_compile", compiling)
     monkeypatch.setattr("plcsim.host.realtime.is_held", lambda: True)
+    monkeypatch.setattr("plcsim.host.helper_process.is_alone", lambda: True)
     wasm = assemble("(func (result i32) (i32.const 27182))")
     code = compile_wasm(wasm, cache=CodeCache(tmp_path))
     assert code.imports == [("env", "memory")]
