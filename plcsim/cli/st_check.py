@@ -124,8 +124,9 @@ def _check(group: _Group, hidden: Collection[FindingCode]) -> None:
         names = [unit.name for file in group.files for unit in file.units if _is_program(unit)]
         if dialect is IEC and len(names) > 1:
             for only in names:  # each sees the others' declarations, not their variables
+                meant = MeantProgram(only)
                 check_program(
-                    group.name, group.files, scope, storage="global", meant=MeantProgram(only)
+                    group.name, group.files, scope, hidden=hidden, storage="global", meant=meant
                 )
         else:
             check_program(group.name, group.files, scope, hidden=hidden, storage=storage)
