@@ -62,7 +62,7 @@ def await_master(port: int) -> None:
     while not answers(port):
         if time.monotonic() > end:
             raise SystemExit(f"no master at port {port}")
-        time.sleep(0.05)
+        time.sleep(0.05)  # rosmaster does not tell when it listens
 
 
 class Talk:

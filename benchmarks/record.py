@@ -182,12 +182,12 @@ def memory(folder: Path, seconds: float) -> dict[str, Any]:
     words = ["run", folder, "--for", f"{seconds + 10}s", "--quiet", "--record", bag]
     process = subprocess.Popen(plcsim(*words), stdout=subprocess.DEVNULL)
     while "recorder" not in children(process.pid) and process.poll() is None:
-        time.sleep(0.1)
-    time.sleep(5)
+        time.sleep(0.1)  # a process below another one: /proc is all that tells
+    time.sleep(5)  # what starts up is no part of what grows
     start_s = time.monotonic()
     looks = [look_at(process.pid, bag)]
     for part in PARTS:
-        time.sleep(max(0.0, start_s + part * seconds - time.monotonic()))
+        time.sleep(max(0.0, start_s + part * seconds - time.monotonic()))  # the part itself
         looks.append(look_at(process.pid, bag))
     process.wait()
     told = subprocess.run(plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True)

@@ -6,12 +6,11 @@ import os
 import time
 from contextlib import suppress
 from functools import cached_property, partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from crosnode.commands.message_types import message_types
 from crosnode.graph.arguments import DEFAULT_MASTER_URI, NodeSettings, node_settings
-from crosnode.graph.hosts import HostTable, is_ipv6_wanted, loopback, parse_hosts
+from crosnode.graph.hosts import HostTable, hosts_text, is_ipv6_wanted, loopback, parse_hosts
 from crosnode.graph.uri import make_uri, parse_uri
 from crosnode.messages import MessageTypes
 from crosnode.node import CrosNode, NodeOptions
@@ -42,7 +41,6 @@ if TYPE_CHECKING:
     from crosnode.transport.link import PeerLink
     from crosnode.xmlrpc import Value
 
-HOSTS: Final = Path("/etc/hosts")
 REST_S: Final = 0.001
 PATIENCE_NS: Final = 5_000_000_000
 """Nanoseconds within which a master, a node or a service must answer."""
@@ -245,7 +243,7 @@ def open_client(options: argparse.Namespace) -> RosClient:
     ipv6 = is_ipv6_wanted(environment)
     own = loopback(ipv6=ipv6)
     settings = node_settings(name, (), {**environment, "ROS_MASTER_URI": uri}, host=own)
-    text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+    text = hosts_text()
     epoch = Epoch(time.time_ns() - context.release_ns)
     node_options = NodeOptions(hosts=parse_hosts(text, ipv6=ipv6), ipv6=ipv6, epoch=epoch)
     return RosClient(context, settings, message_types(options.path), turn, node_options)

@@ -6,11 +6,10 @@ import os
 import signal
 import sys
 import time
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from crosnode.errors import InvalidNameError
-from crosnode.graph.hosts import is_ipv6_wanted, parse_hosts
+from crosnode.graph.hosts import hosts_text, is_ipv6_wanted, parse_hosts
 from crosnode.graph.uri import make_uri, parse_uri
 from crosnode.master.process import MasterProcess
 from plcsim.core.errors import ConfigurationError
@@ -18,8 +17,6 @@ from plcsim.core.errors import ConfigurationError
 if TYPE_CHECKING:
     import argparse
     from types import FrameType
-
-HOSTS: Final = Path("/etc/hosts")
 
 
 class _Stop:
@@ -41,7 +38,7 @@ def run(arguments: argparse.Namespace) -> None:
         ConfigurationError: the port cannot be opened, or the host is none.
     """
     start_ns = time.monotonic_ns()
-    text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+    text = hosts_text()
     ipv6 = is_ipv6_wanted(os.environ)
     host = _host(arguments.host)
     stop = _Stop()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import InvalidNameError
@@ -11,6 +12,8 @@ from plcsim.network.protocol import ANY_IPV6, canonical_ipv6, is_ip, is_ipv4
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+
+HOSTS: Final = Path("/etc/hosts")
 
 LOCALHOST: Final = "localhost"
 LOOPBACK: Final = "127.0.0.1"
@@ -25,6 +28,11 @@ def loopback(*, ipv6: bool) -> str:
 def is_ipv6_wanted(environment: Mapping[str, str]) -> bool:
     """Whether ROS_IPV6 is on, as rospy and roscpp read it."""
     return environment.get("ROS_IPV6") == "on"
+
+
+def hosts_text() -> str:
+    """Return the text of ``/etc/hosts``, "" where there is none."""
+    return HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
 
 
 def parse_hosts(text: str, *, ipv6: bool = False) -> dict[str, str]:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final
 
 from crosnode.action.client import MOST_GOALS, ActionClient, ClientGoal
 from crosnode.action.goal_states import GoalState, GoalTrigger
 from crosnode.action.server import ActionServer, Goal
-from crosnode.errors import CrosnodeError, LocalProtocolError, MessageValueError
+from crosnode.errors import LocalProtocolError, MessageValueError
 from crosnode.interface.handles import (
     Handles,
     MessageHandle,
-    NodeHandle,
     OwnerHandle,
     handles_of,
     put_text,
@@ -25,7 +24,7 @@ from crosnode.interface.interface import (
     crosERR_STATE,
     crosERR_VALUE,
 )
-from crosnode.interface.nodes import name_at, told
+from crosnode.interface.nodes import Registered, name_at, register
 from plcsim.library.executable import function
 from plcsim.library.runtime import ERR_OK
 
@@ -85,56 +84,26 @@ class ClientGoalHandle(OwnerHandle):
     result: int = 0
 
 
-class _Made(NamedTuple):
-    """A server or a client, and its part in each cycle."""
-
-    handle: OwnerHandle
-    step: Callable[[], None]
-
-
-def _register(context: Context, node: int, make: Callable[[CrosNode], _Made]) -> int:
-    handles = handles_of(context)
-    owner = handles.find(NodeHandle, node)
-    if owner is None:
-        return 0
-    try:
-        made = make(owner.node)
-    except CrosnodeError as error:
-        return told(context, error)
-    owner.steps.append(made.step)
-    handle = handles.add(made.handle)
-    owner.parts.append(handle)
-    return handle
-
-
 @function("cRosActionServer")
 def server(context: Context, node: int, name: int, type_name: int) -> int:
     """Offer an action."""
 
-    def make(found: CrosNode) -> _Made:
+    def make(found: CrosNode) -> Registered:
         made = ActionServer(found, name_at(context, name), name_at(context, type_name))
-        return _Made(ServerHandle(made, found.types), made.step)
+        return Registered(ServerHandle(made, found.types), made.step)
 
-    return _register(context, node, make)
+    return register(context, node, make)
 
 
 @function("cRosActionClient")
 def client(context: Context, node: int, name: int, type_name: int) -> int:
     """Make ready to use an action."""
 
-    def make(found: CrosNode) -> _Made:
+    def make(found: CrosNode) -> Registered:
         made = ActionClient(found, name_at(context, name), name_at(context, type_name))
-        return _Made(ClientHandle(made, found.types), made.step)
+        return Registered(ClientHandle(made, found.types), made.step)
 
-    return _register(context, node, make)
-
-
-def _part(handles: Handles, owner: OwnerHandle, made: object) -> int:
-    """Return the handle of what belongs to an owner."""
-    handle = handles.add(made)
-    if handle:
-        owner.parts.append(handle)
-    return handle
+    return register(context, node, make)
 
 
 def _forget(handles: Handles, owner: OwnerHandle, handle: int) -> None:
@@ -152,7 +121,7 @@ def next_goal(context: Context, server: int) -> int:
     goal = owner.server.pop() if owner else None
     if owner is None or goal is None:
         return 0
-    return _part(handles, owner, GoalHandle(goal, owner))
+    return handles.add_part(owner, GoalHandle(goal, owner))
 
 
 @function("cRosActionGoalMsg")
@@ -164,7 +133,7 @@ def goal_message(context: Context, goal: int) -> int:
         return 0
     if not found.parts:
         kind = found.goal.action_type.goal
-        _part(handles, found, MessageHandle(found.owner.types, kind, found.goal.goal))
+        handles.add_part(found, MessageHandle(found.owner.types, kind, found.goal.goal))
     return found.parts[0] if found.parts else 0
 
 
@@ -279,7 +248,7 @@ def send_goal(context: Context, client: int, msg: int) -> int:
     handles.release(msg)
     while len(found.parts) >= MOST_GOALS:
         handles.release(found.parts.pop(0))
-    return _part(handles, found, ClientGoalHandle(goal, found))
+    return handles.add_part(found, ClientGoalHandle(goal, found))
 
 
 @function("cRosActionCancel")
@@ -326,7 +295,7 @@ def next_feedback(context: Context, goal: int) -> int:
         _forget(handles, found, each)
     found.seen = newest
     kind = found.owner.client.action_type.feedback
-    return _part(handles, found, MessageHandle(found.owner.types, kind, newest))
+    return handles.add_part(found, MessageHandle(found.owner.types, kind, newest))
 
 
 @function("cRosActionResult")
@@ -339,7 +308,7 @@ def result(context: Context, goal: int) -> int:
     if handles.find(MessageHandle, found.result) is None:
         kind = found.owner.client.action_type.result
         made = MessageHandle(found.owner.types, kind, found.goal.result)
-        found.result = _part(handles, found, made)
+        found.result = handles.add_part(found, made)
     return found.result
 
 

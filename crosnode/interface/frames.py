@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
-from crosnode.errors import CrosnodeError, MessageValueError, TransformError
-from crosnode.interface.handles import NodeHandle, handles_of
+from crosnode.errors import MessageValueError, TransformError
+from crosnode.interface.handles import handles_of
 from crosnode.interface.interface import (
     CrosTransform,
     crosERR_FULL,
     crosERR_HANDLE,
     crosERR_NO_TRANSFORM,
 )
-from crosnode.interface.nodes import name_at, told
+from crosnode.interface.nodes import Registered, name_at, register
 from crosnode.tf.node_frames import (
     StaticTransformBroadcaster,
     TransformBroadcaster,
@@ -49,30 +49,22 @@ class ListenerHandle:
 @function("cRosTfBroadcaster")
 def broadcaster(context: Context, node: int) -> int:
     """Make ready to tell frames."""
-    handles = handles_of(context)
-    owner = handles.find(NodeHandle, node)
-    if owner is None:
-        return 0
-    made = handles.add(BroadcasterHandle(owner.node, TransformBroadcaster(owner.node)))
-    owner.parts.append(made)
-    return made
+
+    def make(found: CrosNode) -> Registered:
+        return Registered(BroadcasterHandle(found, TransformBroadcaster(found)))
+
+    return register(context, node, make)
 
 
 @function("cRosTfListener")
 def listener(context: Context, node: int) -> int:
     """Follow the frames of others."""
-    handles = handles_of(context)
-    owner = handles.find(NodeHandle, node)
-    if owner is None:
-        return 0
-    try:
-        found = TransformListener(owner.node)
-    except CrosnodeError as error:
-        return told(context, error)
-    owner.steps.append(found.step)
-    made = handles.add(ListenerHandle(found))
-    owner.parts.append(made)
-    return made
+
+    def make(found: CrosNode) -> Registered:
+        made = TransformListener(found)
+        return Registered(ListenerHandle(made), made.step)
+
+    return register(context, node, make)
 
 
 def _transform_at(context: Context, address: int) -> Transform:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from crosnode.node.service_provider import ServiceProvider, ServiceRequest
     from plcsim.core.context import Context
 
+    Role = Publisher | Subscriber | ServiceProvider | ServiceCaller | ParameterSubscription
+
 T = TypeVar("T")
 
 MOST: Final = 65_536
@@ -28,18 +30,27 @@ LATIN_1: Final = "latin-1"
 
 
 @dataclass(eq=False)
-class NodeHandle:
-    """A node, and what was registered with it.
+class OwnerHandle:
+    """What has handles of its own: a node, an action server or client, a goal.
+
+    Attributes:
+        parts: theirs, oldest first.
+    """
+
+    parts: list[int] = field(default_factory=list, kw_only=True)
+
+
+@dataclass(eq=False)
+class NodeHandle(OwnerHandle):
+    """A node; its parts are what was registered with it.
 
     Attributes:
         node: the node.
-        parts: handles of what was registered.
         steps: done behind the node's, each cycle.
         blocks: what a node has once, by its class: its adjustable values.
     """
 
     node: CrosNode
-    parts: list[int] = field(default_factory=list)
     steps: list[Callable[[], None]] = field(default_factory=list)
     blocks: dict[type, object] = field(default_factory=dict)
 
@@ -54,7 +65,7 @@ class RoleHandle:
     """What a program registered, and the message that it got last from it."""
 
     node: CrosNode
-    role: Publisher | Subscriber | ServiceProvider | ServiceCaller | ParameterSubscription
+    role: Role
     current: int = 0
 
 
@@ -96,17 +107,6 @@ class FieldHandle:
     types: MessageTypes
 
 
-@dataclass(eq=False)
-class OwnerHandle:
-    """What has handles of its own: an action server or client, a goal.
-
-    Attributes:
-        parts: theirs, oldest first.
-    """
-
-    parts: list[int] = field(default_factory=list, kw_only=True)
-
-
 class Handles:
     """The handles of one controller; ``context.library(Handles)``."""
 
@@ -116,6 +116,13 @@ class Handles:
     def add(self, made: object) -> int:
         """Return a new handle, 0 where all are in use."""
         return 0 if self._idents.full else self._idents.add(made)
+
+    def add_part(self, owner: OwnerHandle, made: object) -> int:
+        """Return a new handle that is released with its owner, 0 where all are in use."""
+        handle = self.add(made)
+        if handle:
+            owner.parts.append(handle)
+        return handle
 
     def find(self, kind: type[T], handle: int) -> T | None:
         """Return what a handle stands for, None where it is none or of another kind."""
@@ -130,7 +137,7 @@ class Handles:
                 self._idents.remove(each)
         elif isinstance(found, RoleHandle):
             self.release(found.current)
-        elif isinstance(found, (NodeHandle, OwnerHandle)):
+        elif isinstance(found, OwnerHandle):
             for each in found.parts:
                 self.release(each)
 

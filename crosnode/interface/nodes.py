@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.errors import CrosnodeError
 from crosnode.interface.handles import NodeHandle, RoleHandle, handles_of, text_at
@@ -27,6 +27,7 @@ from st_types.types.views import type_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from crosnode.interface.handles import Role
     from crosnode.node import CrosNode
     from plcsim.core.context import Context
 
@@ -128,19 +129,36 @@ def log(context: Context, node: int, level: int, msg: int) -> int:
     return ERR_OK
 
 
-def _register(context: Context, handle: int, register: Callable[[CrosNode], object]) -> int:
-    """Register something with a node; return its handle."""
+class Registered(NamedTuple):
+    """What a program has registered with a node.
+
+    Attributes:
+        handle: what its handle stands for.
+        step: its part in each cycle, None for none.
+    """
+
+    handle: object
+    step: Callable[[], None] | None = None
+
+
+def register(context: Context, node: int, make: Callable[[CrosNode], Registered]) -> int:
+    """Register something with a node; return its handle, 0 where it is refused."""
     handles = handles_of(context)
-    owner = handles.find(NodeHandle, handle)
+    owner = handles.find(NodeHandle, node)
     if owner is None:
         return 0
     try:
-        role = register(owner.node)
+        made = make(owner.node)
     except CrosnodeError as error:
         return told(context, error)
-    made = handles.add(RoleHandle(owner.node, role))  # type: ignore[arg-type]  # of its kinds
-    owner.parts.append(made)
-    return made
+    if made.step is not None:
+        owner.steps.append(made.step)
+    return handles.add_part(owner, made.handle)
+
+
+def _register(context: Context, node: int, make: Callable[[CrosNode], Role]) -> int:
+    """Register one of the node's own roles."""
+    return register(context, node, lambda found: Registered(RoleHandle(found, make(found))))
 
 
 @function("cRosApiRegisterPublisher")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
-from crosnode.errors import CrosnodeError, MessageValueError
+from crosnode.errors import MessageValueError
 from crosnode.interface.handles import NodeHandle, handles_of, text_at
 from crosnode.interface.interface import (
     CROS_TEXT_LENGTH,
@@ -14,7 +14,7 @@ from crosnode.interface.interface import (
     crosERR_HANDLE,
     crosERR_VALUE,
 )
-from crosnode.interface.nodes import name_at, told
+from crosnode.interface.nodes import Registered, name_at, register
 from crosnode.upkeep.diagnostics import MOST_COMPONENTS, MOST_VALUES, Diagnostics, Level
 from crosnode.upkeep.reconfigure import Adjustable, Reconfigure
 from plcsim.library.executable import function
@@ -39,18 +39,12 @@ class DiagnosticsHandle:
 @function("cRosDiagnostics")
 def diagnostics(context: Context, node: int, hardware_id: int) -> int:
     """Tell how components of a node are."""
-    handles = handles_of(context)
-    owner = handles.find(NodeHandle, node)
-    if owner is None:
-        return 0
-    try:
-        made = Diagnostics(owner.node, name_at(context, hardware_id))
-    except CrosnodeError as error:
-        return told(context, error)
-    owner.steps.append(made.step)
-    handle = handles.add(DiagnosticsHandle(made))
-    owner.parts.append(handle)
-    return handle
+
+    def make(found: CrosNode) -> Registered:
+        made = Diagnostics(found, name_at(context, hardware_id))
+        return Registered(DiagnosticsHandle(made), made.step)
+
+    return register(context, node, make)
 
 
 @function("cRosDiagnosticsValue")
@@ -174,9 +168,7 @@ def adjustable(
             return 0
     except (ValueError, OverflowError):  # a REAL that is no number for an INT
         return 0
-    handle = handles.add(AdjustableHandle(table, declared, convert))
-    owner.parts.append(handle)
-    return handle
+    return handles.add_part(owner, AdjustableHandle(table, declared, convert))
 
 
 @function("cRosAdjustableValue")

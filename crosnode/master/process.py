@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.master.server import MasterOptions, MasterServer, first_parameters
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 
 REST_S: Final = 0.001
 IDENTS: Final = 4096
-HOSTS: Final = Path("/etc/hosts")
 
 
 class Refusal(NamedTuple):

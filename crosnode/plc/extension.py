@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import CrosnodeError
 from crosnode.graph.dns import NameServers, parse_name_servers
+from crosnode.graph.hosts import hosts_text
 from crosnode.graph.uri import DEFAULT_PORT, make_uri
 from crosnode.messages import MessageTypes
 from crosnode.node.ros_time import Epoch
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from plcsim.core.task import TaskClass
     from plcsim.settings.table import Table
 
-HOSTS: Final = Path("/etc/hosts")
 RESOLV: Final = Path("/etc/resolv.conf")
 LOOK_NS: Final = 500_000_000
 """Nanoseconds between two looks at masters and at the wall clock."""
@@ -43,7 +43,7 @@ class RosExtension(Extension):
 
     def read(self, table: Table) -> RosSettings:
         """Return the settings; the types of the bridge are looked up."""
-        text = HOSTS.read_text(errors="replace") if HOSTS.is_file() else ""
+        text = hosts_text()
         servers = RESOLV.read_text(errors="replace") if RESOLV.is_file() else ""
         settings = replace(
             read_settings(table, dict(os.environ), text), name_servers=parse_name_servers(servers)

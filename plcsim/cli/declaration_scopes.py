@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.cli.declaration_files import SUFFIXES, find_files, read_files
-from plcsim.library.installed import OF_THE_NORM
+from plcsim.library.installed import dialect_of
 from plcsim.project.automation_studio.logical_view import (
     LIBRARY_LISTS,
     PROGRAM_LISTS,
@@ -26,7 +26,6 @@ from plcsim.project.automation_studio.logical_view import (
     read_logical_view,
 )
 from plcsim.project.automation_studio.names import names_in
-from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.resolve.scope import Scope
 
 if TYPE_CHECKING:
@@ -137,8 +136,7 @@ def library_scopes() -> list[Scope]:
     """Return the controller libraries that plcsim has; each sees the others."""
     libraries: list[Scope] = []
     for folder, files in _by_folder(read_files(find_files([LIBRARY])).files).items():
-        dialect = IEC if folder.name == OF_THE_NORM else AUTOMATION_STUDIO
-        libraries.append(Scope(folder.name, files, libraries, dialect=dialect))
+        libraries.append(Scope(folder.name, files, libraries, dialect=dialect_of(folder)))
     return libraries
 
 

@@ -17,7 +17,7 @@ from st_types.types.derived import StructType
 from st_types.types.values import encode
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     from plcsim.core.memory import Memory
     from st_types.types.elementary import DataType
@@ -199,3 +199,27 @@ def leaves(
         internals=internals,
     )
     return (Tag(part.path, part.data_type, part.offset, tag.is_constant) for part in inside)
+
+
+def first_difference(
+    areas: Iterable[Tag], one: bytes, other: bytes
+) -> tuple[Tag, bytes, bytes] | None:
+    """Return the first tag that differs in two images of areas, with its bytes in both.
+
+    Args:
+        areas: lie in an image one behind another.
+        one: an image.
+        other: as long.
+
+    Returns:
+        None where nothing differs but bytes between two variables.
+    """
+    begin = 0
+    for area in areas:
+        for leaf in leaves(area):
+            start = begin + leaf.address - area.address
+            here, there = (each[start : start + leaf.data_type.size] for each in (one, other))
+            if here != there:
+                return leaf, here, there
+        begin += area.data_type.size
+    return None

@@ -15,18 +15,19 @@ from typing import TYPE_CHECKING, Final, overload
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.library.library import Library, declarations_of, files_in
-from st_types.resolve.dialect import IEC
+from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from st_types.resolve.dialect import Dialect
     from st_types.resolve.scope import Scope
 
 GROUP: Final = "plcsim.libraries"
 
 _OWN: Final = Path(__file__).parent
 
-OF_THE_NORM: Final = "iec"
+_OF_THE_NORM: Final = (_OWN / "iec").resolve()
 """The library that is no controller's: it has types that Automation Studio does not know."""
 
 
@@ -88,9 +89,13 @@ def installed() -> Mapping[str, Library]:
         Library(folder, package, scopes) for package, folder in (*_own(), *_of_packages())
     )
     for library in libraries:
-        if library.package == f"plcsim.library.{OF_THE_NORM}":
-            library.dialect = IEC
+        library.dialect = dialect_of(library.folder)
     return {library.package: library for library in libraries}
+
+
+def dialect_of(folder: Path) -> Dialect:
+    """Return the dialect of the library in a folder."""
+    return IEC if folder.resolve() == _OF_THE_NORM else AUTOMATION_STUDIO
 
 
 def _own() -> Iterator[tuple[str, Path]]:

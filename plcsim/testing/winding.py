@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.clock import VirtualClock
 from plcsim.core.control import Step
-from plcsim.core.tag import leaves
+from plcsim.core.tag import first_difference
 from plcsim.testing.errors import PlcTestError
 from st_types.types.values import decode
 from st_types.writers.value_text import value_text
@@ -179,17 +179,12 @@ class Winding:
 
     def _name(self, now: bytes, was: bytes) -> str:
         """Return the first tag that differs, with both values, where it is known."""
-        at = 0
-        for area in self._plc.controller.areas if was and was != now else ():
-            for leaf in leaves(area):
-                start = at + leaf.address - area.address
-                here, then = (each[start : start + leaf.data_type.size] for each in (now, was))
-                if here != then:
-                    kind = leaf.data_type
-                    values = [value_text(kind, decode(kind, each)) for each in (here, then)]
-                    return f"ends otherwise: {leaf.path} is {values[0]} now, and was {values[1]}"
-            at += area.data_type.size
-        return "ends otherwise than it did"
+        found = first_difference(self._plc.controller.areas, now, was) if was else None
+        if found is None:
+            return "ends otherwise than it did"
+        leaf, *images = found
+        values = [value_text(leaf.data_type, decode(leaf.data_type, each)) for each in images]
+        return f"ends otherwise: {leaf.path} is {values[0]} now, and was {values[1]}"
 
 
 def _difference(before: bytes, now: bytes) -> tuple[int, bytes]:

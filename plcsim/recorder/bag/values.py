@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.core.tag import leaves
+from plcsim.core import tag
 from st_types.types.values import decode
 from st_types.writers.value_text import value_text
 
@@ -15,15 +15,13 @@ if TYPE_CHECKING:
 
 def first_difference(head: Head, one: bytes, other: bytes) -> tuple[str, str, str]:
     """Return the first tag whose value differs, with both values as text."""
-    for area, start in head.starts().items():
-        for leaf in leaves(area):
-            place = start + leaf.address - area.address
-            here, there = (each[place : place + leaf.data_type.size] for each in (one, other))
-            if here != there:
-                return leaf.path, text_of(leaf, here), text_of(leaf, there)
-    return "a byte between two variables", "one", "another"
+    found = tag.first_difference(head.areas, one, other)
+    if found is None:
+        return "a byte between two variables", "one", "another"
+    leaf, here, there = found
+    return leaf.path, text_of(leaf, here), text_of(leaf, there)
 
 
-def text_of(tag: Tag, data: bytes) -> str:
+def text_of(leaf: Tag, data: bytes) -> str:
     """Return the value with these bytes as text."""
-    return value_text(tag.data_type, decode(tag.data_type, data))
+    return value_text(leaf.data_type, decode(leaf.data_type, data))
