@@ -9,25 +9,22 @@ starts it again. An error of plcsim is printed in one line and ends the process 
 from __future__ import annotations
 
 import json
-import os
 import signal
 import sys
 import time
 from dataclasses import asdict, dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import Any, Protocol, cast
 
 from plcsim.core.errors import PlcError
 from plcsim.host import realtime
+from plcsim.host.signals import HeldSignals
 from plcsim.shared_image import ImageNotReady, ImageReader
 from plcsim.shared_image.status_page import ServiceState, StatusPage
 
-if TYPE_CHECKING:
-    from types import FrameType
-
 HELD_BACK = (signal.SIGTERM, signal.SIGINT)
-"""The supervisor starts this process with these signals blocked: it may be asked to end before it
-has begun, and has to record what is left all the same."""
+"""The supervisor starts this process with these signals blocked, and so they stay: it may be asked
+to end before it has begun, and has to record what is left all the same."""
 
 PATIENCE_S = 5.0
 """The scan process has made the file of the image; it may take so long to lay it out."""
@@ -83,9 +80,8 @@ class Service:
         given: what the extension handed over in the scan process.
         page: the status page.
         wake_fd: an eventfd, raised when the scan acknowledged commands of this service.
-        stop_fd: an eventfd that becomes readable when the process is asked to stop.
+        stop_fd: becomes, and stays, readable when the process is asked to stop.
         quiet: print nothing but errors.
-        is_stopping: the process is asked to stop.
 
     Raises:
         ImageError: the scan process has not made an image.
@@ -95,20 +91,18 @@ class Service:
         self.table = order.table
         self.page = StatusPage(order.status_fd)
         self.wake_fd = order.wake_fd
-        self.stop_fd = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+        self._asked = HeldSignals(HELD_BACK)
+        self.stop_fd = self._asked.fd
         self.quiet = order.quiet
-        self.is_stopping = False
         self._number = order.number
         self._told: tuple[ServiceState, str] | None = None
-        for number in HELD_BACK:
-            signal.signal(number, self._ask)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
         self.image = _open_image(order)
         self.given: Any = self.image.directory.services[order.table]
 
-    def _ask(self, _number: int, _frame: FrameType | None) -> None:
-        self.is_stopping = True
-        os.eventfd_write(self.stop_fd, 1)
+    @property
+    def is_stopping(self) -> bool:
+        """True once the process is asked to stop."""
+        return self._asked.is_pending
 
     def serving(self, text: str) -> None:
         """Note, and print once, that the service is there for its clients.
