@@ -55,8 +55,11 @@ POLL_S = 0.02
 REAP_NS = 1_000_000_000
 """Between two looks for orphans that have ended."""
 
-DUMP_POLLS = 10
+DUMP_POLLS = 100
 """How often the watchdog looks for the stack of a program before it kills."""
+
+_STACK = b"(most recent call first)"
+"""Stands above each stack that ``faulthandler`` writes."""
 
 START_NS = 60_000_000_000
 """Until it loads the programs; Python imports us, which takes its time on a busy host."""
@@ -338,17 +341,21 @@ class Supervisor:
         """End a scan process that does not hear; keep where it is stuck."""
         if reason:
             self._kill_reason = reason
-            self._process.send_signal(DUMP)
-            self._await_dump()
+            self._take_stack()
         self._process.kill()
 
-    def _await_dump(self) -> None:
-        """Wait until the stack is there and grows no more; on a busy host that takes a moment."""
-        size = 0
-        for _ in range(DUMP_POLLS):
-            time.sleep(POLL_S)
-            before, size = size, os.fstat(self._dump_fd).st_size
-            if size and size == before:
+    def _take_stack(self) -> None:
+        """Let the scan process write its stack; on a busy host that takes a moment.
+
+        It is whole where a second one begins: the signal is held back while the first is written.
+        """
+        for wanted in (1, 2):
+            self._process.send_signal(DUMP)
+            for _ in range(DUMP_POLLS):
+                if _read_all(self._dump_fd).count(_STACK) >= wanted:
+                    break
+                time.sleep(POLL_S)
+            else:
                 return
 
     def _outcome(self) -> dict[str, Any]:
