@@ -27,6 +27,8 @@ PROGRAM = """
                 print("to stderr", file=sys.stderr)
 """
 
+CALM = 'tolerance = "100s"'  # a violation by the host would be told between the lines
+
 
 class Screen:
     """The other end of a terminal of 80 columns, on which a command runs."""
@@ -110,7 +112,7 @@ def screen():
 
 
 def test_what_is_printed_stands_above_the_table(project_of, screen):
-    shown = screen("run", project_of(PROGRAM, plc='realtime = "off"'))
+    shown = screen("run", project_of(PROGRAM, CALM, plc='realtime = "off"'))
     shown.read_until("printed")
     shown.read_until("to stderr")
     shown.read_until("plcsim watch")
@@ -125,7 +127,7 @@ def test_what_is_printed_stands_above_the_table(project_of, screen):
 
 def test_a_service_prints_above_the_table_too(project_of, screen):
     plc = 'realtime = "off"\n[modbus]\nport = 0\nauto = true'
-    shown = screen("run", project_of(PROGRAM, plc=plc))
+    shown = screen("run", project_of(PROGRAM, CALM, plc=plc))
     shown.read_until("modbus: serving ")
     shown.read_until("[modbus] serving  127.0.0.1:any free port")
     shown.process.send_signal(signal.SIGINT)
@@ -134,7 +136,7 @@ def test_a_service_prints_above_the_table_too(project_of, screen):
 
 
 def test_warnings_are_shown_while_the_plc_runs(project_of, screen):
-    shown = screen("run", project_of(PROGRAM, plc="cpu = 1023"))
+    shown = screen("run", project_of(PROGRAM, CALM, plc="cpu = 1023"))
     shown.read_until("no real-time right: ")
     assert shown.process.poll() is None
     shown.process.send_signal(signal.SIGINT)
@@ -147,7 +149,7 @@ def test_warnings_are_shown_while_the_plc_runs(project_of, screen):
 def test_a_terminal_that_takes_no_output_holds_nothing_up(project_of, screen):
     """Nobody reads before the run is long over."""
     program = PROGRAM.replace("if self.count == 3:", "for _ in range(100):")
-    shown = screen("run", project_of(program, plc='realtime = "off"'), "--for", "500ms")
+    shown = screen("run", project_of(program, CALM, plc='realtime = "off"'), "--for", "500ms")
     with pytest.raises(subprocess.TimeoutExpired):
         shown.process.wait(3)
     assert shown.read_all() == 0
