@@ -20,11 +20,17 @@ from asyncua import Client, ua
 
 from plcsim.access import Role, Users
 from plcsim.access.users import users_file
+from tests.ports import free_port
 
 FILES = {
     "plc.toml": """
+        [plc]
+        realtime = "off"
+        watchdog = "100s"
+
         [task_class.1]
         cycle = "5ms"
+        tolerance = "10s"
         programs = ["line"]
 
         [opcua]
@@ -64,8 +70,7 @@ FILES = {
 def line(tmp_path_factory):
     """Run the project; yield its folder and the address of the server."""
     folder = tmp_path_factory.mktemp("opcua") / "line"
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        port = probe.getsockname()[1]
+    port = free_port()
     for name, text in FILES.items():
         file = folder / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -280,7 +285,7 @@ def test_beyond_the_limit_of_connections_a_client_is_told(line):
     before, memory = status(line), resident(pid)
     address = ("127.0.0.1", int(line[1].rpartition(":")[2]))
     with ExitStack() as stack:
-        clients = [stack.enter_context(socket.create_connection(address, 20)) for _ in range(1000)]
+        clients = [stack.enter_context(socket.create_connection(address, 100)) for _ in range(1000)]
         for client in clients[64:]:
             answer = client.recv(100)
             assert answer[:4] == b"ERRF"
@@ -293,7 +298,7 @@ def test_beyond_the_limit_of_connections_a_client_is_told(line):
 
 def eventually(act):
     """Return what comes of an act that is refused for a moment: connections are being closed."""
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 100
     while True:
         try:
             return act()
@@ -303,7 +308,7 @@ def eventually(act):
 
 def test_a_chunk_of_100_mb_is_refused_before_it_has_come(line):
     before = status(line)
-    with socket.create_connection(("127.0.0.1", int(line[1].rpartition(":")[2])), 20) as client:
+    with socket.create_connection(("127.0.0.1", int(line[1].rpartition(":")[2])), 100) as client:
         client.sendall(b"HELF" + (100_000_000).to_bytes(4, "little"))
         answer = client.recv(200)
         assert int.from_bytes(answer[8:12], "little") == ua.StatusCodes.BadTcpMessageTooLarge

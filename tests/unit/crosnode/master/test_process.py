@@ -1,16 +1,13 @@
 """A master in a process of its own."""
 
-import socket
-
 import pytest
 
 from crosnode.master.process import MasterProcess
+from tests.ports import free_port
 
 
 def test_a_shutdown_by_the_api_ends_it() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as probe:
-        port = probe.getsockname()[1]
-    process = MasterProcess("localhost", port, "127.0.0.1", {})
+    process = MasterProcess("localhost", free_port(), "127.0.0.1", {})
     process.server.master.is_shut_down = True
     process.run(lambda: True)
     assert not process.server.is_open

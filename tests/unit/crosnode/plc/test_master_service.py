@@ -50,7 +50,8 @@ class Site:
         (folder / "talker").mkdir()
         (folder / "talker" / "main.py").write_text(PROGRAM)
         (folder / "plc.toml").write_text(
-            f'[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
+            f'[plc]\nrealtime = "off"\nwatchdog = "100s"\n'
+            f'[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
             f'programs = ["talker"]\n[ros]\nmaster = "embedded"\nhost = "127.0.0.1"\n'
             f"master_port = {port}\n"
         )
@@ -127,8 +128,8 @@ def test_a_port_in_use_is_told_once_and_tried_again(
         told.extend(capfd.readouterr().err.splitlines())
         return told
 
-    with socket.create_server(("127.0.0.1", 0)) as other:
-        port = other.getsockname()[1]
+    port = free_port()
+    with socket.create_server(("127.0.0.1", port)):
         site = open_site(port)
         await_(news)
         time.sleep(1.5)  # one more attempt of the process

@@ -15,6 +15,7 @@ from plcsim.modbus.service.audit import AuditLog
 from plcsim.modbus.service.connection import ModbusConnection
 from plcsim.modbus.service.server import Server
 from plcsim.modbus.settings import ModbusSettings
+from plcsim.shared_image import reader
 
 from ..site import World, frame, frames
 
@@ -47,8 +48,11 @@ class Scan:
 
 @pytest.fixture(scope="module")
 def world() -> Iterator[World]:
-    with Scan(World()) as made:
-        yield made
+    with pytest.MonkeyPatch.context() as patch:
+        # the thread of the scan may have to wait for that of the server for longer than usual
+        patch.setattr(reader, "STALE_NS", 100_000_000_000)
+        with Scan(World()) as made:
+            yield made
 
 
 Client = Callable[[Server], Awaitable[None]]

@@ -8,6 +8,7 @@ import pytest
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 from plcsim.recorder.bag.reading import open_bag
+from tests.ports import free_port
 
 from .viewer import PAUSE, PAUSED, Viewer
 
@@ -27,9 +28,7 @@ class Cell(Program):
 
 
 def test_a_viewer_stops_the_virtual_clock_and_the_bag_is_whole(tmp_path: Path) -> None:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     (tmp_path / "cell").mkdir()
     (tmp_path / "cell" / "main.py").write_text(MAIN)
     (tmp_path / "plc.toml").write_text(

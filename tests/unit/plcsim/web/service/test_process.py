@@ -47,7 +47,8 @@ class Site:
         (folder / "echo").mkdir()
         (folder / "echo" / "main.py").write_text(PROGRAM)
         (folder / "plc.toml").write_text(
-            f'[plc]\nrealtime = "off"\n[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
+            f'[plc]\nrealtime = "off"\nwatchdog = "100s"\n'
+            f'[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
             f'programs = ["echo"]\n[web]\nport = {self.port}\nconnections = 20\n{web}[retain]\n'
         )
         self.folder = folder
@@ -131,7 +132,8 @@ def test_a_message_that_is_sent_all_the_same_ends_its_connection_and_nothing_els
 
 
 def test_a_body_of_100_mb_is_refused_before_it_has_come(site):
-    with socket.create_connection(("127.0.0.1", site.port), 5) as client:
+    with socket.create_connection(("127.0.0.1", site.port), 100) as client:
+        client.settimeout(5)
         head = "POST /api/read HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
         client.sendall(f"{head}Content-Length: 100000000\r\n\r\n".encode())
         sent = 0
@@ -149,7 +151,7 @@ def test_of_a_thousand_connections_those_beyond_the_limit_are_told_so(site):
     late = site.ask("status")["cycles"]["1"]
     with ExitStack() as stack:
         clients = [
-            stack.enter_context(socket.create_connection(("127.0.0.1", site.port), 30))
+            stack.enter_context(socket.create_connection(("127.0.0.1", site.port), 100))
             for _ in range(1000)
         ]
         for client in clients[100:]:
@@ -162,12 +164,12 @@ def test_of_a_thousand_connections_those_beyond_the_limit_are_told_so(site):
 
 
 def _read_all(socket_):
-    while socket_.recv(timeout=30):
+    while socket_.recv(timeout=100):
         pass
 
 
 def _await(act):
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + 100
     while not act():
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -183,7 +185,7 @@ def _rss(pid):
 
 def test_what_is_no_http_is_refused(site):
     for data in (b"\x16\x03\x01\0\0", b"GET / HTTP/9\r\n\r\n", b"\r\n\r\n" + b"A" * 100_000):
-        with socket.create_connection(("127.0.0.1", site.port), 5) as client:
+        with socket.create_connection(("127.0.0.1", site.port), 100) as client:
             client.sendall(data)
             client.settimeout(5)
             try:
