@@ -5,6 +5,7 @@ import socket
 import struct
 import threading
 from collections.abc import Awaitable, Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -222,14 +223,17 @@ def test_an_idle_connection_is_closed_half_a_request_does_not_keep_it(world: Wor
 def test_a_peer_that_does_not_read_is_not_served_without_bound(world: World) -> None:
     async def client(server: Server) -> None:
         large = frame(bytes.fromhex("03 0068 007d"))
-        reader, writer = await asyncio.open_connection("127.0.0.1", server.port)
+        narrow = socket.socket()  # of which little on its way is enough
+        narrow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8192)
+        narrow.connect(("127.0.0.1", server.port))
+        reader, writer = await asyncio.open_connection(sock=narrow)
         sent = 0
         for _ in range(400):
             writer.write(large * 1000)
             sent += 1000
-            try:
+            with suppress(TimeoutError):
                 await asyncio.wait_for(writer.drain(), 0.2)
-            except TimeoutError:
+            if server.peers and next(iter(server.peers))._is_blocked:
                 break
         (peer,) = server.peers
         assert peer._is_blocked

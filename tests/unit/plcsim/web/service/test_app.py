@@ -291,7 +291,9 @@ def test_a_browser_that_reads_nothing_holds_nothing_up(world):
 
         socket = Socket(world)
         serving = asyncio.create_task(world.app(socket._scope, receive, send))
-        await asyncio.sleep(0.3)
+        while len(sent) < 2:
+            await asyncio.sleep(0.01)
+        await asyncio.sleep(0.3)  # nothing more comes
         serving.cancel()
         await asyncio.gather(serving, return_exceptions=True)
         return sent
