@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
@@ -81,11 +82,11 @@ class RecordExtension(Extension):
         if not isinstance(clock, RecordedClock):
             return Attachment()
         head = _head_of(settings, controller, clock)
-        sender = _Sender()
-        write: Callable[[int, bytes], None] = sender.send
+        tape = Tape(controller, clock.journal, _nowhere)
+        in_scan: _InScan | None = None
         if settings.is_in_process:
-            write = _InScan(settings, controller, head, show=sender.send).write
-        Tape(controller, clock.journal, write)
+            in_scan = _InScan(settings, controller, head)
+            tape.write = in_scan.write
         if not self.service(settings):
             return Attachment()
         given = {
@@ -94,7 +95,16 @@ class RecordExtension(Extension):
             "limits": asdict(settings.settings.limits),
             "live": settings.settings.live,
         }
-        return Attachment(given, (), settings.settings.buffer, sender.connect)
+
+        def connect(stream: StreamWriter) -> None:
+            # no function of Python: one more would cost each cycle some microseconds
+            send = partial(stream.write, _RECORD)
+            if in_scan is not None:
+                in_scan.show = send
+            else:
+                tape.write = send
+
+        return Attachment(given, (), settings.settings.buffer, connect)
 
     def check(self, settings: RecordProject, controller: Controller) -> Sequence[str]:
         """Check the tags, and that bags can be written."""
@@ -137,42 +147,27 @@ def sources_of(folder: Path) -> dict[str, str]:
     return found
 
 
-class _Sender:
-    """Hands records to the recorder's process; it waits for nobody."""
-
-    def __init__(self) -> None:
-        self._stream: StreamWriter | None = None
-
-    def connect(self, stream: StreamWriter) -> None:
-        """Send into a stream from now on."""
-        self._stream = stream
-
-    def send(self, time_ns: int, record: bytes) -> None:
-        """Send a record; one that nobody reads in time is lost, and counted."""
-        if self._stream is not None:
-            self._stream.write(_RECORD, time_ns, record)
+def _nowhere(_time_ns: int, _record: bytes) -> None:
+    """Take a record while nobody is there to send it to."""
 
 
 class _InScan:
     """Writes the bag in the scan itself, on the virtual clock.
 
     Where it cannot be written any more the controller goes on without.
+
+    Attributes:
+        show: takes each record too, for the live view.
     """
 
-    def __init__(
-        self,
-        settings: RecordProject,
-        controller: Controller,
-        head: Head,
-        show: Callable[[int, bytes], None],
-    ) -> None:
+    def __init__(self, settings: RecordProject, controller: Controller, head: Head) -> None:
         # not at the top: beside a recorder of its own the scan has no use for rosbags
         from plcsim.recorder.bag.writing import Writing  # noqa: PLC0415
 
         limits = settings.settings.limits
         self._writing: Writing | None = Writing(settings.file, head, limits)
         self._number = 0
-        self._show = show
+        self.show: Callable[[int, bytes], None] = _nowhere
         self._controller = controller
         controller.logbook.follow(self._log)
 
@@ -188,7 +183,7 @@ class _InScan:
             except OSError as err:
                 self._give_up(err)
             self._number += 1
-        self._show(time_ns, data)
+        self.show(time_ns, data)
 
     def _log(self, entry: Entry) -> None:
         if self._writing is not None:

@@ -9,15 +9,19 @@ reader copies what lies between the two and keeps what TAIL has not passed meanw
 from __future__ import annotations
 
 import struct
+from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from plcsim.shared_image.layout import StreamCells
 
 _HEAD = struct.Struct("<IIQq")
 """Bytes of the record, itself and padding included; kind and bytes of padding; number; time."""
 
 _HEAD_SIZE = _HEAD.size
+_HEAD_AND_PADDING = _HEAD_SIZE + 7
 _pack_head = _HEAD.pack_into
 
 _SIZE = struct.Struct("<I")
@@ -25,6 +29,9 @@ _SIZE = struct.Struct("<I")
 
 PIECE = 1 << 18
 """Bytes that a reader copies at once, where one record is not longer."""
+
+BLOCKS = 64
+"""In so many parts of a stream old records are let go of."""
 
 _KIND_BITS = 28
 _KIND = (1 << _KIND_BITS) - 1
@@ -55,47 +62,80 @@ class StreamWriter:
         at: which cells belong to it.
     """
 
+    __slots__ = (
+        "_at_head",
+        "_at_records",
+        "_at_tail",
+        "_at_too_long",
+        "_block",
+        "_cells",
+        "_head",
+        "_marks",
+        "_records",
+        "_ring",
+        "_room_end",
+        "_size",
+        "_start",
+        "_tail",
+    )
+
     def __init__(self, cells: memoryview[int], ring: memoryview[int], at: StreamCells) -> None:
         self._cells = cells
         self._ring = ring
         self._at_head, self._at_tail, self._at_records, self._at_too_long = at
         self._size = len(ring)
+        self._block = self._size // BLOCKS
         self._head = cells[at.head]
         self._tail = cells[at.tail]
         self._records = cells[at.records]
+        self._start = self._room_end = self._head % self._size
+        self._marks = deque(self._places())
+
+    def _places(self) -> Iterator[int]:
+        """Return where the records lie that another writer has left."""
+        place = self._tail
+        while place < self._head:
+            yield place
+            offset = place % self._size
+            place += _SIZE.unpack_from(self._ring, offset)[0] or self._size - offset
 
     def write(self, kind: int, time_ns: int, data: bytes) -> None:
         """Add a record; one that is longer than half the stream is lost, and counted."""
         count = len(data)
-        padding = -count % 8
-        size = _HEAD_SIZE + count + padding
-        if 2 * size > self._size:
-            self._cells[self._at_too_long] += 1
-            return
-        start = self._head % self._size
-        if start + size > self._size or self._tail < self._head + size - self._size:
+        size = count + _HEAD_AND_PADDING & -8
+        start = self._start
+        if start + size > self._room_end:
+            if 2 * size > self._size:
+                self._cells[self._at_too_long] += 1
+                return
             start = self._make_room(size)
-        ring, cells, records = self._ring, self._cells, self._records
-        _pack_head(ring, start, size, padding << _KIND_BITS | kind, records, time_ns)
-        start += _HEAD_SIZE
-        ring[start : start + count] = data
-        self._records = cells[self._at_records] = records + 1
+        ring, cells, begin = self._ring, self._cells, start + _HEAD_SIZE
+        padding = size - count - _HEAD_SIZE
+        _pack_head(ring, start, size, padding << _KIND_BITS | kind, self._records, time_ns)
+        ring[begin : begin + count] = data
+        self._start = start + size
+        self._records = cells[self._at_records] = self._records + 1
         self._head = cells[self._at_head] = self._head + size
 
     def _make_room(self, size: int) -> int:
-        """Let go of the oldest records that lie where the next one shall; return its place."""
-        start = self._head % self._size
-        filling = self._size - start if start + size > self._size else 0
-        oldest = self._head + filling + size - self._size
+        """Let go of the oldest records that lie where the next ones shall; return their place.
+
+        That is done for a block at once, or it would cost each record of a full stream its time.
+        """
+        start = end = self._start % self._size
+        if start + size > self._size:  # the rest of the ring becomes filling
+            self._head += self._size - start
+            start = 0
+        room = min(max(size, self._block), self._size - start)
+        self._marks.append(self._head)
+        oldest = self._head + room - self._size
         if self._tail < oldest:
             while self._tail < oldest:
-                offset = self._tail % self._size
-                self._tail += _SIZE.unpack_from(self._ring, offset)[0] or self._size - offset
+                self._tail = self._marks.popleft()
             self._cells[self._at_tail] = self._tail
-        if filling:
-            _SIZE.pack_into(self._ring, start, 0)
-            self._head += filling
-            start = 0
+        if start != end:
+            _SIZE.pack_into(self._ring, end, 0)
+        self._room_end = start + room
         return start
 
 

@@ -2,7 +2,8 @@ from plcsim.core.clock import VirtualClock
 from plcsim.recorder.journal.clock import RecordedClock, ReplayClock
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
-from plcsim.recorder.journal.record import record_of
+
+from .conftest import taken
 
 
 def ask(clock: RecordedClock | ReplayClock) -> list[int]:
@@ -14,7 +15,7 @@ def ask(clock: RecordedClock | ReplayClock) -> list[int]:
 def test_a_replay_tells_the_recorded_times() -> None:
     journal = Journal()
     recorded = ask(RecordedClock(VirtualClock(), journal))
-    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
+    feed = Feed([taken(journal)])
 
     clock = ReplayClock(feed, is_virtual=True)
 

@@ -7,7 +7,8 @@ from plcsim.network import Address, Datagram, Network, Option, Outcome, VirtualN
 from plcsim.recorder.journal.feed import Feed
 from plcsim.recorder.journal.journal import Journal
 from plcsim.recorder.journal.network import RecordedNetwork, ReplayNetwork
-from plcsim.recorder.journal.record import record_of
+
+from .conftest import taken
 
 SERVER, CLIENT = "192.168.0.1", "192.168.0.2"
 
@@ -60,7 +61,7 @@ def test_a_replay_answers_what_was_recorded() -> None:
 
     hosts = [RecordedNetwork(net.host(ip), journal) for ip in (SERVER, CLIENT)]
     recorded = talk(*hosts, wait)
-    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
+    feed = Feed([taken(journal)])
 
     repeated = talk(ReplayNetwork(feed), ReplayNetwork(feed), lambda: None)
 
@@ -95,7 +96,7 @@ def test_a_replay_answers_the_datagrams_that_were_recorded() -> None:
         time.now_ns += 1_000_000
 
     recorded = send(*(RecordedNetwork(net.host(ip), journal) for ip in (SERVER, CLIENT)), wait)
-    feed = Feed([record_of(journal.take(0, 1, 1, 1, []))])
+    feed = Feed([taken(journal)])
     repeated = send(ReplayNetwork(feed), ReplayNetwork(feed), lambda: None)
 
     assert repeated == recorded
