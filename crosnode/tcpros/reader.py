@@ -67,25 +67,26 @@ class LargeBlock:
         memory: at least as many bytes.
 
     Attributes:
+        size: bytes.
         data: the bytes that came, and room for more.
         have: how many came.
     """
 
-    __slots__ = ("_size", "data", "have")
+    __slots__ = ("data", "have", "size")
 
     def __init__(self, size: int, memory: mmap.mmap) -> None:
-        self._size = size
+        self.size = size
         self.data = memoryview(memory)[:size]
         self.have = 0
 
     @property
     def is_full(self) -> bool:
         """Whether all bytes came."""
-        return self.have == self._size
+        return self.have == self.size
 
     def fill(self, data: memoryview) -> memoryview:
         """Take bytes; return those that belong to what follows the block."""
-        piece = min(len(data), self._size - self.have)
+        piece = min(len(data), self.size - self.have)
         self.data[self.have : self.have + piece] = data[:piece]
         self.have += piece
         return data[piece:]
@@ -98,13 +99,14 @@ class ByteReader:
         next_read: bytes that the next read should ask for at most.
     """
 
-    __slots__ = ("_buffer", "_eof", "_large", "_memory", "next_read")
+    __slots__ = ("_buffer", "_eof", "_expected", "_large", "_last", "_memory", "next_read")
 
     def __init__(self) -> None:
         self.next_read = MOST_READ
         self._buffer = bytearray()
         self._eof = False
         self._large: LargeBlock | None = None
+        self._last = self._expected = 0
         self._memory = BlockMemory()
 
     def __len__(self) -> int:
@@ -145,6 +147,21 @@ class ByteReader:
             yield
         return True
 
+    def more_blocks(self) -> Generator[None, None, bool]:
+        """Wait as ``more`` does, where all that comes are blocks, to be taken by ``large_block``.
+
+        After two large blocks of one size the next is expected to be like them: it is read to its
+        place with its length, without a look at that first.
+        """
+        if self._expected and not self._buffer:
+            size = _LENGTH.size + self._expected
+            self._large = LargeBlock(size, self._memory.take(size))
+        while self._large is None or not self._large.have:
+            if self._buffer or self._eof:
+                return bool(self._buffer)
+            yield
+        return True
+
     def exactly(self, size: int) -> Generator[None, None, bytes]:
         """Take ``size`` bytes.
 
@@ -168,33 +185,55 @@ class ByteReader:
         """
         if size <= LARGE:
             return (yield from self.exactly(size))
-        block = LargeBlock(size, self._memory.take(size))
+        block = LargeBlock(size, self._memory.take(_LENGTH.size + size))
         with memoryview(self._buffer) as data:
             used = len(data) - len(block.fill(data))
         del self._buffer[:used]
         self._large = block
-        while not block.is_full:
-            if self._eof:
-                raise TcprosError(f"connection closed after {block.have} of {size} bytes")
-            yield
+        self._expected, self._last = size if size == self._last else 0, size
+        return (yield from self._whole(block))
+
+    def _whole(self, block: LargeBlock) -> Generator[None, None, memoryview]:
+        """Wait for the rest of a block, and return a read-only view of it."""
+        yield from self._wait_for(block.size, block)
         self._large = None
         self.next_read = BEHIND_LARGE
         return block.data.toreadonly()
 
+    def _wait_for(self, have: int, block: LargeBlock) -> Generator[None, None, None]:
+        """Wait until a block has so many bytes."""
+        while block.have < have:
+            if self._eof:
+                raise TcprosError(f"connection closed after {block.have} of {block.size} bytes")
+            yield
+
     def large_block(self, limit: int, what: str) -> Generator[None, None, bytes | memoryview]:
         """Take a block as ``block`` does, its bytes as ``large`` does."""
+        block = self._large
+        if block is not None and (yield from self._is_as_expected(block)):
+            return (yield from self._whole(block))[_LENGTH.size :]
         size = yield from self._length(limit, what)
         return (yield from self.large(size))
 
+    def _is_as_expected(self, block: LargeBlock) -> Generator[None, None, bool]:
+        """Look at the length of an expected block; what is none of its size is parsed anew."""
+        yield from self._wait_for(_LENGTH.size, block)
+        if _LENGTH.unpack_from(block.data) == (self._expected,):
+            return True
+        self._buffer[:0] = block.data[: block.have]
+        self._large, self._expected = None, 0
+        return False
+
     def take_blocks(self, blocks: list[bytes | memoryview], most: int, limit: int) -> None:
-        """Take the blocks that are there whole, without a stop for each.
+        """Take the blocks that are whole within the next ``LARGE`` bytes, without a stop for each.
 
         Args:
             blocks: gets them.
             most: blocks to take.
             limit: bytes; a longer block is left.
         """
-        data = bytes(self._buffer)
+        with memoryview(self._buffer) as received:
+            data = bytes(received[:LARGE])
         end, at = len(data), 0
         while most and end - at >= _LENGTH.size:
             begin = at + _LENGTH.size

@@ -140,7 +140,7 @@ class SubscriberConnection(ClientConnection):
 
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_answer(self._md5sum))
-        while (yield from self._reader.more()):
+        while (yield from self._reader.more_blocks()):
             bodies: list[bytes | memoryview] = []
             self._reader.take_blocks(bodies, self.most, self.limits.max_message)
             if not bodies:

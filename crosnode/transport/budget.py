@@ -12,9 +12,12 @@ from typing import Final, NamedTuple
 POLL_WORK: Final = 1_024
 """Price of looking at a connection."""
 
-LARGE_SHARE: Final = 6
+LARGE_SHARE: Final = 5
 """Bytes of a large message, which go between the socket and their place without a copy in pieces
 of up to a mebibyte, that cost as much as one byte of others."""
+
+LARGE_WORK: Final = 49_152
+"""Price of a large message that was not expected: its length is read apart, and it gets room."""
 
 TRANSFER_WORK: Final = 8_192
 """Price of a read that gave bytes and of a write, beside the bytes."""

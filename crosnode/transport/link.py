@@ -10,7 +10,13 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final, Protocol
 
 from crosnode.graph.uri import make_authority
-from crosnode.transport.budget import CONNECTION_WORK, LARGE_SHARE, POLL_WORK, TRANSFER_WORK
+from crosnode.transport.budget import (
+    CONNECTION_WORK,
+    LARGE_SHARE,
+    LARGE_WORK,
+    POLL_WORK,
+    TRANSFER_WORK,
+)
 from crosnode.transport.connection import ConnectionState, Failed, Progress
 from crosnode.transport.dyn_buffer import DynBuffer
 from crosnode.transport.tcpip_socket import AREA_SIZE, LARGE_PIECE, TcpipSocketState
@@ -246,6 +252,8 @@ class PeerLink:
             self._count(received, budget)
             self.connection.receive_data(data)
             self._take_events(now_ns, budget)
+            if self.connection.room is not None:
+                budget.work -= LARGE_WORK
         else:
             self._ended_in(state, now_ns, budget)
         return not self._is_parsed and received >= min(size, AREA_SIZE)

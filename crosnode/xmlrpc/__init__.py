@@ -3,6 +3,7 @@
 from crosnode.xmlrpc.connection import (
     CallReceived,
     FaultReceived,
+    LastUse,
     ResponseReceived,
     Unreadable,
     XmlRpcClientConnection,
@@ -25,6 +26,7 @@ __all__ = [
     "MULTICALL",
     "CallReceived",
     "FaultReceived",
+    "LastUse",
     "MethodCall",
     "MethodFault",
     "MethodResponse",

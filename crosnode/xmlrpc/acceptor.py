@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from crosnode.xmlrpc.connection import XmlRpcServerConnection
+from crosnode.xmlrpc.connection import LastUse, XmlRpcServerConnection
 
 if TYPE_CHECKING:
     from crosnode.transport.event_loop import Accepted
@@ -23,7 +23,8 @@ class ApiAcceptor:
     def __init__(self, owner: Owner, limits: XmlRpcLimits) -> None:
         self._owner = owner
         self._limits = limits
+        self._last_use = LastUse(0)
 
     def accepted(self, now_ns: int) -> Accepted:
         """Serve a new caller."""
-        return XmlRpcServerConnection(self._limits, now_ns), self._owner
+        return XmlRpcServerConnection(self._limits, now_ns, self._last_use), self._owner

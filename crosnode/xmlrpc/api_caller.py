@@ -11,6 +11,7 @@ from crosnode.transport.budget import CALL_WORK
 from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
     FaultReceived,
+    LastUse,
     ResponseReceived,
     Unreadable,
     Value,
@@ -118,6 +119,7 @@ class ApiCaller:
         self._loop = loop
         self._hosts = hosts
         self._limits = limits
+        self._last_use = LastUse(0)
         self._channels: dict[str, _Channel] = {}
         self._is_first = False
         self._turn = 0
@@ -172,7 +174,9 @@ class ApiCaller:
             return
         if not budget.start_call():
             return
-        connection = XmlRpcClientConnection(f"{address.ip}:{address.port}", self._limits, now_ns)
+        connection = XmlRpcClientConnection(
+            f"{address.ip}:{address.port}", self._limits, now_ns, self._last_use
+        )
         channel.link = self._loop.connect(address, connection, channel, now_ns)
         channel.connection = connection
 

@@ -64,6 +64,10 @@ PARSE_ERROR: Final = -32700
 
 INTERNAL_ERROR: Final = -32603
 
+WARM_NS: Final = 20_000_000
+"""Nanoseconds that code stays in the caches, about: what runs once a second is read from memory
+anew, and takes many times as long as what follows its like."""
+
 Document: TypeAlias = MethodCall | MethodResponse | MethodFault
 Role: TypeAlias = type[h11.CLIENT] | type[h11.SERVER]
 
@@ -115,6 +119,22 @@ class Unreadable(Failed):
     """The server answers with what is no document, or one beyond the limits."""
 
 
+class LastUse:
+    """When documents were last read, by any of the connections that share it.
+
+    Args:
+        at_ns: nanoseconds.
+    """
+
+    def __init__(self, at_ns: int) -> None:
+        self._at_ns = at_ns
+
+    def note(self, now_ns: int) -> bool:
+        """Note a use; return whether the one before is too long ago for warm caches."""
+        before_ns, self._at_ns = self._at_ns, now_ns
+        return now_ns - before_ns > WARM_NS
+
+
 class XmlRpcConnection(ProtocolConnection):
     """What both ends share; see ``ProtocolConnection`` for its use.
 
@@ -123,22 +143,29 @@ class XmlRpcConnection(ProtocolConnection):
         state: the first state.
         limits: see ``XmlRpcLimits``.
         now_ns: time of the step in which the connection was made.
+        last_use: of the connections of one kind that a node has; None for a single one.
     """
 
     IS_PARSED: ClassVar[bool] = True
 
     def __init__(
-        self, role: Role, state: ConnectionState, limits: XmlRpcLimits, now_ns: int
+        self,
+        role: Role,
+        state: ConnectionState,
+        limits: XmlRpcLimits,
+        now_ns: int,
+        last_use: LastUse | None,
     ) -> None:
         super().__init__(state, limits.timeout_ns, now_ns)
         self.limits = limits
         self._http = h11.Connection(role, max_incomplete_event_size=limits.max_head)
         self._values = ValueParser(limits.values)
         self._unparsed = b""
+        self._last_use = last_use or LastUse(now_ns)
 
     @property
     def event_price(self) -> int:
-        """A call that is taken and answered, an answer, or a part of a long document."""
+        """A call that is taken and answered, an answer, or a part of either."""
         return XMLRPC_WORK
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
@@ -196,9 +223,11 @@ class XmlRpcConnection(ProtocolConnection):
         if isinstance(http_event, h11.ConnectionClosed):
             self.close()
             return Closed()
-        return self._head(http_event)
+        self._head(http_event)
+        is_cold = self._last_use.note(now_ns)
+        return Progress() if is_cold else None  # what follows may have to wait for its own step
 
-    def _head(self, http_event: object) -> ConnectionEvent | None:
+    def _head(self, http_event: object) -> None:
         """Check a request or status line."""
         raise NotImplementedError
 
@@ -238,8 +267,8 @@ class XmlRpcServerConnection(XmlRpcConnection):
     )
     TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REQUEST})
 
-    def __init__(self, limits: XmlRpcLimits, now_ns: int) -> None:
-        super().__init__(h11.SERVER, ConnectionState.REQUEST, limits, now_ns)
+    def __init__(self, limits: XmlRpcLimits, now_ns: int, last_use: LastUse | None = None) -> None:
+        super().__init__(h11.SERVER, ConnectionState.REQUEST, limits, now_ns, last_use)
         self._is_idle = False
         self._host_field = HostField()
         self._writer: ResponseWriter | None = None
@@ -327,13 +356,12 @@ class XmlRpcServerConnection(XmlRpcConnection):
         response = h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
         self._send(response, h11.Data(data=document), h11.EndOfMessage())
 
-    def _head(self, http_event: object) -> ConnectionEvent | None:
+    def _head(self, http_event: object) -> None:
         assert isinstance(http_event, h11.Request)
         if http_event.method != b"POST":
             raise h11.RemoteProtocolError("only POST is served", error_status_hint=405)
         if self._http.they_are_waiting_for_100_continue:
             self._send(h11.InformationalResponse(status_code=100, headers=[]))
-        return None
 
     def _document(self, document: Document, now_ns: int) -> ConnectionEvent:
         if not isinstance(document, MethodCall):
@@ -357,13 +385,16 @@ class XmlRpcClientConnection(XmlRpcConnection):
         host: what the ``Host`` header says: name or number, and port.
         limits: see ``XmlRpcLimits``.
         now_ns: time of the step.
+        last_use: as of `XmlRpcConnection`.
     """
 
     TABLE: ClassVar[Table] = CLIENT
     TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REPLY})
 
-    def __init__(self, host: str, limits: XmlRpcLimits, now_ns: int) -> None:
-        super().__init__(h11.CLIENT, ConnectionState.IDLE, limits, now_ns)
+    def __init__(
+        self, host: str, limits: XmlRpcLimits, now_ns: int, last_use: LastUse | None = None
+    ) -> None:
+        super().__init__(h11.CLIENT, ConnectionState.IDLE, limits, now_ns, last_use)
         self._host = host
 
     def call(self, method: str, params: Sequence[Value], now_ns: int) -> None:
@@ -379,10 +410,9 @@ class XmlRpcClientConnection(XmlRpcConnection):
         request = h11.Request(method="POST", target="/RPC2", headers=headers)
         self._send(request, h11.Data(data=document), h11.EndOfMessage())
 
-    def _head(self, http_event: object) -> ConnectionEvent | None:
+    def _head(self, http_event: object) -> None:
         if isinstance(http_event, h11.Response) and http_event.status_code != 200:
             raise XmlRpcError(f"HTTP status {http_event.status_code}")
-        return None
 
     def _refuse(self, reason: str, *, http_status: int) -> Failed:
         if http_status == 200:  # HTTP was right, what it carried was not

@@ -10,7 +10,7 @@ from typing import Any
 
 from crosnode.graph.uri import parse_uri
 from crosnode.master.master import Master, OutgoingCall
-from crosnode.transport.connection import ConnectionState
+from crosnode.transport.connection import ConnectionState, Progress
 from crosnode.xmlrpc import (
     CallReceived,
     MethodCall,
@@ -38,6 +38,8 @@ def next_event(connection: Any, sock: socket.socket) -> Any:
     while True:
         flush(connection, sock)
         event = connection.next_event(time.monotonic_ns())
+        if event == Progress():
+            continue
         if event is not None:
             return event
         if connection.state is ConnectionState.CLOSED:

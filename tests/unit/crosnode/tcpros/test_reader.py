@@ -3,6 +3,7 @@
 import itertools
 import struct
 import tracemalloc
+from collections.abc import Generator
 
 import pytest
 from hypothesis import given
@@ -129,3 +130,91 @@ def test_a_large_block_that_ends_early_is_an_error() -> None:
     reader.feed_eof()
     with pytest.raises(TcprosError, match="after 100000 of 1048576"):
         next(parser)
+
+
+def stream(reader: ByteReader, count: int) -> Generator[None, None, list[bytes]]:
+    """Take blocks as a subscriber does."""
+    found: list[bytes] = []
+    while len(found) < count and (yield from reader.more_blocks()):
+        found.append(bytes((yield from reader.large_block(5000, "message"))))
+    return found
+
+
+def pour(reader: ByteReader, data: bytes) -> int:
+    """Hand bytes over as a link does: to the room, where there is one; return how many."""
+    room = reader.room
+    if room is None:
+        reader.feed(data)
+        return len(data)
+    taken = data[: len(room)]
+    room[: len(taken)] = taken
+    reader.filled(len(taken))
+    return len(taken)
+
+
+def read_stream(bodies: list[bytes], sizes: list[int]) -> list[bytes]:
+    """Send blocks in pieces, those above 100 bytes being large, and return what is read."""
+    data = b"".join(length_of(body) + body for body in bodies)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reader_module, "LARGE", 100)
+        reader = ByteReader()
+        parser = stream(reader, len(bodies))
+        for size in itertools.cycle(sizes):
+            try:
+                next(parser)
+            except StopIteration as done:
+                found: list[bytes] = done.value
+                return found
+            data = data[pour(reader, data[:size]) :]
+    pytest.fail("the blocks never end")
+
+
+@given(
+    st.lists(st.sampled_from((0, 1, 99, 200, 201, 900)), min_size=1, max_size=12),
+    st.lists(st.integers(1, 3000), min_size=1, max_size=5),
+)
+def test_blocks_are_the_same_for_any_split_and_whatever_is_expected(
+    lengths: list[int], sizes: list[int]
+) -> None:
+    bodies = [bytes([number]) * length for number, length in enumerate(lengths)]
+    assert read_stream(bodies, sizes) == bodies
+
+
+def test_after_two_large_blocks_of_a_size_the_next_is_read_to_its_place() -> None:
+    reader = ByteReader()
+    parser = stream(reader, 4)
+    large = length_of(bytes(1000)) + bytes(1000)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reader_module, "LARGE", 100)
+        for _ in range(2):
+            next(parser)
+            assert reader.room is None
+            reader.feed(large)
+        next(parser)
+        room = reader.room
+        assert room is not None
+        assert len(room) == len(large)
+        assert pour(reader, length_of(b"x") + b"x") == 5  # but it is a short one
+        next(parser)
+        assert reader.room is None
+        reader.feed(length_of(b"y") + b"y")
+        with pytest.raises(StopIteration) as done:
+            next(parser)
+    assert done.value.value == [bytes(1000), bytes(1000), b"x", b"y"]
+
+
+def test_an_end_before_an_expected_block_is_an_end_and_one_within_it_is_an_error() -> None:
+    for begun in (b"", b"\xe8\x03", length_of(bytes(1000)) + b"x"):
+        reader = ByteReader()
+        parser = stream(reader, 3)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(reader_module, "LARGE", 100)
+            for _ in range(2):
+                next(parser)
+                reader.feed(length_of(bytes(1000)) + bytes(1000))
+            next(parser)
+            pour(reader, begun)
+            reader.feed_eof()
+            expected = TcprosError if begun else StopIteration
+            with pytest.raises(expected):
+                next(parser)

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from crosnode.transport.budget import StepBudget, StepLimits
+from crosnode.transport.budget import LARGE_WORK, StepBudget, StepLimits
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -192,3 +192,33 @@ def test_a_link_that_was_given_up_ends_once() -> None:
     wire.link.abort("again", 0)
     wire.step()
     assert wire.told.reasons == ["no time"]
+
+
+class Block(Lines):
+    """Bytes behind the first that come go to a room."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._room: memoryview | None = None
+
+    @property
+    def room(self) -> memoryview | None:
+        return self._room
+
+    def receive_data(self, data: Data) -> None:
+        super().receive_data(data)
+        self._room = memoryview(bytearray(1000))
+
+    def filled(self, size: int) -> None:
+        self._room = None
+
+
+def test_the_begin_of_a_large_message_that_was_not_expected_has_a_price() -> None:
+    def work_of(protocol: Lines) -> int:
+        wire = Wire()
+        peer = wire.peer()
+        wire.link.connection = protocol
+        peer.send(b"length")
+        return wire.idle_work()
+
+    assert work_of(Block()) - work_of(Lines()) == LARGE_WORK

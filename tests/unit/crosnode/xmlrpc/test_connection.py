@@ -18,6 +18,7 @@ from crosnode.transport.connection import (
 from crosnode.xmlrpc import (
     CallReceived,
     FaultReceived,
+    LastUse,
     ResponseReceived,
     ValueLimits,
     XmlRpcClientConnection,
@@ -25,7 +26,7 @@ from crosnode.xmlrpc import (
     XmlRpcLimits,
     XmlRpcServerConnection,
 )
-from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER
+from crosnode.xmlrpc.connection import CLIENT, PARSE_ERROR, SERVER, WARM_NS
 from crosnode.xmlrpc.writer import AT_ONCE, dump_call
 
 LIMITS = XmlRpcLimits(values=ValueLimits(max_size=2000), max_head=1000, timeout_ns=1000)
@@ -398,3 +399,37 @@ def test_a_caller_that_names_no_host_is_served_again_and_again() -> None:
         assert theirs.next_event(0) == CallReceived("getPid", ["/n"])
         theirs.respond(1)
         assert sent(theirs).startswith(b"HTTP/1.1 200")
+
+
+def test_after_a_while_a_document_is_taken_in_two_parts_and_then_at_once_again() -> None:
+    last_use = LastUse(0)
+    ours = XmlRpcClientConnection("h:1", XmlRpcLimits(), 0, last_use)
+    theirs = XmlRpcServerConnection(XmlRpcLimits(), 0)
+    for now_ns, parts in ((0, 0), (WARM_NS, 0), (3 * WARM_NS, 1), (3 * WARM_NS + 1, 0)):
+        ours.call("getPid", ["/n"], now_ns)
+        theirs.receive_data(sent(ours))
+        assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
+        theirs.respond(42)
+        ours.receive_data(sent(theirs))
+        if parts:
+            assert ours.next_event(now_ns) == Progress()
+            assert not ours.wants_data  # the rest is there
+            assert ours.next_event(now_ns) == ResponseReceived(42)
+        else:
+            assert ours.next_event(now_ns) == ResponseReceived(42)
+
+
+def test_connections_that_share_their_last_use_warm_each_other() -> None:
+    last_use = LastUse(0)
+    for number, now_ns in enumerate((2 * WARM_NS, 2 * WARM_NS + 1)):
+        theirs = XmlRpcServerConnection(XmlRpcLimits(), now_ns, last_use)
+        theirs.receive_data(request(GET_PID))
+        assert progress_then(theirs, now_ns) == (1 - number, CallReceived("getPid", ["/n"]))
+
+
+def progress_then(connection: XmlRpcConnection, now_ns: int) -> tuple[int, ConnectionEvent | None]:
+    """Take Progress as long as it comes; return how often, and the event that follows."""
+    count = 0
+    while (event := connection.next_event(now_ns)) == Progress():
+        count += 1
+    return count, event
