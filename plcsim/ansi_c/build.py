@@ -27,7 +27,7 @@ from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from plcsim.ansi_c.static_library import StaticLibrary
     from plcsim.ansi_c.toolchain import Toolchain
@@ -68,6 +68,16 @@ _CPP_OPTIONS = (
     # inline functions are the module's own; static objects live as long as the program
     *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
 )
+_TO_BITCODE = ("-Xclang", "-emit-llvm-bc")
+_SECOND = (
+    # Two rounds for one jump back, and one poll, in small loops whose rounds nobody knows. In the
+    # first run the same option would keep loops of fixed rounds from being written out.
+    *("-mllvm", "-unroll-count=2"),
+    *("-mllvm", "-unroll-threshold=60", "-mllvm", "-pragma-unroll-threshold=60"),
+    "-Wno-unused-command-line-argument",
+)
+"""A file goes through the compiler twice: to bitcode, and with these from there to an object."""
+
 _LINK_OPTIONS = ("--shared", "--experimental-pic", "--import-memory", "--import-undefined")
 
 MANY = 8
@@ -220,7 +230,8 @@ class _Object:
             *(part for folder in order.folders[-1:] for part in ("-I", str(folder))),
             str(source),
         ]
-        self._manifest = _key("manifest", toolchain.identity, *self.command)
+        self._second_command = [*toolchain.c, *_OPTIONS, *order.options, *_SECOND]
+        self._manifest = _key("manifest", toolchain.identity, *self.command, *_SECOND)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""
@@ -244,23 +255,35 @@ class _Object:
     def _dependencies(self) -> Path:
         return self.file.with_suffix(".d")
 
-    def full_command(self) -> list[str]:
+    @cached_property
+    def _bitcode(self) -> Path:
+        return self.file.with_suffix(".bc")  # the suffix tells the compiler what it is
+
+    def command_to_bitcode(self) -> list[str]:
+        """Return what compiles the source."""
         overlay = overlay_without_rdtsc(self.source, self._work.folder)
         read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
-        made = ("-MD", "-MF", str(self._dependencies), "-o", str(self.file))
-        return [*self.command, *read, *made]
+        made = ("-MD", "-MF", str(self._dependencies), "-o", str(self._bitcode))
+        return [*self.command, *_TO_BITCODE, *read, *made]
 
-    def finish(self, code: int, told: str) -> None:
-        """Take what the compiler has made and told."""
+    def command_to_object(self) -> list[str]:
+        """Return what makes an object of the bitcode."""
+        return [*self._second_command, str(self._bitcode), "-o", str(self.file)]
+
+    def take(self, code: int, told: str) -> None:
+        """Take what one run of the compiler has told."""
         found = [(m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}") for m in _FINDING.finditer(told)]
-        self.warnings = [text for kind, text in found if kind == "warning"]
-        if code == 0:
-            self.content = self.file.read_bytes()
-            self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
-            return
-        self.errors = [explained(text, self._folders) for kind, text in found if kind == "error"]
-        if not self.errors:
-            self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
+        self.warnings += [text for kind, text in found if kind == "warning"]
+        if code:
+            errors = [text for kind, text in found if kind == "error"]
+            self.errors = [explained(text, self._folders) for text in errors]
+            if not self.errors:
+                self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
+
+    def finish(self) -> None:
+        """Take what the compiler has made."""
+        self.content = self.file.read_bytes()
+        self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
 
     def store(self, cache: CodeCache) -> None:
         """Keep the object."""
@@ -275,33 +298,42 @@ class _Object:
 
 
 def _compile(objects: Sequence[_Object]) -> None:
-    """Compile files, as many at a time as there are processors."""
+    """Compile files."""
+    for command in (_Object.command_to_bitcode, _Object.command_to_object):
+        _run([o for o in objects if not o.errors], command)
+    for each in objects:
+        if not each.errors:
+            each.finish()
+
+
+def _run(objects: Sequence[_Object], command: Callable[[_Object], list[str]]) -> None:
+    """Run the compiler on files, on as many at a time as there are processors."""
     at_once = max(1, len(os.sched_getaffinity(0)))
     running: deque[tuple[_Object, subprocess.Popen[str]]] = deque()
     with ExitStack() as stack:
         for each in objects:
             if len(running) == at_once:
-                _finish(*running.popleft())
-            running.append((each, stack.enter_context(_started(each))))
+                _wait(*running.popleft())
+            running.append((each, stack.enter_context(_started(each.toolchain, command(each)))))
         while running:
-            _finish(*running.popleft())
+            _wait(*running.popleft())
 
 
-def _finish(compiled: _Object, process: subprocess.Popen[str]) -> None:
+def _wait(compiled: _Object, process: subprocess.Popen[str]) -> None:
     told, _ = process.communicate()
-    compiled.finish(process.returncode, told)
+    compiled.take(process.returncode, told)
 
 
-def _started(compiled: _Object) -> subprocess.Popen[str]:
+def _started(toolchain: Toolchain, command: list[str]) -> subprocess.Popen[str]:
     return subprocess.Popen(  # noqa: S603  # a compiler that we have found
-        compiled.full_command(),
+        command,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
         encoding="utf-8",
         errors="replace",
-        env=compiled.toolchain.environment(),
+        env=toolchain.environment(),
     )
 
 

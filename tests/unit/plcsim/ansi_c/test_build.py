@@ -4,6 +4,8 @@ from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.headers import INCLUDE
 from plcsim.core.errors import ConfigurationError
 from plcsim.machine import CodeCache
+from plcsim.machine.opcodes import EMPTY, I32_LOAD8_U, LOOP
+from plcsim.machine.placement import POLL, Placement, place
 from plcsim.machine.shared_module import read_shared
 
 UNIT = """
@@ -136,16 +138,32 @@ def test_names_with_blanks_and_signs_are_files_like_others(source, toolchain, tm
     assert build(BuildOrder("p", [file], []), toolchain, cache).wasm != first
 
 
+LOOPS = """
+float a[4], b[4];
+float sum(void) { float s = 0; for (int i = 0; i < 4; i++) s += a[i] * b[i]; return s; }
+int length(const char *text) { int n = 0; while (text[n] != '*') n++; return n; }
+"""
+
+
+def test_fixed_rounds_are_written_out_and_others_poll_every_second_time(each_toolchain, source):
+    file = source("loops.c", LOOPS)
+    module = read_shared(build(BuildOrder("p", [file], []), each_toolchain, CodeCache(None)).wasm)
+    addresses = dict.fromkeys(module.addresses, 0)
+    placed = place(module, Placement(0, 0, addresses, dict.fromkeys(module.pointers, 0)), "p")
+    assert placed.wasm.count(LOOP + EMPTY + POLL) == 1
+    assert placed.wasm.count(I32_LOAD8_U + b"\0") >= 2
+
+
 def counted(monkeypatch):
     """Return a list of the files that are compiled from now on."""
-    from plcsim.ansi_c import build as module
+    from plcsim.ansi_c.build import _Object
 
     compiled = []
-    started = module._started
+    command = _Object.command_to_bitcode
 
     def count(an_object):
         compiled.append(an_object.source.name)
-        return started(an_object)
+        return command(an_object)
 
-    monkeypatch.setattr(module, "_started", count)
+    monkeypatch.setattr(_Object, "command_to_bitcode", count)
     return compiled
