@@ -56,7 +56,8 @@ class FunctionLowering(BitLowering):
         value = self.value(argument)
         self._repeated -= 1
         unsigned = is_unsigned_in_c(argument)
-        return self._twice(argument, lambda x: _magnitude(x, unsigned=unsigned), value)
+        found = self._twice(argument, lambda x: _magnitude(x, unsigned=unsigned), value)
+        return self._narrowed(found, node.type)
 
     def _mathematics(self, node: typed.Builtin) -> ir.Expression:
         argument = self.operand(node.arguments[0], "f64")
