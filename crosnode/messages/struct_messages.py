@@ -85,7 +85,8 @@ def _lines(data_type: StructType[object], package: str, found: dict[str, str]) -
             raise DefinitionError(f"{where}: a ROS field cannot have this name.")
         kind = resolve_alias(member.data_type)
         if isinstance(kind, EnumerationType):
-            yield from (f"int32 {key}={value}" for key, value in kind.values.items())
+            of = _ROS_TYPES[kind.base.name]
+            yield from (f"{of} {key}={value}" for key, value in kind.values.items())
         if isinstance(kind, ArrayType):
             element = _ros_type(where, kind.element, package, found)
             is_variable = _is_length(member, following)
@@ -111,10 +112,8 @@ def _length(where: str, data_type: ArrayType[object]) -> int:
 def _ros_type(where: str, declared: DataType[object], package: str, found: dict[str, str]) -> str:
     data_type = resolve_alias(declared)
     match data_type:
-        case SubrangeType(base=base):
+        case SubrangeType(base=base) | EnumerationType(base=base):
             return _ros_type(where, base, package, found)
-        case EnumerationType():
-            return "int32"
         case StringType():
             return "string"
         case StructType() if data_type.name in _TIMES:

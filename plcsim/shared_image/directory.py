@@ -149,8 +149,8 @@ def describe_type(data_type: DataType[Any]) -> object:
             return {"wstring": length}
         case ReferenceType():
             return UDINT.name
-        case EnumerationType(name=name, values=values):
-            return {"enumeration": name, "values": values}
+        case EnumerationType(name=name, values=values, base=base):
+            return {"enumeration": name, "of": base.name, "values": values}
         case ArrayType(element=element, bounds=bounds):
             return {"array": describe_type(element), "bounds": [list(b) for b in bounds]}
         case StructType(name=name, members=members):
@@ -171,8 +171,8 @@ def type_from(text: Any) -> DataType[Any]:
             return StringType(length)
         case {"wstring": length}:
             return WStringType(length)
-        case {"enumeration": name, "values": values}:
-            return EnumerationType(name, values)
+        case {"enumeration": name, "of": base, "values": values}:
+            return EnumerationType(name, values, base=_integer(base))
         case {"array": element, "bounds": bounds}:
             return ArrayType(type_from(element), [(low, high) for low, high in bounds])
         case {"data_block": name, "members": members}:

@@ -261,6 +261,7 @@ class FileResolver(ConstantResolver):
 
     def _enumeration(self, node: EnumerationSpecification, name: str) -> DataType[object] | None:
         key = self.scope.dialect.key
+        base = self._enumeration_base(node)
         values: dict[str, int] = {}
         known: dict[str, int] = {}
         outer, self.values = self.values, known
@@ -268,17 +269,27 @@ class FileResolver(ConstantResolver):
         for item in node.values:
             if key(item.name) in known:
                 self.error(item, f"{name} declares {item.name} twice")
-            following = DINT.wrap(number + 1)
-            number = following if item.value is None else self._value(item.value, following)
+            following = base.wrap(number + 1)
+            number = following if item.value is None else self._value(item.value, following, base)
             values[item.name] = number
             known[key(item.name)] = number
         self.values = outer
-        if node.base and node.base.upper() != DINT.name:
-            self.warning(node, f"an enumeration is a DINT here, {node.base} is ignored")
         if not values:
             self.warning(node, "the enumeration has no values")
-            return AliasType(name, DINT)
-        return EnumerationType(name, values)
+            return AliasType(name, base)
+        return EnumerationType(name, values, base=base)
+
+    def _enumeration_base(self, node: EnumerationSpecification) -> ElementaryType[int]:
+        """Return the type that holds the values of an enumeration."""
+        if not node.base:
+            return DINT
+        base = self._named_type(NamedType(node.at, node.base))
+        found = None if base is None else resolve_alias(base)
+        if isinstance(found, ElementaryType) and found.is_integer:
+            return found
+        if found is not None:
+            self.error(node, f"an enumeration is an integer, {node.base} is none")
+        return DINT
 
     def _struct(self, node: StructSpecification, name: str) -> DataType[object] | None:
         base = self._base_of(node)
@@ -301,13 +312,13 @@ class FileResolver(ConstantResolver):
             self.error(node, f"{node.base} is no STRUCT, so none can extend it")
         return None
 
-    def _value(self, node: Expression, following: int) -> int:
+    def _value(self, node: Expression, following: int, base: ElementaryType[int]) -> int:
         number = self.integer(node)
         if number is None:
             return following
-        if not DINT.minimum <= number < 2**32:
-            self.error(node, f"{number} is outside {DINT.minimum}..{DINT.maximum} of DINT")
-        return DINT.wrap(number)
+        if not base.minimum <= number < 1 << 8 * base.size:
+            self.error(node, f"{number} is outside {base.minimum}..{base.maximum} of {base}")
+        return base.wrap(number)
 
     def _made(self, node: Node, make: Callable[[], T]) -> T | None:
         try:

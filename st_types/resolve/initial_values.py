@@ -24,7 +24,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import DINT, ElementaryType, Kind
+from st_types.types.elementary import ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -199,8 +199,8 @@ def _scalar(
             return _real(context, node, value, data_type)
         case ElementaryType() if _is_whole(value) and data_type.is_integer:
             return _integer(context, node, int(value), data_type)
-        case EnumerationType() if isinstance(value, int):
-            return _integer(context, node, int(value), DINT)
+        case EnumerationType() as enumeration if isinstance(value, int):
+            return _integer(context, node, int(value), enumeration.base)
         case SubrangeType(minimum=low, maximum=high) if isinstance(value, int):
             if low <= value <= high:
                 return int(value)

@@ -207,24 +207,30 @@ def is_digital(data_type: DataType[object]) -> bool:
 
 
 class EnumerationType(DataType[V_co]):
-    """An enumeration: a DINT with named values.
+    """An enumeration: an integer with named values, a DINT where no other type is declared.
 
     Attributes:
         values: value by name, in the order of declaration.
         members: the IntEnum that Python programs see, None where values are plain integers.
+        base: the type that holds a value; Automation Studio knows DINT only.
     """
 
-    __slots__ = ("_spellings", "members", "values")
+    __slots__ = ("_spellings", "base", "members", "values")
 
     def __init__(
-        self, name: str, values: Mapping[str, int], members: type[IntEnum] | None = None
+        self,
+        name: str,
+        values: Mapping[str, int],
+        members: type[IntEnum] | None = None,
+        base: ElementaryType[int] = DINT,
     ) -> None:
-        super().__init__(name, DINT.size, DINT.alignment)
+        super().__init__(name, base.size, base.alignment)
         if not values:
             raise DeclarationError(f"{name}: an enumeration needs at least one value.")
         for key, value in values.items():
-            if not DINT.minimum <= value <= DINT.maximum:
-                raise DeclarationError(f"{name}.{key}: {value} is not a DINT.")
+            if not base.minimum <= value <= base.maximum:
+                raise DeclarationError(f"{name}.{key}: {value} is not a {base}.")
+        self.base = base
         self.values = dict(values)
         self.members = members
         self._spellings = Spellings(self.values)

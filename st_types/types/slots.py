@@ -70,7 +70,7 @@ def slot_of(data_type: DataType[object]) -> Slot | None:
 
 def _enumeration_slot(data_type: EnumerationType[Any]) -> Slot:
     if data_type.members is None:
-        return Slot(ctypes.c_int32)
+        return Slot(_CTYPES[data_type.base.code])
     by_value: dict[int, object] = {int(m): m for m in data_type.members}
 
     def store(value: object) -> int:
@@ -79,7 +79,7 @@ def _enumeration_slot(data_type: EnumerationType[Any]) -> Slot:
         except TypeError:
             raise TypeError(f"{value!r} is not a {data_type}.") from None
 
-    return Slot(ctypes.c_int32, lambda raw: by_value.get(raw, raw), store)
+    return Slot(_CTYPES[data_type.base.code], lambda raw: by_value.get(raw, raw), store)
 
 
 def _string_slot(length: int) -> Slot:

@@ -24,7 +24,7 @@ from st_types.types.derived import (
     UnionType,
     WStringType,
 )
-from st_types.types.elementary import DINT, UDINT, ElementaryType, Kind
+from st_types.types.elementary import UDINT, ElementaryType, Kind
 
 if TYPE_CHECKING:
     from st_types.types.elementary import DataType
@@ -119,7 +119,7 @@ def _enumeration(data_type: EnumerationType, value: object) -> bytes:  # type: i
         if value not in data_type.values:
             raise ValueRangeError(f"{value} is not a value of {data_type}.")
         value = data_type.values[value]
-    return _encode_integer(DINT, value, DINT.minimum, DINT.maximum)
+    return _encode_integer(data_type.base, value, data_type.base.minimum, data_type.base.maximum)
 
 
 @encode.register
@@ -222,11 +222,9 @@ def decode(data_type: DataType[object], data: bytes) -> object:
             return data != b"\0"
         case ElementaryType(code=code):
             return struct.unpack("<" + code, data)[0]
-        case EnumerationType():
-            return struct.unpack("<i", data)[0]
         case ReferenceType():
             return struct.unpack("<I", data)[0]
-        case SubrangeType(base=base):
+        case SubrangeType(base=base) | EnumerationType(base=base):
             return decode(base, data)
         case AliasType(target=target):
             return decode(target, data)

@@ -32,7 +32,7 @@ from st_types.types.derived import (
     is_digital,
     resolve_alias,
 )
-from st_types.types.elementary import LONG_TIMES, DataType, ElementaryType
+from st_types.types.elementary import DINT, LONG_TIMES, DataType, ElementaryType
 from st_types.types.paths import inner_types
 from st_types.writers.plan import is_generic, lacks_types, parameters_of
 
@@ -269,11 +269,15 @@ class Header:
                 yield from self._type(data_type)
 
     def _enumeration(self, data_type: EnumerationType[object]) -> Iterator[str]:
+        """Yield an enum; where it is no DINT, C has the names apart from the type."""
         name = self._name(data_type)
-        yield from ("", f"typedef enum {self._tags[data_type]} {{")
+        is_enum = data_type.base is DINT
+        yield from ("", f"typedef enum {self._tags[data_type]} {{" if is_enum else "enum {")
         for value_name, value in data_type.values.items():
             yield f"\t{self._free(value_name)} = {_integer(value)},"
-        yield f"}} {name};"
+        yield f"}} {name};" if is_enum else "};"
+        if not is_enum:
+            yield f"typedef {self._declarator(data_type.base, name)};"
 
     def _struct(self, data_type: StructType[object]) -> Iterator[str]:
         name = self._name(data_type)

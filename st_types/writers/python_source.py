@@ -29,7 +29,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import ELEMENTARY, DataType, ElementaryType
+from st_types.types.elementary import DINT, ELEMENTARY, DataType, ElementaryType
 from st_types.types.values import decode, initial_image
 
 if TYPE_CHECKING:
@@ -234,9 +234,12 @@ class PythonModule:
         return f"{name} = {value}"
 
     def _enumeration(self, data_type: EnumerationType[object]) -> str:
-        if any(name in _RESERVED or name.startswith("_") for name in data_type.values):
+        is_dint = data_type.base is DINT
+        is_reserved = any(key in _RESERVED or key.startswith("_") for key in data_type.values)
+        if is_reserved or not is_dint:
             made = self._use("EnumerationType", "st_types.types.derived")
-            value = f"{made}[int]({data_type.name!r}, {dict(data_type.values)!r})"
+            of = "" if is_dint else f", base={self._use(data_type.base.name)}"
+            value = f"{made}[int]({data_type.name!r}, {dict(data_type.values)!r}{of})"
             return self._assignment(data_type, value)
         base = self._use("IntEnum", "enum")
         name = self._name(data_type)

@@ -15,7 +15,6 @@ from plcsim.library.sys_lib.interface import (
     ERR_BUR_ILLPTR,
     ERR_BUR_NOENTRY,
     ERR_BUR_TOOLONG_PVNAME,
-    SYSLIB_IEC_TYPE_DINT,
     SYSLIB_IEC_TYPE_STRING,
     SYSLIB_IEC_TYPE_UDINT,
     SYSLIB_IEC_TYPE_USER_DEFINED,
@@ -94,9 +93,7 @@ def type_code(data_type: DataType[Any]) -> int:
             return SYSLIB_IEC_TYPE_STRING
         case WStringType():
             return SYSLIB_IEC_TYPE_WSTRING
-        case EnumerationType():
-            return SYSLIB_IEC_TYPE_DINT
-        case SubrangeType(base=base):
+        case SubrangeType(base=base) | EnumerationType(base=base):
             return type_code(base)
         case ReferenceType():
             return SYSLIB_IEC_TYPE_UDINT

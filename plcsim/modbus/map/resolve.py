@@ -47,10 +47,8 @@ def code_of(data_type: DataType[Any]) -> str | None:
             return "?"
         case ElementaryType(code=code):
             return code
-        case SubrangeType(base=base):
+        case SubrangeType(base=base) | EnumerationType(base=base):
             return base.code
-        case EnumerationType():
-            return "i"
         case ReferenceType():
             return "I"
         case StringType():

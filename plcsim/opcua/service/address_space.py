@@ -10,6 +10,7 @@ from asyncua.common.structures104 import new_enum
 from plcsim.opcua.model import Branch
 from plcsim.opcua.service.values import VariableCodec
 from st_types.types.derived import EnumerationType
+from st_types.types.elementary import DINT
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -132,7 +133,7 @@ class Nodes:
 
     async def _data_type(self, codec: VariableCodec) -> ua.NodeId:
         element = codec.leaf.element
-        if not isinstance(element, EnumerationType):
+        if not isinstance(element, EnumerationType) or element.base is not DINT:
             return codec.builtin.data_type
         if element.name not in self._enumerations:
             fields: list[str | ua.EnumField] = [

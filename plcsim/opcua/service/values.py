@@ -88,10 +88,8 @@ class BuiltinType(NamedTuple):
 def builtin_of(data_type: DataType[Any]) -> BuiltinType:
     """Return how OPC UA has a type that is no ARRAY and no STRUCT."""
     match data_type:
-        case SubrangeType(base=base):
+        case SubrangeType(base=base) | EnumerationType(base=base):
             return builtin_of(base)
-        case EnumerationType():
-            variant = _VARIANT.Int32
         case ReferenceType():
             variant = _VARIANT.UInt32
         case StringType() | WStringType():

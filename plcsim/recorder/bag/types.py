@@ -238,8 +238,6 @@ def _std_msgs(kind: DataType[Any]) -> tuple[str, Callable[[bytes], bytes] | None
             return "Bool", None
         if kind.kind is Kind.REAL:
             return _NAMES[kind.code], None
-    base = kind.base if isinstance(kind, SubrangeType) else kind
-    is_signed = isinstance(kind, EnumerationType)
-    if isinstance(base, ElementaryType):
-        is_signed = base.code.islower()
+    base = kind.base if isinstance(kind, SubrangeType | EnumerationType) else kind
+    is_signed = isinstance(base, ElementaryType) and base.code.islower()
     return f"{'' if is_signed else 'U'}Int{8 * kind.size}", None

@@ -41,9 +41,9 @@ def code_of(data_type: DataType[Any]) -> str:
     Raises:
         PlcError: it has no number.
     """
-    if isinstance(data_type, EnumerationType):
-        return "<i4"
-    base = data_type.base if isinstance(data_type, SubrangeType) else data_type
+    base: DataType[Any] = data_type
+    if isinstance(data_type, SubrangeType | EnumerationType):
+        base = data_type.base
     if isinstance(base, ElementaryType):
         return f"<{base.code}"
     raise PlcError(f"{data_type} cannot be traced; name its parts")

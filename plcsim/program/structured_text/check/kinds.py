@@ -127,7 +127,9 @@ def plain(data_type: Type) -> Type:
 
 
 def number_type(data_type: Type) -> ElementaryType[Any]:
-    """Return the elementary type of a number or a time; that of an enumeration is DINT."""
+    """Return the elementary type of a number or a time; that of an enumeration is its base."""
+    if isinstance(data_type, EnumerationType):
+        return data_type.base
     return data_type if isinstance(data_type, ElementaryType) else DINT
 
 
@@ -173,7 +175,7 @@ _COMMON: Final[Mapping[tuple[Type, Type], ElementaryType[Any]]] = {
 def common_number(a: Type, b: Type) -> ElementaryType[Any]:
     """Return the type of an operation on two numbers.
 
-    An enumeration counts as a DINT, a BOOL as the byte that it is.
+    An enumeration counts as its base, a BOOL as the byte that it is.
     """
     found = _COMMON.get((a, b))
     return found if found is not None else _COMMON[number_type(a), number_type(b)]
@@ -225,7 +227,7 @@ _FITS: Final[Mapping[tuple[Type, Type], Fit]] = {
 def elementary_fit(source: Type, target: Type) -> Fit | None:
     """Return how a value of one elementary type goes into another, None for other types.
 
-    An enumeration counts as a DINT; for constants see `plcsim.program.structured_text.check.fits`.
+    An enumeration counts as its base; `plcsim.program.structured_text.check.fits` has constants.
     """
     found = _FITS.get((source, target))
     if found is None and (
@@ -236,7 +238,7 @@ def elementary_fit(source: Type, target: Type) -> Fit | None:
 
 
 def _as_number(data_type: Type) -> Type:
-    return DINT if isinstance(data_type, EnumerationType) else data_type
+    return data_type.base if isinstance(data_type, EnumerationType) else data_type
 
 
 DATES: Final = frozenset([DATE, TIME_OF_DAY, DATE_AND_TIME, LDATE, LTIME_OF_DAY, LDATE_AND_TIME])

@@ -10,6 +10,7 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import located
 from plcsim.program.structured_text.check.kinds import ANY_REAL, TypeKind, kind_of
+from st_types.types.derived import EnumerationType
 from st_types.types.elementary import (
     BOOL,
     BYTE,
@@ -62,7 +63,9 @@ SCALARS: Final = frozenset(
 
 
 def width_of(data_type: Type) -> ir.Width:
-    """Return how a scalar lies in memory; an enumeration, a time and an address take 32 bits."""
+    """Return how a scalar lies in memory; a time and an address take 32 bits."""
+    if isinstance(data_type, EnumerationType):
+        data_type = data_type.base
     return _WIDTHS.get(data_type, "w32")
 
 

@@ -444,8 +444,12 @@ def test_an_unknown_name_is_a_warning_and_strictly_an_error() -> None:
         ("TYPE A : ARRAY[0..1/0] OF INT; END_TYPE", ["1:20: error: division by zero"]),
         ("TYPE A : (); END_TYPE", ["1:10: warning: the enumeration has no values"]),
         (
-            "TYPE A : USINT (x, y); B : (x) DINT; END_TYPE",
-            ["1:10: warning: an enumeration is a DI"],
+            "TYPE A : REAL (x, y); B : (x) DINT; END_TYPE",
+            ["1:10: error: an enumeration is an integer, REAL is none"],
+        ),
+        (
+            "TYPE A : (x := 255, y) USINT; B : (z := 256) USINT; END_TYPE",
+            ["1:41: error: 256 is outside 0..255 of USINT"],
         ),
         ("VAR CONSTANT A : INT := B; B : INT := A; END_VAR", ["1:25: error: B depends on itself"]),
         ("VAR CONSTANT A : INT := SIZEOF(x); END_VAR", ["1:31: warning: the value is not known"]),
