@@ -18,6 +18,7 @@ from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
 from plcsim.program.setup import make_controller as controller_of
+from tests.processes import processes, told_by
 
 MS = 1_000_000
 
@@ -31,6 +32,20 @@ def pytest_runtest_call():
     signals = sys.modules.get("plcsim.machine.signals")
     if signals is not None:
         signals.set_again()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    """Tell with a failure what its processes did and wrote; they still run."""
+    report = yield
+    if report.failed:
+        for title, text in (
+            ("the process", told_by(call.excinfo.value)),
+            ("processes", processes()),
+        ):
+            if text:
+                report.sections.append((title, text))
+    return report
 
 
 settings.register_profile("plcsim", deadline=None)  # how long it takes is not what tests ask

@@ -48,14 +48,25 @@ def last_resort(
     if errors_fd is None or not can_be_limited():
         yield
         return
-    pipe = _reader(errors_fd)
-    pipe.write(f"{json.dumps([str(folder), text])}\n")
-    pipe.flush()
+    order = f"{json.dumps([str(folder), text])}\n"
+    try:
+        pipe = _told(order, errors_fd)
+    except BrokenPipeError:  # somebody has ended the reader
+        del _readers[os.getpid(), errors_fd]
+        pipe = _told(order, errors_fd)
     faulthandler.dump_traceback_later(limit_ns / 1e9 + PATIENCE_S, exit=True, file=pipe)
     try:
         yield
     finally:
         faulthandler.cancel_dump_traceback_later()
+
+
+def _told(order: str, errors_fd: int) -> TextIO:
+    """Give an order to the reader, and return the pipe to it."""
+    pipe = _reader(errors_fd)
+    pipe.write(order)
+    pipe.flush()
+    return pipe
 
 
 def _reader(errors_fd: int) -> TextIO:

@@ -16,7 +16,7 @@ import pytest
 
 from plcsim.core.errors import PlcError
 from plcsim.core.system import State
-from plcsim.process import watchdog
+from plcsim.process import supervisor, watchdog
 from plcsim.process.run_file import find_run
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
@@ -235,18 +235,21 @@ def stops_asleep(supervised):
     return is_asleep
 
 
-@pytest.mark.parametrize("limits", [{"for_ns": 50 * MS}, {}])
-def test_a_scan_that_was_stopped_in_its_sleep_is_ended(program, supervise, limits):
+@pytest.mark.parametrize("is_over", [True, False])
+def test_a_scan_that_was_stopped_in_its_sleep_is_ended(program, supervise, monkeypatch, is_over):
     """After the end that was asked for at once, otherwise after ``init_timeout``."""
+    monkeypatch.setattr(supervisor, "DUMP_POLLS", 1)  # it cannot tell where it is
     stopped = []
 
     def look(supervised):
         if not stopped and supervised.page.of_class(1).cycles > 2 and stops_asleep(supervised):
             stopped.append(supervised)
+            if is_over:
+                supervised._for_ns = 1  # the scan has more, or it might have ended by itself
 
-    fault = supervise(program(cyclic="pass"), look, **limits)["fault"]
+    fault = supervise(program(cyclic="pass"), look, for_ns=100_000 * MS)["fault"]
     assert (fault["program"], fault["unit"]) == ("scan", "")
-    limit = "400 ms" if limits else "610 ms"
+    limit = "400 ms" if is_over else "610 ms"
     assert fault["text"] == f"the scan did not go on for {limit}; no program was active"
 
 

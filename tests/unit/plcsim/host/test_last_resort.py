@@ -69,3 +69,21 @@ with last_resort.last_resort(10**12, Path("/"), "does not return"):
 
 def test_who_is_debugged_is_left_alone():
     assert run(WITHOUT_LIMIT).stderr == ""
+
+
+KILLED_READER = """
+import os, signal, sys
+from pathlib import Path
+from plcsim.host import last_resort
+for _ in range(2):
+    with last_resort.last_resort(10**12, Path("/"), "does not return"):
+        pass
+    (reader,) = map(int, Path(f"/proc/self/task/{os.getpid()}/children").read_text().split())
+    os.kill(reader, signal.SIGKILL)
+    os.waitpid(reader, 0)
+"""
+
+
+def test_a_reader_that_was_ended_is_started_again():
+    done = run(KILLED_READER)
+    assert (done.returncode, done.stderr) == (0, "")
