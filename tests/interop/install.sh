@@ -3,10 +3,11 @@
 # it). Each part is a script of its own beside its tests.
 set -euo pipefail
 cd "$(dirname "$0")"
+. ./downloads.sh
 
 export DEBIAN_FRONTEND=noninteractive
-apt-get update -qq
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends netcat-openbsd gcc gcc-multilib zsh fish >/dev/null
+try apt-get -o Acquire::Retries=3 update -qq
+apt_install netcat-openbsd gcc gcc-multilib zsh fish
 for part in */install.sh; do
     if [ -x "$part" ]; then "$part"; fi
 done

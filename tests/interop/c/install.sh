@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the compilers that units in C are compared with: gcc for 32 bits, clang and lld of Debian.
 set -euo pipefail
+. "$(dirname "$0")/../downloads.sh"
 
 export DEBIAN_FRONTEND=noninteractive
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends \
-  gcc gcc-multilib clang lld >/dev/null
+apt_install gcc gcc-multilib clang lld

@@ -3,11 +3,10 @@
 # jsmodbus and Node-RED with node-red-contrib-modbus from npm. FUXA is a manual test: fuxa.sh.
 set -euo pipefail
 cd "$(dirname "$0")"
+. ../downloads.sh
 
 export DEBIAN_FRONTEND=noninteractive
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends \
-  gcc libc6-dev libmodbus-dev mbpoll pkg-config >/dev/null
-command -v npm >/dev/null || apt-get -o DPkg::Lock::Timeout=300 install -y -qq \
-  --no-install-recommends nodejs npm >/dev/null
+apt_install gcc libc6-dev libmodbus-dev mbpoll pkg-config
+command -v npm >/dev/null || apt_install nodejs npm
 # no install scripts: the serial port's native part is not needed for TCP
-cd peers && npm install --no-audit --no-fund --ignore-scripts --no-package-lock --loglevel=error
+cd peers && npm_install

@@ -2,6 +2,7 @@
 # Installs ROS 1 from Debian's own packages: master, rospy, roscpp, the command-line tools and the
 # common messages. No third-party source.
 set -euo pipefail
+. "$(dirname "$0")/../downloads.sh"
 export DEBIAN_FRONTEND=noninteractive
 
 tools=(rosout topic-tools python3-{roslaunch,rosmaster,rospy,rostopic,rosservice,rosnode,rosparam}
@@ -13,5 +14,4 @@ messages=(python3-std-msgs python3-std-srvs ros-std-msgs ros-std-srvs ros-roscpp
   libstd-msgs-dev libstd-srvs-dev libgeometry-msgs-dev libsensor-msgs-dev)
 for name in "${common[@]}"; do messages+=("python3-$name-msgs" "ros-$name-msgs"); done
 
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends \
-  g++ pkg-config "${tools[@]}" "${messages[@]}" >/dev/null
+apt_install g++ pkg-config "${tools[@]}" "${messages[@]}"

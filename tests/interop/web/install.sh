@@ -3,10 +3,10 @@
 # axe-core from npm, which judges contrast and names of controls.
 set -euo pipefail
 cd "$(dirname "$0")"
+. ../downloads.sh
 
 export DEBIAN_FRONTEND=noninteractive
-apt-get -o DPkg::Lock::Timeout=300 install -y -qq --no-install-recommends chromium >/dev/null
-command -v npm >/dev/null || apt-get -o DPkg::Lock::Timeout=300 install -y -qq \
-  --no-install-recommends nodejs npm >/dev/null
-python3 -m pip install --quiet --disable-pip-version-check "playwright>=1.50"
-cd peers && npm install --no-audit --no-fund --ignore-scripts --no-package-lock --loglevel=error
+apt_install chromium
+command -v npm >/dev/null || apt_install nodejs npm
+try python3 -m pip install --quiet --disable-pip-version-check "playwright>=1.50"
+cd peers && npm_install
