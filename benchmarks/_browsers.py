@@ -1,9 +1,10 @@
 """Browsers that watch 200 tags ten times a second; one of them traces 8 tags in every cycle.
 
-python _browsers.py PORT COUNT SECONDS
+python _browsers.py PORT COUNT
 
-Prints one line of JSON: messages/s of a browser, samples of the trace, how many are missing by
-their cycle numbers, and how many the page says are lost.
+Prints "ready" when all of them see values, and when stdin is closed one line of JSON: messages/s of
+a browser, samples of the trace, how many are missing by their cycle numbers, and how many the
+page says are lost.
 """
 
 from __future__ import annotations
@@ -30,23 +31,18 @@ class Browser:
         self._port = port
         self._traces = traces
         self.messages = 0
-        self.seconds = 0.0
+        self.sees = asyncio.Event()
         self.cycles: list[int] = []
         self.lost = 0
 
-    async def run(self, seconds: float) -> None:
-        """Look for so long, from the first value on."""
+    async def run(self) -> None:
+        """Look until cancelled."""
         url, origin = f"ws://127.0.0.1:{self._port}/live", f"http://127.0.0.1:{self._port}"
         async with connect(url, origin=origin, max_size=None, compression="deflate") as socket:
             await socket.send(json.dumps({"id": 1, "do": "watch", "tags": WATCHED}))
             if self._traces:
                 await socket.send(json.dumps({"id": 2, "do": "trace", "tags": TRACE}))
-            started_s = time.monotonic()
-            try:
-                async with asyncio.timeout(seconds):
-                    await self._listen(socket)
-            except TimeoutError:
-                self.seconds = time.monotonic() - started_s
+            await self._listen(socket)
 
     async def _listen(self, socket: ClientConnection) -> None:
         while True:
@@ -55,8 +51,9 @@ class Browser:
                 _, count, _, self.lost = struct.unpack_from("<IIII", message)
                 cycles = struct.unpack_from(f"<{count}d", message, 16 + 8 * count)
                 self.cycles += map(int, cycles)
-            else:
-                self.messages += json.loads(message).get("push") == "values"
+            elif json.loads(message).get("push") == "values":
+                self.messages += 1
+                self.sees.set()
 
     @property
     def missing(self) -> int:
@@ -64,13 +61,25 @@ class Browser:
         return self.cycles[-1] - self.cycles[0] + 1 - len(self.cycles) if self.cycles else -1
 
 
-async def main(port: int, count: int, seconds: float) -> None:
+async def main(port: int, count: int) -> None:
     """Be all browsers, and print what they saw."""
     browsers = [Browser(port, traces=number == 0) for number in range(count)]
-    await asyncio.gather(*(browser.run(seconds) for browser in browsers))
+    async with asyncio.TaskGroup() as group:
+        tasks = [group.create_task(browser.run()) for browser in browsers]
+        for browser in browsers:
+            await browser.sees.wait()
+        print("ready", flush=True)
+        before, started_s = [browser.messages for browser in browsers], time.monotonic()
+        await asyncio.to_thread(sys.stdin.read)
+        took_s = time.monotonic() - started_s
+        for task in tasks:
+            task.cancel()
     tracing = browsers[0]
     found = {
-        "updates_per_s": min(b.messages / b.seconds for b in browsers),
+        "updates_per_s": min(
+            (browser.messages - first) / took_s
+            for browser, first in zip(browsers, before, strict=True)
+        ),
         "samples": len(tracing.cycles),
         "missing": tracing.missing,
         "lost": tracing.lost,
@@ -79,4 +88,4 @@ async def main(port: int, count: int, seconds: float) -> None:
 
 
 if __name__ == "__main__":
-    asyncio.run(main(int(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3])))
+    asyncio.run(main(int(sys.argv[1]), int(sys.argv[2])))
