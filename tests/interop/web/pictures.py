@@ -75,9 +75,10 @@ STEPS = {
 
 
 def _project(folder: Path) -> Path:
-    """Return the project of the tests without what is there to be hostile."""
+    """Return the project of the tests with real-time rights, without what is there to be hostile."""
     file = make_project(folder) / "plc.toml"
-    file.write_text(file.read_text().replace("<b>press</b>", "press"))
+    text = file.read_text().replace('realtime = "off"', 'realtime = "auto"')
+    file.write_text(text.replace("<b>press</b>", "press"))
     source = folder / "drive" / "Main.st"
     source.write_text(source.read_text().replace("<img src=x onerror=document.title=1>", "left"))
     shutil.copytree(ROOT / "programs" / "tcp_server_st" / "thesis_server", folder / "server")

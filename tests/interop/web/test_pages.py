@@ -345,6 +345,10 @@ def test_pages_are_accessible(browser, press, axe, mode):
         ]
         width = page.evaluate("document.documentElement.scrollWidth")
         assert width <= size["width"], f"{name} is wider than the screen"
+        link = page.locator("#nav a[aria-current]").bounding_box()
+        assert link is not None
+        assert link["x"] >= 0, name
+        assert link["x"] + link["width"] <= size["width"], name
     context.close()
     assert not found
 
