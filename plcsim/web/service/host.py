@@ -11,7 +11,15 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
-_POLICIES: Final = {os.SCHED_OTHER: "other", os.SCHED_FIFO: "FIFO", os.SCHED_RR: "round robin"}
+PROC: Final = Path("/proc")
+
+_POLICIES: Final = {
+    os.SCHED_OTHER: "other",
+    os.SCHED_FIFO: "FIFO",
+    os.SCHED_RR: "round robin",
+    os.SCHED_BATCH: "batch",
+    os.SCHED_IDLE: "idle",
+}
 _TICKS: Final = os.sysconf("SC_CLK_TCK")
 _PAGE: Final = os.sysconf("SC_PAGE_SIZE")
 _PACKAGES: Final = ("plcsim", "wasmtime", "numpy", "pymodbus", "starlette", "uvicorn", "websockets")
@@ -35,7 +43,7 @@ def processes(supervisor: int, names: dict[int, str]) -> list[dict[str, Any]]:
 def _children(pid: int) -> list[int]:
     """Return the processes that one has started, by whichever of its threads."""
     found: list[int] = []
-    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+    for task in (PROC / f"{pid}/task").glob("*/children"):
         with contextlib.suppress(OSError, ValueError):
             found += map(int, task.read_text().split())
     return found
@@ -44,25 +52,34 @@ def _children(pid: int) -> list[int]:
 def _process(pid: int, name: str) -> dict[str, Any] | None:
     """Return what is known of a process, None where it has gone."""
     try:
-        stat = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-        words = Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+        stat = (PROC / f"{pid}/stat").read_text().rpartition(")")[2].split()
+        words = (PROC / f"{pid}/cmdline").read_bytes().split(b"\0")
         status = dict(
-            line.split(":", 1) for line in Path(f"/proc/{pid}/status").read_text().splitlines()
+            line.split(":", 1) for line in (PROC / f"{pid}/status").read_text().splitlines()
         )
-        policy = os.sched_getscheduler(pid)
-        priority = os.sched_getparam(pid).sched_priority
+        policy = _policy(pid)
     except OSError:
         return None
+    resident = int(stat[21]) * _PAGE
+    # a process that locks what it has locks addresses, too, behind which there is no memory yet
+    locked = min(resident, int(status.get("VmLck", "0 kB").split()[0]) * 1024)
     return {
         "pid": pid,
         "name": name or _name(words),
         "cpu_s": (int(stat[11]) + int(stat[12])) / _TICKS,
-        "rss": int(stat[21]) * _PAGE,
-        "locked": int(status.get("VmLck", "0 kB").split()[0]) * 1024,
-        "policy": _POLICIES.get(policy, str(policy)) + (f" {priority}" if priority else ""),
+        "rss": resident,
+        "locked": locked,
+        "policy": policy,
         "cpus": status.get("Cpus_allowed_list", "").strip(),
         "threads": int(stat[17]),
     }
+
+
+def _policy(pid: int) -> str:
+    """Return how a process is scheduled, with its priority where that counts (sched(7))."""
+    policy = os.sched_getscheduler(pid) & ~os.SCHED_RESET_ON_FORK
+    priority = os.sched_getparam(pid).sched_priority
+    return _POLICIES.get(policy, str(policy)) + (f" {priority}" if priority else "")
 
 
 def _name(words: list[bytes]) -> str:

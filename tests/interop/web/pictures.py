@@ -75,7 +75,7 @@ STEPS = {
 
 
 def _project(folder: Path) -> Path:
-    """Return the project of the tests with real-time rights, without what is there to be hostile."""
+    """Return the project of the tests with rights, without what is there to be hostile."""
     file = make_project(folder) / "plc.toml"
     text = file.read_text().replace('realtime = "off"', 'realtime = "auto"')
     file.write_text(text.replace("<b>press</b>", "press"))
