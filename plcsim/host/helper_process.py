@@ -10,10 +10,12 @@ import os
 import signal
 import sys
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+
+_NUMBER_BYTES: Final = 4
 
 
 def can_help() -> bool:
@@ -27,6 +29,40 @@ def can_help() -> bool:
 def is_alone() -> bool:
     """Whether a copy of this process can work, if beside it or while it waits."""
     return len(sys._current_frames()) == 1 and sys.gettrace() is None
+
+
+class SharedNumbers:
+    """The numbers from 0 on, which this process and copies of it take: each is taken once.
+
+    They stand in a file without a name, whose offset the copies share.
+
+    Args:
+        count: of the numbers.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._fd = os.memfd_create("numbers")
+        with os.fdopen(os.dup(self._fd), "wb") as file:
+            file.writelines(n.to_bytes(_NUMBER_BYTES, "little") for n in range(count))
+        os.lseek(self._fd, 0, os.SEEK_SET)
+
+    def __iter__(self) -> Iterator[int]:
+        """Take numbers until there are no more."""
+        while taken := os.read(self._fd, _NUMBER_BYTES):  # the kernel gives each to one process
+            yield int.from_bytes(taken, "little")
+
+    @property
+    def taken(self) -> int:
+        """How many are taken, here and elsewhere."""
+        return os.lseek(self._fd, 0, os.SEEK_CUR) // _NUMBER_BYTES
+
+    def __enter__(self) -> SharedNumbers:
+        """Return these numbers."""
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        """Forget them; copies of this process keep theirs."""
+        os.close(self._fd)
 
 
 @contextmanager

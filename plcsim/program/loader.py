@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import itertools
 import os
-from contextlib import suppress
+import time
+from contextlib import ExitStack, suppress
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
-from plcsim.host.helper_process import can_help, helper_process
+from plcsim.host.helper_process import SharedNumbers, can_help, helper_process
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import files_in
@@ -63,8 +64,11 @@ NOT_THERE: Final = {
 DIALECTS: Final = {"automation-studio": AUTOMATION_STUDIO, "iec": IEC}
 """Dialects of Structured Text by their names in plc.toml."""
 
-FEWEST_FOR_HELP: Final = 4
-"""Programs that are worth a second process."""
+FEWEST_FOR_HELP: Final = 8
+"""Programs and libraries that are worth a second process."""
+
+LONGEST_KNOWN_S: Final = 0.05
+"""What takes longer to load was not in the cache: more of it is worth a second process."""
 
 _counter = itertools.count(1)
 
@@ -191,12 +195,12 @@ class ProgramLoader:
 
     def _load_declared(self, declared: Loaded) -> Loaded:
         """Load the programs whose declarations are right."""
+        names = [name for name in self._layout.programs if name not in declared.failures]
+        found = self._load_all(names)
         common = Findings()
         for library in self.declarations.own_libraries:
             with common.gathered():
                 self._check_bodies(library)
-        names = [name for name in self._layout.programs if name not in declared.failures]
-        found = self._load_all(names)
         codes: dict[str, ProgramCode] = {}
         failures = dict(declared.failures)
         for name in names:
@@ -212,43 +216,45 @@ class ProgramLoader:
     def _load_all(self, names: Sequence[str]) -> Mapping[str, ProgramCode | tuple[str, ...]]:
         """Return programs, or what is wrong in them, by name.
 
-        A helper process compiles half of them, which are in the cache when they are loaded here.
+        A helper process compiles about half of them, and of the libraries; they are in the cache
+        when they are loaded here.
         """
-        others = self._half(names) if can_help() else []
-        if len(others) < FEWEST_FOR_HELP:
-            return self._try_each(names, 0, len(names))
-        first = [name for name in names if name not in set(others)]
-        with helper_process(lambda: [self._tried(name) for name in others]) as wait:
-            found = self._try_each(first, 0, len(names))
-            wait()
-        return {**found, **self._try_each(others, len(first), len(names))}
+        compiled = self._compiled(names)
+        libraries = self.declarations.own_libraries
+        jobs: list[Library | str] = [*libraries, *compiled]
+        found: dict[str, ProgramCode | tuple[str, ...]] = {}
+        done = len(names) - len(compiled) - len(libraries)
+        with ExitStack() as stack:
+            numbers = stack.enter_context(SharedNumbers(len(jobs)))
+            wait = None
+            for number in numbers:
+                start = time.perf_counter()
+                self._do(jobs[number], found)
+                self._progress(max(0, done + numbers.taken), len(names))
+                is_slow = time.perf_counter() - start > LONGEST_KNOWN_S
+                if is_slow and wait is None and len(jobs) >= FEWEST_FOR_HELP and can_help():
+                    helping = helper_process(lambda: [self._do(jobs[n], {}) for n in numbers])
+                    wait = stack.enter_context(helping)
+            if wait is not None:
+                wait()
+        return {**found, **{name: self._tried(name) for name in names if name not in found}}
 
-    def _try_each(
-        self, names: Sequence[str], done: int, total: int
-    ) -> dict[str, ProgramCode | tuple[str, ...]]:
-        """Return some of the programs, of which ``done`` others came before."""
-        found = {}
-        for count, name in enumerate(names, done + 1):
-            found[name] = self._tried(name)
-            self._progress(count, total)
-        return found
+    def _do(self, job: Library | str, found: dict[str, ProgramCode | tuple[str, ...]]) -> None:
+        """Load a program by its name, or the bodies of a library."""
+        if isinstance(job, str):
+            found[job] = self._tried(job)
+            return
+        with suppress(ConfigurationError):  # `_check_bodies` tells it
+            self.declarations.catalogue.bodies(job)
 
-    def _half(self, names: Sequence[str]) -> list[str]:
-        """Return the programs with half of the text of those whose code a cache keeps."""
+    def _compiled(self, names: Sequence[str]) -> list[str]:
+        """Return the programs whose code a cache keeps, the longest first."""
         sizes = {}
         for name in names:
             files = self._layout.programs[name].own.files
             if any(each.units(files) for each in self._languages if each.is_compiled):
                 sizes[name] = sum(_size(file) for file in files)
-        half: list[str] = []
-        balance = 0
-        for name in sorted(sizes, key=lambda name: (-sizes[name], name)):
-            if balance > 0:
-                half.append(name)
-                balance -= sizes[name]
-            else:
-                balance += sizes[name]
-        return half
+        return sorted(sizes, key=lambda name: (-sizes[name], name))
 
     def _tried(self, name: str) -> ProgramCode | tuple[str, ...]:
         """Return a program, or what is wrong in it."""

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from plcsim.host.helper_process import can_help, helper_process
+from plcsim.host.helper_process import SharedNumbers, can_help, helper_process
 
 
 def test_it_works_beside_and_its_end_can_be_waited_for(tmp_path):
@@ -67,3 +67,17 @@ def test_one_processor_or_several_threads_have_no_helper(monkeypatch):
     monkeypatch.setattr("sys._current_frames", lambda: {1: None})
     monkeypatch.setattr(os, "sched_getaffinity", lambda _pid: {0})
     assert not can_help()
+
+
+def test_copies_take_each_number_once(tmp_path):
+    with SharedNumbers(300) as numbers:
+        with helper_process(
+            lambda: (tmp_path / "there").write_text(" ".join(map(str, numbers)))
+        ) as wait:
+            here = [*numbers]
+            wait()
+        there = [int(number) for number in (tmp_path / "there").read_text().split()]
+        assert numbers.taken == 300
+    assert sorted(here + there) == [*range(300)]
+    assert here == sorted(here)
+    assert there == sorted(there)
