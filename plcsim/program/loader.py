@@ -6,7 +6,7 @@ import itertools
 import os
 import time
 from contextlib import ExitStack, suppress
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
@@ -29,7 +29,7 @@ from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
     from plcsim.library.executable import BodyLanguage
@@ -233,8 +233,7 @@ class ProgramLoader:
                 self._progress(max(0, done + numbers.taken), len(names))
                 is_slow = time.perf_counter() - start > LONGEST_KNOWN_S
                 if is_slow and wait is None and len(jobs) >= FEWEST_FOR_HELP and can_help():
-                    helping = helper_process(lambda: [self._do(jobs[n], {}) for n in numbers])
-                    wait = stack.enter_context(helping)
+                    wait = stack.enter_context(helper_process(partial(self._help, jobs, numbers)))
             if wait is not None:
                 wait()
         return {**found, **{name: self._tried(name) for name in names if name not in found}}
