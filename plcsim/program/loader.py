@@ -238,6 +238,11 @@ class ProgramLoader:
                 wait()
         return {**found, **{name: self._tried(name) for name in names if name not in found}}
 
+    def _help(self, jobs: Sequence[Library | str], numbers: Iterable[int]) -> None:
+        """Do jobs in a copy of this process, for the caches."""
+        for number in numbers:
+            self._do(jobs[number], {})
+
     def _do(self, job: Library | str, found: dict[str, ProgramCode | tuple[str, ...]]) -> None:
         """Load a program by its name, or the bodies of a library."""
         if isinstance(job, str):
