@@ -95,6 +95,10 @@ def variable_type(
         return None
 
 
+MODULE_OK: Final = "ModuleOk"
+"""The channel by which an I/O module says that it is there and works."""
+
+
 class _Ends(NamedTuple):
     """The ends of the lines of a map, found on a controller, and what is not there."""
 
@@ -122,7 +126,25 @@ def connect(controller: Controller, maps: Maps) -> list[str]:
         _add_copy(controller, classes, copy, ends)
     if ends.inputs or ends.outputs or ends.copies:
         IoImage(controller, ends.inputs, ends.outputs, ends.copies)
-    return ends.notes
+    return [*ends.notes, *_module_states(controller, maps)]
+
+
+def _module_states(controller: Controller, maps: Maps) -> list[str]:
+    """Let modules say at each boot that they are there: programs wait for it; return the note."""
+    names = [names_of(each) for each in maps.channels if each.direction == "I"]
+    paths = dict.fromkeys(".".join((CHANNELS, *each)) for each in names if each[-1] == MODULE_OK)
+    found = [tag for tag in map(controller.tags.get, paths) if tag is not None]
+    memory = controller.memory
+
+    def reset() -> None:
+        for tag in found:
+            memory.write(tag.address, b"\x01")
+
+    if not found:
+        return []
+    memory.at_boot(reset)
+    modules = f"{len(found)} modules" if len(found) > 1 else "1 module"
+    return [f"{MODULE_OK} of {modules} is simulated: TRUE"]
 
 
 def _add_channel(controller: Controller, classes: _Classes, channel: Channel, ends: _Ends) -> None:

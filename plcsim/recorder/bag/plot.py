@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 
 WIDTH: Final = 1000
 LEFT: Final = 190
+CHARACTER: Final = 7
+"""Pixels of a character, at most on the average."""
+NAMES: Final = LEFT - 60
+"""Pixels that names have beside the numbers; longer ones make the picture wider."""
 RIGHT: Final = 20
 LANE: Final = 96
 DIGITAL_LANE: Final = 44
@@ -37,21 +41,27 @@ def draw(series: Sequence[Series], title: str) -> str:
         title: above the lanes.
     """
     end_ns = max(1, *(each.points[-1][0] for each in series))
+    more = more_width(series)
     parts: list[str] = []
     top = HEAD
     for number, each in enumerate(series):
         height = DIGITAL_LANE if isinstance(each.points[0][1], bool) else LANE
         colour = COLOURS[number % len(COLOURS)]
-        parts += _lane(each, top, height, end_ns, colour)
+        parts += _lane(each, top, height, end_ns, colour, 8 - more)
         top += height + GAP
     height = top + FOOT
     head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" '
-        f'width="{WIDTH}" height="{height}"><style>{_STYLE}</style>'
-        f'<rect width="{WIDTH}" height="{height}" fill="#fff"/>'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-more} 0 {WIDTH + more} {height}" '
+        f'width="{WIDTH + more}" height="{height}"><style>{_STYLE}</style>'
+        f'<rect x="{-more}" width="{WIDTH + more}" height="{height}" fill="#fff"/>'
         f'<text x="{LEFT}" y="20">{escape(title)}</text>'
     )
     return head + "".join([*_grid(end_ns, top), *parts]) + "</svg>\n"
+
+
+def more_width(series: Sequence[Series]) -> int:
+    """Return how many pixels the names need beyond those that they have."""
+    return max(0, CHARACTER * max(len(each.tag.path) for each in series) - NAMES)
 
 
 def page(picture: str, title: str) -> str:
@@ -92,7 +102,9 @@ def _round_factors() -> Iterator[int]:
     yield from (each * 10**9 for each in seconds)
 
 
-def _lane(each: Series, top: int, height: int, end_ns: int, colour: str) -> Iterator[str]:
+def _lane(
+    each: Series, top: int, height: int, end_ns: int, colour: str, name_x: int
+) -> Iterator[str]:
     values = [value for _, value in each.points]
     low, high = float(min(values)), float(max(values))
     is_digital = isinstance(values[0], bool)
@@ -101,7 +113,7 @@ def _lane(each: Series, top: int, height: int, end_ns: int, colour: str) -> Iter
     yield (
         f'<rect class="f" x="{LEFT}" y="{top}" width="{WIDTH - LEFT - RIGHT}" height="{height}"/>'
     )
-    yield f'<text x="8" y="{top + height / 2 + 4}">{escape(each.tag.path)}</text>'
+    yield f'<text x="{name_x}" y="{top + height / 2 + 4}">{escape(each.tag.path)}</text>'
     if not is_digital:
         bounds = [(high, top + 12), (low, top + height - 4)]
         for value, y in bounds if high > low else [(low, top + height // 2 + 4)]:

@@ -16,6 +16,7 @@ from plcsim.recorder.bag.plot import (
     LEFT,
     RIGHT,
     WIDTH,
+    more_width,
     ticks_ns,
 )
 from plcsim.recorder.errors import RecordingError
@@ -48,17 +49,19 @@ def draw_png(series: Sequence[Series], title: str) -> bytes:
     end_ns = max(1, *(each.points[-1][0] for each in series))
     lanes = [DIGITAL_LANE if _is_digital(each) else LANE for each in series]
     height = HEAD + sum(lanes) + GAP * len(lanes) + FOOT
-    figure = Figure(figsize=(WIDTH / DPI, height / DPI), dpi=DPI, facecolor="white")
-    figure.text(LEFT / WIDTH, 1 - 20 / height, title, fontsize=9)
-    top, width = HEAD, (WIDTH - LEFT - RIGHT) / WIDTH
+    more = more_width(series)
+    left, whole = LEFT + more, WIDTH + more
+    figure = Figure(figsize=(whole / DPI, height / DPI), dpi=DPI, facecolor="white")
+    figure.text(left / whole, 1 - 20 / height, title, fontsize=9)
+    top, width = HEAD, (whole - left - RIGHT) / whole
     for number, (each, lane) in enumerate(zip(series, lanes, strict=True)):
         top += lane
-        box = (LEFT / WIDTH, 1 - top / height, width, lane / height)
+        box = (left / whole, 1 - top / height, width, lane / height)
         axes = figure.add_axes(box, facecolor="#fafafa")
         _draw_lane(axes, each, COLOURS[number % len(COLOURS)], end_ns)
         axes.tick_params(labelbottom=number == len(series) - 1, length=0, labelsize=8)
         figure.text(
-            8 / WIDTH, 1 - (top - lane / 2) / height, each.tag.path, fontsize=9, va="center"
+            8 / whole, 1 - (top - lane / 2) / height, each.tag.path, fontsize=9, va="center"
         )
         top += GAP
     written = BytesIO()

@@ -1,7 +1,17 @@
+import pytest
+
 from plcsim.project.automation_studio.io_channels import channels_type
 from plcsim.project.automation_studio.mapping import Channel, Pv
+from plcsim.testing.target import open_plc
 from st_types import BOOL, DINT, INT, REAL, UDINT, UINT
 
+MODULES_ARE_THERE = """
+PROGRAM _CYCLIC
+    IF a AND b THEN
+        good := good + 1;
+    END_IF
+END_PROGRAM
+"""
 TYPES = {"level": INT, "speed": REAL, "wide": DINT}
 
 
@@ -32,3 +42,35 @@ def test_a_channel_has_the_width_of_its_letter_and_the_type_of_its_variable():
 
 def test_no_channels_no_type():
     assert channels_type([], lambda _pv: None) is None
+
+
+@pytest.fixture
+def plc(project):
+    """A program that counts cycles in which two modules are there."""
+    folder = project(
+        {
+            "plc.toml": '[task_class.1]\nprograms = ["main"]\n[io]\nchannels = ["io.iom"]\n',
+            "main/Main.st": MODULES_ARE_THERE,
+            "main/Main.var": "VAR\na, b, c : BOOL;\ngood : UDINT;\nEND_VAR",
+            "io.iom": """VAR_CONFIG
+                ::main:a AT %IX."X20DI".ModuleOk;
+                ::main:b AT %IX."X20DO".ModuleOk;
+                ::main:c AT %IX."X20DI".DigitalInput01;
+                END_VAR""",
+        }
+    )
+    with open_plc(project=folder) as plc:
+        yield plc
+
+
+def test_modules_say_that_they_are_there_until_somebody_takes_them_out(plc):
+    plc.run("100ms")
+    assert (plc["main.a"], plc["main.b"], plc["main.c"]) == (True, True, False)
+    assert plc["main.good"] == 10
+    assert "ModuleOk of 2 modules is simulated: TRUE" in [e.text for e in plc.controller.logbook]
+    plc["IoMap.X20DO.ModuleOk"] = False
+    plc.run("100ms")
+    assert plc["main.good"] == 10
+    plc.restart()
+    plc.run("100ms")
+    assert plc["main.good"] == 10
