@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from plcsim.operator.settings import OperatorSettings
-from plcsim.operator.surroundings import Surroundings
+from plcsim.operator.simulation import OperatorSimulation
 from plcsim.project.extension import Attachment, Extension
 
 if TYPE_CHECKING:
@@ -27,12 +27,12 @@ class OperatorExtension(Extension):
 
     def attach(self, settings: OperatorSettings, controller: Controller) -> Attachment:
         """Let them act in LATCH."""
-        Surroundings(settings, controller).hook_in()
+        OperatorSimulation(settings, controller).hook_in()
         return Attachment()
 
     def check(self, settings: OperatorSettings, controller: Controller) -> tuple[str, ...]:
         """Check that the tags are there and take their values."""
-        Surroundings(settings, controller)
+        OperatorSimulation(settings, controller)
         return ()
 
 

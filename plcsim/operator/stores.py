@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from plcsim.core.tag import Tag
 
 
-class TagValue(NamedTuple):
+class GivenValue(NamedTuple):
     """A tag and a value of it.
 
     Attributes:
@@ -43,7 +43,7 @@ def tag_of(controller: Controller, path: str, field: str) -> Tag:
 
 def tag_values(
     controller: Controller, values: Mapping[str, object], field: str
-) -> tuple[TagValue, ...]:
+) -> tuple[GivenValue, ...]:
     """Return tags and their values.
 
     Raises:
@@ -58,9 +58,9 @@ def tag_values(
     return tuple(found)
 
 
-def _tag_value(tag: Tag, value: object, field: str) -> TagValue:
+def _tag_value(tag: Tag, value: object, field: str) -> GivenValue:
     try:
         data = encode_tag(tag, value)
     except TagError as err:
         raise ConfigurationError(f"plc.toml: {field}: {err}") from None
-    return TagValue(tag, data, decode(tag.data_type, data))
+    return GivenValue(tag, data, decode(tag.data_type, data))

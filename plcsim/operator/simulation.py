@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.logbook import Severity
-from plcsim.operator.stores import TagValue, tag_of, tag_values
+from plcsim.operator.stores import GivenValue, tag_of, tag_values
 
 if TYPE_CHECKING:
     from plcsim.core.controller import Controller
@@ -20,12 +20,12 @@ LOGGED: Final = 100
 BOOL: Final = "BOOL"
 
 
-class Step(NamedTuple):
+class OperatorStep(NamedTuple):
     """One step, its tags found; see `plcsim.operator.settings.StepSettings`."""
 
     after_ns: int
-    when: tuple[TagValue, ...]
-    values: tuple[TagValue, ...]
+    when: tuple[GivenValue, ...]
+    values: tuple[GivenValue, ...]
     hold_ns: int | None
 
     def text(self) -> str:
@@ -33,7 +33,7 @@ class Step(NamedTuple):
         return ", ".join(f"{each.tag.path} := {each.value!r}" for each in self.values)
 
 
-class Surroundings:
+class OperatorSimulation:
     """Sets the tags of a controller as somebody in front of it, and a plant, would.
 
     Its time is that of releases, so every run on the virtual clock, and a replay, is the same.
@@ -49,7 +49,7 @@ class Surroundings:
     def __init__(self, settings: OperatorSettings, controller: Controller) -> None:
         findings = Findings()
         self._controller = controller
-        self._inputs: tuple[TagValue, ...] = ()
+        self._inputs: tuple[GivenValue, ...] = ()
         self._followers: list[_Follower] = []
         steps = []
         with findings.gathered():
@@ -98,7 +98,7 @@ class Surroundings:
 class _Steps:
     """Steps, one after another."""
 
-    def __init__(self, steps: list[Step], controller: Controller, *, repeat: bool) -> None:
+    def __init__(self, steps: list[OperatorStep], controller: Controller, *, repeat: bool) -> None:
         self._all = steps
         self._controller = controller
         self._repeat = repeat
@@ -126,11 +126,11 @@ class _Steps:
         elif passed_ns >= step.after_ns and self._is_so(step.when):
             self._do(step, now_ns)
 
-    def _is_so(self, when: tuple[TagValue, ...]) -> bool:
+    def _is_so(self, when: tuple[GivenValue, ...]) -> bool:
         read = self._controller.tags.read
         return all(read(each.tag) == each.value for each in when)
 
-    def _do(self, step: Step, now_ns: int) -> None:
+    def _do(self, step: OperatorStep, now_ns: int) -> None:
         memory = self._controller.memory
         tags = [each.tag for each in step.values]
         before = [(tag, bytes(memory.read(tag.address, tag.data_type.size))) for tag in tags]
@@ -197,16 +197,16 @@ def _store(controller: Controller, tag: Tag, data: bytes) -> None:
         told(tag.address, data)
 
 
-def _step(controller: Controller, step: StepSettings, field: str) -> Step:
+def _step(controller: Controller, step: StepSettings, field: str) -> OperatorStep:
     findings = Findings()
-    when: tuple[TagValue, ...] = ()
-    values: tuple[TagValue, ...] = ()
+    when: tuple[GivenValue, ...] = ()
+    values: tuple[GivenValue, ...] = ()
     with findings.gathered():
         when = tag_values(controller, step.when, f"{field}: when")
     with findings.gathered():
         values = tag_values(controller, step.values, f"{field}: set")
     findings.check()
-    return Step(step.after_ns, when, values, step.hold_ns)
+    return OperatorStep(step.after_ns, when, values, step.hold_ns)
 
 
 def _follower(controller: Controller, path: str, follow: FollowSettings) -> _Follower:
