@@ -8,15 +8,16 @@ CPU time, so what the host adds by running others is not in them, but for interr
 does within the virtual machine. A step's budget is 0.3 ms for each millisecond of cycle. Yardsticks
 of the same run: a step of a node with nothing connected, a fixed loop in Python, a rospy node with
 the same 500 String/s in and out, where rospy is installed; and in each cycle, half a cycle after
-the step and after a sleep of its own, a loop in Python of about half a budget: where it takes a
-fifth of a budget longer than its median, that is the host, and a step that used up its budget would
-have been too long there ("host": how often).
+the step and after a sleep of its own, a loop in Python that takes as long as the longest twentieth
+of the steps: where it is too long that is the host, and it is expected to do so as often in that
+twentieth ("host").
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import statistics
 import subprocess
 import sys
 import time
@@ -48,6 +49,10 @@ BUDGET_SHARE = 0.3
 
 OVER = 1.2
 """Times its budget that a step may take."""
+
+TWENTIETH = 20
+TURNS = 1000
+"""Of a loop in Python."""
 
 MOST_S = 30
 """Seconds in which the first message must be there."""
@@ -176,16 +181,11 @@ class Figures(NamedTuple):
 
     @property
     def by_host(self) -> int:
-        """Loops that took so much longer than most that a step within its budget would be above.
-
-        Of as many loops as there were steps.
-        """
-        loops_ns = self.loops_ns
-        if not loops_ns:
+        """Steps of the longest twentieth that the host alone makes too long."""
+        if not self.loops_ns:
             return 0
-        most_ns = loops_ns[len(loops_ns) // 2] + self.case.limit_ns * (1 - 1 / OVER)
-        found = sum(each > most_ns for each in loops_ns)
-        return round(found * len(self.steps_ns) / len(loops_ns))
+        share = sum(each > self.case.limit_ns for each in self.loops_ns) / len(self.loops_ns)
+        return round(share * len(self.steps_ns) / TWENTIETH)
 
 
 def loop(turns: int) -> int:
@@ -196,14 +196,21 @@ def loop(turns: int) -> int:
     return time.thread_time_ns() - begin_ns
 
 
-def run(case: Case, seconds: int, turns: int) -> Figures:
-    """Run a case; a second from the first message on is not counted, in which all connect.
+def as_long(steps_ns: list[int], loops_ns: list[int]) -> int:
+    """Return the turns of a loop that takes as long as the longest twentieth of the steps.
 
     Args:
-        case: to be run.
-        seconds: that are counted.
-        turns: of the loop between two steps for each millisecond of cycle.
+        steps_ns: of a node.
+        loops_ns: of ``TURNS``, in between.
     """
+    if not steps_ns or not loops_ns:
+        return TURNS
+    longest_ns = statistics.quantiles(steps_ns, n=TWENTIETH)[-1]
+    return round(TURNS * longest_ns / statistics.median(loops_ns))
+
+
+def run(case: Case, seconds: int) -> Figures:
+    """Run a case; a second from the first message on is not counted, in which all connect."""
     port = free_port()
     command = [sys.executable, str(HERE / "_ros_peer.py"), str(port), *case.peer.split()]
     peer = subprocess.Popen(command, preexec_fn=ordinary)  # noqa: PLW1509  # no threads here
@@ -217,12 +224,14 @@ def run(case: Case, seconds: int, turns: int) -> Figures:
         release_ns, first, start, cpu_ns = time.monotonic_ns(), None, program.received, 0
         steps_ns: list[int] = []
         loops_ns: list[int] = []
+        turns = TURNS
         ticks = 1000 // case.tick_ms
         begin = 0 if "talk" in case.peer else ticks
         for cycle in range((seconds + MOST_S) * ticks):
             if begin and cycle == begin + seconds * ticks:
                 break
             if begin and cycle == begin:
+                turns = as_long(steps_ns, loops_ns)
                 steps_ns.clear()
                 loops_ns.clear()
                 start, cpu_ns = program.received, time.process_time_ns()
@@ -237,7 +246,7 @@ def run(case: Case, seconds: int, turns: int) -> Figures:
             rest_ns = release_ns - tick_ns // 2 - time.monotonic_ns()
             if rest_ns > 0:
                 time.sleep(rest_ns / 1e9)
-                loops_ns.append(loop(turns * case.tick_ms))
+                loops_ns.append(loop(turns))
             rest_ns = release_ns - time.monotonic_ns()
             if rest_ns > 0:
                 garbage.collect_while_idle(rest_ns)  # as the scan does
@@ -284,7 +293,7 @@ def rospy_share(seconds: int) -> float | None:
 
 def loop_ns() -> int:
     """Return the least own CPU time of a fixed loop in Python, of many times."""
-    return min(loop(1000) for _ in range(200))
+    return min(loop(TURNS) for _ in range(200))
 
 
 def targets(found: dict[str, Figures]) -> list[Target]:
@@ -323,9 +332,8 @@ def main() -> int:
     rights = realtime.acquire(50, None)
     console.print(f"rights: {', '.join(rights.granted) or 'none'}")
     least_ns = loop_ns()
-    turns = round(1000 * BUDGET_SHARE * NS_PER_MS / 2 / least_ns)
     cases = [case for case in CASES if any(text in case.name for text in options.only)]
-    found = {case.name: run(case, options.seconds, turns) for case in cases}
+    found = {case.name: run(case, options.seconds) for case in cases}
     rospy = rospy_share(options.seconds) if STRINGS in found else None
     hosts.append(print_machine("after"))
     empty_ns = found[NOTHING].at(0.5) if NOTHING in found else None

@@ -1,6 +1,7 @@
 """Messages a second, flat out, ours beside rospy's and roscpp's in the same run; and a ping-pong.
 
-    python benchmarks/ros_throughput.py [--seconds 3] [--rounds 3] [--json FILE]
+    python benchmarks/ros_throughput.py [--seconds 3] [--rounds 3] [--rivals rospy roscpp]
+        [--messages "String 16 B" "1 MB"] [--json FILE]
 
 Each pair of publisher and subscriber is two processes on the loopback with a master of ours; the
 subscriber counts what it hears in a span of time. "ours" runs unpaced, without a scan; "ours, 1 ms"
@@ -197,7 +198,7 @@ class Measurement:
         seconds: of each measurement.
     """
 
-    def __init__(self, rivals: dict[str, Rival], seconds: float) -> None:
+    def __init__(self, rivals: dict[str, Rival], messages: list[str], seconds: float) -> None:
         self.pairs = [Pair("ours", "ours")]
         for name in rivals:
             self.pairs += [Pair(name, name), Pair(name, "ours"), Pair("ours", name)]
@@ -205,11 +206,13 @@ class Measurement:
         self.pairs += [Pair(talkers, scan) for scan in SCANS]
         self.ping_pong_ns: list[int] = []
         self._rivals = rivals
+        self._messages = messages
         self._seconds = seconds
 
     def round(self, rates: Rates) -> None:
         """Measure each pair once with each message."""
-        for name, (kind, size) in SIZES.items():
+        for name in self._messages:
+            kind, size = SIZES[name]
             for pair in self.pairs:
                 rates.setdefault((name, pair), []).append(self._rate(pair, kind, size))
         if "rospy" in self._rivals:
@@ -294,14 +297,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=number_above_0, default=3)
     parser.add_argument("--rounds", type=number_above_0, default=3)
+    parser.add_argument("--rivals", nargs="+", choices=RIVALS, default=RIVALS)
+    parser.add_argument("--messages", nargs="+", choices=SIZES, default=list(SIZES))
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     hosts = [print_machine("before")]
     rates: Rates = {}
     with tempfile.TemporaryDirectory() as folder:
         commands = {"rospy": rospy_command(ROSPY), "roscpp": roscpp_command(Path(folder))}
-        rivals = {name: Rival(command) for name, command in commands.items() if command}
-        measurement = Measurement(rivals, options.seconds)
+        rivals = {name: Rival(commands[name]) for name in options.rivals if commands[name]}
+        measurement = Measurement(rivals, options.messages, options.seconds)
         for _ in range(options.rounds):
             measurement.round(rates)
     hosts.append(print_machine("after"))

@@ -23,7 +23,7 @@ class ApiAcceptor:
     def __init__(self, owner: Owner, limits: XmlRpcLimits) -> None:
         self._owner = owner
         self._limits = limits
-        self._last_use = LastUse(0)
+        self._last_use = LastUse()
 
     def accepted(self, now_ns: int) -> Accepted:
         """Serve a new caller."""

@@ -119,7 +119,7 @@ class ApiCaller:
         self._loop = loop
         self._hosts = hosts
         self._limits = limits
-        self._last_use = LastUse(0)
+        self._last_use = LastUse()
         self._channels: dict[str, _Channel] = {}
         self._is_first = False
         self._turn = 0

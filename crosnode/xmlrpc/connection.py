@@ -120,19 +120,18 @@ class Unreadable(Failed):
 
 
 class LastUse:
-    """When documents were last read, by any of the connections that share it.
+    """When documents were last read, by any of the connections that share it."""
 
-    Args:
-        at_ns: nanoseconds.
-    """
-
-    def __init__(self, at_ns: int) -> None:
-        self._at_ns = at_ns
+    def __init__(self) -> None:
+        self._at_ns: int | None = None
 
     def note(self, now_ns: int) -> bool:
-        """Note a use; return whether the one before is too long ago for warm caches."""
+        """Note a use; return whether the one before is too long ago for warm caches.
+
+        The first of all is not: what a node does at its start shall not take longer.
+        """
         before_ns, self._at_ns = self._at_ns, now_ns
-        return now_ns - before_ns > WARM_NS
+        return before_ns is not None and now_ns - before_ns > WARM_NS
 
 
 class XmlRpcConnection(ProtocolConnection):
@@ -161,7 +160,8 @@ class XmlRpcConnection(ProtocolConnection):
         self._http = h11.Connection(role, max_incomplete_event_size=limits.max_head)
         self._values = ValueParser(limits.values)
         self._unparsed = b""
-        self._last_use = last_use or LastUse(now_ns)
+        self._last_use = last_use or LastUse()
+        self._is_in_parts = False
 
     @property
     def event_price(self) -> int:
@@ -199,7 +199,7 @@ class XmlRpcConnection(ProtocolConnection):
             while True:
                 if self._unparsed:
                     self._unparsed = self._values.feed_part(self._unparsed)
-                    if self._unparsed:
+                    if self._unparsed or self._is_in_parts:
                         self._since_ns = now_ns
                         return Progress()
                 http_event = self._http.next_event()
@@ -224,8 +224,8 @@ class XmlRpcConnection(ProtocolConnection):
             self.close()
             return Closed()
         self._head(http_event)
-        is_cold = self._last_use.note(now_ns)
-        return Progress() if is_cold else None  # what follows may have to wait for its own step
+        self._is_in_parts = self._last_use.note(now_ns)
+        return Progress() if self._is_in_parts else None
 
     def _head(self, http_event: object) -> None:
         """Check a request or status line."""

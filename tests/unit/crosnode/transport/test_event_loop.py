@@ -52,7 +52,7 @@ def test_calls_of_many_nodes_at_once_are_spread_over_steps() -> None:
     for socket in sockets:
         socket.send(4 * (head + request))
     answered = []
-    for _ in range(100):  # the first call of each in two parts: its like was long ago
+    for _ in range(90):
         world.run(1)
         answered.append(sum(socket.recv(65_536).data.count(b"HTTP/1.1 200") for socket in sockets))
     assert sum(answered) == 80

@@ -401,30 +401,43 @@ def test_a_caller_that_names_no_host_is_served_again_and_again() -> None:
         assert sent(theirs).startswith(b"HTTP/1.1 200")
 
 
-def test_after_a_while_a_document_is_taken_in_two_parts_and_then_at_once_again() -> None:
-    last_use = LastUse(0)
-    ours = XmlRpcClientConnection("h:1", XmlRpcLimits(), 0, last_use)
-    theirs = XmlRpcServerConnection(XmlRpcLimits(), 0)
-    for now_ns, parts in ((0, 0), (WARM_NS, 0), (3 * WARM_NS, 1), (3 * WARM_NS + 1, 0)):
+def test_after_a_while_a_document_is_taken_in_three_parts_and_then_at_once_again() -> None:
+    ours, theirs = client_and_server_in_time()
+    for now_ns, parts in ((0, 0), (WARM_NS, 0), (3 * WARM_NS, 2), (3 * WARM_NS + 1, 0)):
         ours.call("getPid", ["/n"], now_ns)
         theirs.receive_data(sent(ours))
         assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
         theirs.respond(42)
         ours.receive_data(sent(theirs))
-        if parts:
+        for _ in range(parts):
             assert ours.next_event(now_ns) == Progress()
             assert not ours.wants_data  # the rest is there
-            assert ours.next_event(now_ns) == ResponseReceived(42)
-        else:
-            assert ours.next_event(now_ns) == ResponseReceived(42)
+        assert ours.next_event(now_ns) == ResponseReceived(42)
+
+
+def test_a_document_in_parts_that_comes_byte_by_byte() -> None:
+    last_use = LastUse()
+    last_use.note(0)
+    theirs = XmlRpcServerConnection(XmlRpcLimits(), 0, last_use)
+    events = []
+    for byte in request(GET_PID):
+        theirs.receive_data(bytes([byte]))
+        while (event := theirs.next_event(2 * WARM_NS)) is not None:
+            events.append(event)
+    assert [event for event in events if event != Progress()] == [CallReceived("getPid", ["/n"])]
 
 
 def test_connections_that_share_their_last_use_warm_each_other() -> None:
-    last_use = LastUse(0)
-    for number, now_ns in enumerate((2 * WARM_NS, 2 * WARM_NS + 1)):
+    last_use = LastUse()
+    for now_ns, parts in ((0, 0), (2 * WARM_NS, 2), (2 * WARM_NS + 1, 0)):
         theirs = XmlRpcServerConnection(XmlRpcLimits(), now_ns, last_use)
         theirs.receive_data(request(GET_PID))
-        assert progress_then(theirs, now_ns) == (1 - number, CallReceived("getPid", ["/n"]))
+        assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
+
+
+def client_and_server_in_time() -> tuple[XmlRpcClientConnection, XmlRpcServerConnection]:
+    limits = XmlRpcLimits()
+    return XmlRpcClientConnection("h:1", limits, 0), XmlRpcServerConnection(limits, 0)
 
 
 def progress_then(connection: XmlRpcConnection, now_ns: int) -> tuple[int, ConnectionEvent | None]:
