@@ -161,7 +161,7 @@ class XmlRpcConnection(ProtocolConnection):
         self._values = ValueParser(limits.values)
         self._unparsed = b""
         self._last_use = last_use or LastUse()
-        self._is_in_parts = False
+        self._is_begun = self._is_in_parts = False
 
     @property
     def event_price(self) -> int:
@@ -202,6 +202,8 @@ class XmlRpcConnection(ProtocolConnection):
                     if self._unparsed or self._is_in_parts:
                         self._since_ns = now_ns
                         return Progress()
+                if self._begins_in_parts(now_ns):
+                    return Progress()
                 http_event = self._http.next_event()
                 if http_event in (h11.NEED_DATA, h11.PAUSED):
                     return None
@@ -212,11 +214,20 @@ class XmlRpcConnection(ProtocolConnection):
         except XmlRpcError as error:
             return self._refuse(str(error), http_status=200)
 
+    def _begins_in_parts(self, now_ns: int) -> bool:
+        """Whether a document begins that is taken in parts, for its like was long ago."""
+        if self._is_begun or not self._http.trailing_data[0]:
+            return False
+        self._is_begun = True
+        self._is_in_parts = self._last_use.note(now_ns)
+        return self._is_in_parts
+
     def _handle(self, http_event: object, now_ns: int) -> ConnectionEvent | None:
         if isinstance(http_event, h11.Data):
             self._unparsed = bytes(http_event.data)
             return None
         if isinstance(http_event, h11.EndOfMessage):
+            self._is_begun = self._is_in_parts = False
             document = self._values.close()
             self._values = ValueParser(self.limits.values)
             return self._document(document, now_ns)
@@ -224,7 +235,6 @@ class XmlRpcConnection(ProtocolConnection):
             self.close()
             return Closed()
         self._head(http_event)
-        self._is_in_parts = self._last_use.note(now_ns)
         return Progress() if self._is_in_parts else None
 
     def _head(self, http_event: object) -> None:

@@ -401,9 +401,9 @@ def test_a_caller_that_names_no_host_is_served_again_and_again() -> None:
         assert sent(theirs).startswith(b"HTTP/1.1 200")
 
 
-def test_after_a_while_a_document_is_taken_in_three_parts_and_then_at_once_again() -> None:
+def test_after_a_while_a_document_is_taken_in_four_parts_and_then_at_once_again() -> None:
     ours, theirs = client_and_server_in_time()
-    for now_ns, parts in ((0, 0), (WARM_NS, 0), (3 * WARM_NS, 2), (3 * WARM_NS + 1, 0)):
+    for now_ns, parts in ((0, 0), (WARM_NS, 0), (3 * WARM_NS, 3), (3 * WARM_NS + 1, 0)):
         ours.call("getPid", ["/n"], now_ns)
         theirs.receive_data(sent(ours))
         assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
@@ -429,7 +429,7 @@ def test_a_document_in_parts_that_comes_byte_by_byte() -> None:
 
 def test_connections_that_share_their_last_use_warm_each_other() -> None:
     last_use = LastUse()
-    for now_ns, parts in ((0, 0), (2 * WARM_NS, 2), (2 * WARM_NS + 1, 0)):
+    for now_ns, parts in ((0, 0), (2 * WARM_NS, 3), (2 * WARM_NS + 1, 0)):
         theirs = XmlRpcServerConnection(XmlRpcLimits(), now_ns, last_use)
         theirs.receive_data(request(GET_PID))
         assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
