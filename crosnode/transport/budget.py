@@ -22,7 +22,7 @@ LARGE_WORK: Final = 49_152
 TRANSFER_WORK: Final = 8_192
 """Price of a read that gave bytes and of a write, beside the bytes."""
 
-MESSAGE_WORK: Final = 384
+MESSAGE_WORK: Final = 608
 """Price of a message of a topic that comes in, beside its bytes."""
 
 REQUEST_WORK: Final = 4_096
