@@ -58,7 +58,7 @@ class StreamWriter:
 
     Args:
         cells: the header, as 64-bit numbers.
-        ring: the bytes of the stream, a multiple of 8.
+        ring: the bytes of the stream, a multiple of 8; none for a service that asked for none.
         at: which cells belong to it.
     """
 
@@ -88,7 +88,7 @@ class StreamWriter:
         self._head = cells[at.head]
         self._tail = cells[at.tail]
         self._records = cells[at.records]
-        self._start = self._room_end = self._head % self._size
+        self._start = self._room_end = self._head % self._size if self._size else 0
         self._marks = deque(self._places())
 
     def _places(self) -> Iterator[int]:

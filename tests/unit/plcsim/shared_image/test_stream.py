@@ -96,6 +96,14 @@ def test_a_writer_that_begins_again_goes_on_in_the_same_stream() -> None:
     assert [(r.number, r.time_ns) for r in reader.read()] == [(0, 0), (1, 1), (2, 2)]
 
 
+def test_a_stream_of_no_bytes_takes_nothing() -> None:
+    cells, ring = ends(0)
+    writer = StreamWriter(cells, ring, AT)
+    reader = StreamReader(cells, ring, AT)
+    writer.write(1, 0, b"")
+    assert (reader.read(), reader.lost) == ([], 1)
+
+
 RECORDS = 60_000
 BIG = 16 * 1024
 
