@@ -15,9 +15,9 @@ BUSY = "x = 0\nwhile True:\n    x = (x * 3 + 1) % 1000003\n"
 
 
 @contextmanager
-def hogs(*, wanted: bool = True) -> Iterator[None]:
-    """Keep every processor busy inside the block."""
-    count = len(os.sched_getaffinity(0)) if wanted else 0
+def hogs(count: int = 0, *, wanted: bool = True) -> Iterator[None]:
+    """Keep every processor busy inside the block, or so many."""
+    count = (count or len(os.sched_getaffinity(0))) if wanted else 0
     running = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(count)]
     try:
         yield

@@ -1,10 +1,12 @@
-"""When a scan misses grid points, and whether the host had stolen its processor just then."""
+"""When a scan misses grid points, and by whom: the host had taken its processor, or it was busy."""
 
 from __future__ import annotations
 
+import json
+import math
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from plcsim.process.run_file import find_run
 from plcsim.shared_image.status_page import StatusPage
@@ -102,3 +104,30 @@ class StallWatch:
     def missed(self) -> int:
         """Grid points missed while it watched."""
         return self._samples[-1].missed - self._samples[0].missed
+
+
+def figures_of(report: Path) -> dict[str, Any]:
+    """Return what the report of a run says of a scan with one task class and 1 us of tolerance.
+
+    All grid points of a stall have one cause: "own" where programs and controller were on the
+    processor for longer than the cycle time, and the host otherwise. A hypervisor that takes time
+    without a word makes some of the first kind too.
+    """
+    told = json.loads(report.read_text())
+    (timing,) = told["task_classes"]
+    causes = timing["violations"]
+    return {
+        "rights": ", ".join(told["realtime_rights"]) or "no rights",
+        "cycles": timing["cycles"],
+        "missed": timing["missed_grid_points"],
+        "stalls": causes["host"],
+        "own": sum(count for cause, count in causes.items() if cause != "host"),
+        "p50_us": timing["lateness_ns"]["p50"] / 1000,
+        "p99_us": timing["lateness_ns"]["p99"] / 1000,
+        "controller_us": timing["controller_ns"]["mean"] / 1000,
+    }
+
+
+def by_chance(one: int, other: int) -> int:
+    """Return by how much two counts of stalls may differ though nothing else does."""
+    return math.floor(2 * math.sqrt(one + other))

@@ -1,13 +1,21 @@
 """What recording costs the scan, what the recorder needs, and how quick a replay is.
 
-    python benchmarks/record.py [--seconds 4] [--rounds 7] [--long 0] [--json FILE]
+    python benchmarks/record.py [--seconds 2] [--rounds 8] [--long 0] [--json FILE]
 
 (a) A project with 50 tags that change in every cycle and 10 topics that are published in every
-cycle, at 1 ms on the real clock, with and without a recorder beside it; the rounds begin with
-another one each time. Of each run: CPU time of the scan in a cycle (the median of its cycles), grid
-points missed, records lost. The cost is the difference within a round; the median of the rounds is
-told, so that what else the machine does counts little. So are the grid points that runs with a
-recorder missed beyond those without, and the real-time rights. (b) With ``--long
+cycle, at 1 ms on the real clock, in short legs by turns: "without" a recorder, "with" one, and
+"busy", without one and with a plain busy process in its place. The rounds begin with another one
+each time. Told of each leg: CPU time of the scan in a cycle (the median of its cycles), and of a
+fixed loop of 200 additions that the program goes through in each cycle, which tells how quick the
+processor is just then. The cost is the difference within a round, in loops of that leg each, times
+the loop's median: so what a shared host does between two legs counts little. The plain difference
+stands beside it.
+Grid points are missed in stalls, each with one cause (`_stalls.figures_of`): "own" where the scan
+was on the processor for longer than its cycle time, the host's otherwise. What the host did stands
+beside: the time that the scan waited for a processor though it could run (/proc/thread-self/
+schedstat), and the time that the hypervisor stole from all processors (/proc/stat). Recording adds
+stalls of its own where there are more with it than with the busy process, beyond chance.
+(b) With ``--long
 SECONDS`` one run of 10,000 messages of topics a second, and 50,000 of tags: memory of both
 processes from its start to its end, CPU time of the recorder, records lost. (c) A bag of 10 topics
 of 100 messages a second is played to a program on the virtual clock: how many times as fast as real
@@ -27,7 +35,19 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from _hogs import hogs
+from _outcome import (
+    Target,
+    console,
+    figures_table,
+    number_above_0,
+    print_machine,
+    print_targets,
+    write_json,
+)
+from _stalls import by_chance, figures_of, stolen_ticks
 
 from crosnode.plc.project import create_node
 from crosnode.testing import Ros
@@ -37,10 +57,17 @@ from plcsim.testing import Plc
 from plcsim.testing.target import program_target
 from st_types import UDINT, var
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+KINDS = ("without", "with", "busy")
 TAGS = 50
 TOPICS = 10
 PARTS = (0.1, 0.5, 1.0)
 """Of the time of (b): when the memory is looked at."""
+
+LOOP = 200
+"""Additions of the loop that tells how quick the processor is."""
 
 WARMING_UP = 500
 """Cycles that do not count."""
@@ -48,6 +75,7 @@ WARMING_UP = 500
 PROGRAM = f'''"""Fifty tags that change, ten of them published."""
 
 import json
+import statistics
 import time
 from collections import deque
 
@@ -55,29 +83,44 @@ from plcsim import Program
 from st_types import ARRAY, LREAL, UDINT, var
 
 
+def waited_ns():
+    with open("/proc/thread-self/schedstat") as file:
+        return int(file.read().split()[1])
+
+
 class Busy(Program):
-    __slots__ = ("spent", "stamp_ns")
+    __slots__ = ("loops", "spent", "stamp_ns", "waited_ns")
     count = var(UDINT)
     values = var(ARRAY(LREAL, (0, {TAGS - 2})))
     out = var(ARRAY(LREAL, (0, {TOPICS - 1})))
 
     def init(self):
         self.spent = deque(maxlen=20_000)  # or a long run would grow by its own figures
+        self.loops = deque(maxlen=20_000)
         self.stamp_ns = 0
+        self.waited_ns = waited_ns()
 
     def cyclic(self):
         stamp_ns = time.thread_time_ns()
         if self.count > {WARMING_UP}:
             self.spent.append(stamp_ns - self.stamp_ns)
         self.stamp_ns = stamp_ns
+        start_ns = time.perf_counter_ns()
+        total = 0
+        for number in range({LOOP}):
+            total += number
+        self.loops.append(time.perf_counter_ns() - start_ns)
         self.count += 1
         now = float(self.count)
         self.values = [now + n for n in range({TAGS - 1})]
         self.out = [now + n for n in range({TOPICS})]
 
     def exit(self):
-        spent = sorted(self.spent)
-        print(json.dumps({{"cpu_us": spent[len(spent) // 2] / 1000}}))
+        print(json.dumps({{
+            "cpu_us": statistics.median(self.spent) / 1000,
+            "loop_us": statistics.median(self.loops) / 1000,
+            "waited_ms": (waited_ns() - self.waited_ns) / 1e6,
+        }}))
 '''
 
 
@@ -91,7 +134,7 @@ def make(folder: Path, cycle: str) -> None:
         for n in range(TOPICS)
     )
     (folder / "plc.toml").write_text(
-        f'[task_class.1]\ncycle = "{cycle}"\ntolerance = "100ms"\nprograms = ["busy"]\n'
+        f'[task_class.1]\ncycle = "{cycle}"\ntolerance = "1us"\nprograms = ["busy"]\n'
         f'on_violation = "log"\n[record]\ntags = ["busy"]\n'
         f'[ros]\nmaster = "embedded"\nmaster_port = 11499\n[ros.publish]\n{published}\n'
     )
@@ -101,25 +144,25 @@ def plcsim(*words: object) -> list[str]:
     return [sys.executable, "-m", "plcsim", *map(str, words)]
 
 
-def run(folder: Path, seconds: float, bag: Path | None) -> dict[str, Any]:
+def run(folder: Path, seconds: float, kind: str) -> dict[str, Any]:
     """Run the project; return its figures."""
-    plain = folder.parent / "plain"
-    if not plain.exists():
-        make(plain, "1ms")
-        toml = plain / "plc.toml"
-        toml.write_text(toml.read_text().replace('[record]\ntags = ["busy"]\n', ""))
+    project, bag = folder, folder.parent / "run.bag"
+    words: list[object] = ["--record", bag]
+    if kind != "with":
+        project, words = folder.parent / "plain", []
+        if not project.exists():
+            make(project, "1ms")
+            toml = project / "plc.toml"
+            toml.write_text(toml.read_text().replace('[record]\ntags = ["busy"]\n', ""))
     report = folder.parent / "report.json"
-    words = ["run", folder if bag else plain, "--for", f"{seconds}s", "--quiet", "--report", report]
-    if bag is not None:
-        words += ["--record", bag]
-    done = subprocess.run(plcsim(*words), stdout=subprocess.PIPE, text=True, check=True)
-    run_report = json.loads(report.read_text())
-    (task_class,) = run_report["task_classes"]
+    words = ["run", project, "--for", f"{seconds}s", "--quiet", "--report", report, *words]
+    stolen = stolen_by_all()
+    with hogs(1, wanted=kind == "busy"):
+        done = subprocess.run(plcsim(*words), stdout=subprocess.PIPE, text=True, check=True)
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
-    figures["missed"] = task_class["missed_grid_points"]
-    figures["rights"] = run_report["realtime_rights"]
-    figures["lost"] = 0
-    if bag is not None:
+    figures["stolen_ms"] = (stolen_by_all() - stolen) * 1000 / os.sysconf("SC_CLK_TCK")
+    figures |= figures_of(report) | {"lost": 0}
+    if kind == "with":
         told = subprocess.run(
             plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True
         )
@@ -130,18 +173,81 @@ def run(folder: Path, seconds: float, bag: Path | None) -> dict[str, Any]:
     return figures
 
 
+def stolen_by_all() -> int:
+    """Return the ticks stolen from the processors that we may use."""
+    return sum(map(stolen_ticks, os.sched_getaffinity(0)))
+
+
 def costs(folder: Path, seconds: float, rounds: int) -> dict[str, Any]:
-    """Return the figures of (a)."""
-    runs: dict[str, list[dict[str, Any]]] = {"without": [], "with": []}
+    """Return the figures of (a), and print each leg."""
+    runs: dict[str, list[dict[str, Any]]] = {kind: [] for kind in KINDS}
+    print("(a)      CPU time of a cycle   loop  missed (stalls; own)  waited, stolen ms  lost")
     for number in range(rounds):
-        order = ("without", "with") if number % 2 == 0 else ("with", "without")
-        for name in order:
-            bag = folder.parent / "run.bag" if name == "with" else None
-            runs[name].append(run(folder, seconds, bag))
+        turn = number % len(KINDS)
+        for kind in KINDS[turn:] + KINDS[:turn]:
+            found = run(folder, seconds, kind)
+            runs[kind].append(found)
+            print(
+                f"{kind:<8} {found['cpu_us']:16.1f} us {found['loop_us']:6.1f}  "
+                f"{found['missed']:6} ({found['stalls']:6}; {found['own']:3})  "
+                f"{found['waited_ms']:8.1f} {found['stolen_ms']:8.0f}  {found['lost']:4}",
+                flush=True,
+            )
+    loop_us = statistics.median(each["loop_us"] for kind in KINDS for each in runs[kind])
+    return {
+        "runs": runs,
+        "loop_us": loop_us,
+        "cost_us": loop_us * more(runs, lambda leg: leg["cpu_us"] / leg["loop_us"]),
+        "plain_us": more(runs, lambda leg: leg["cpu_us"]),
+    }
+
+
+def more(runs: dict[str, list[dict[str, Any]]], of: Callable[[dict[str, Any]], float]) -> float:
+    """Return how much more something is with a recorder: the median of the rounds."""
     pairs = zip(runs["without"], runs["with"], strict=True)
-    differences = [(w["cpu_us"] - o["cpu_us"], w["missed"] - o["missed"]) for o, w in pairs]
-    cost_us, extra_missed = map(statistics.median, zip(*differences, strict=True))
-    return {"runs": runs, "cost_us": cost_us, "extra_missed": extra_missed}
+    return statistics.median(of(with_) - of(without) for without, with_ in pairs)
+
+
+def print_costs(found: dict[str, Any]) -> list[Target]:
+    """Print the medians of (a), and return what it is to reach."""
+    runs = found["runs"]
+    table = figures_table("medians", "us a cycle", "loop us", "missed", "stalls", "own", "lost")
+    for kind, legs in runs.items():
+        keys = ("cpu_us", "loop_us", "missed", "stalls", "own", "lost")
+        medians = [statistics.median(leg[key] for leg in legs) for key in keys]
+        table.add_row(kind, *(f"{each:.1f}" for each in medians))
+    console.print(table)
+    counted = ("missed", "stalls", "own", "lost")
+    sums = {
+        kind: {key: sum(leg[key] for leg in legs) for key in counted} for kind, legs in runs.items()
+    }
+    for kind, row in sums.items():
+        console.print(
+            f"{kind}: {row['missed']} grid points missed in {row['stalls']} stalls by the host and "
+            f"{row['own']} own, in {len(runs[kind])} legs",
+            soft_wrap=True,
+        )
+    loop_us = found["loop_us"]
+    console.print(
+        f"recording costs {found['cost_us']:.1f} us of a cycle, {found['cost_us'] / loop_us:.2f} "
+        f"times the loop ({loop_us:.1f} us); plain difference {found['plain_us']:.1f} us",
+        soft_wrap=True,
+    )
+    console.print(f"real-time rights: {runs['with'][0]['rights']}", soft_wrap=True)
+    with_, busy = sums["with"], sums["busy"]
+    return [
+        Target("cost of recording, of a cycle (median)", found["cost_us"], 25, "us"),
+        *(
+            Target(
+                f"stalls {name} beyond those beside a busy process",
+                with_[key] - busy[key],
+                by_chance(with_[key], busy[key]),
+                "(by chance)",
+            )
+            for key, name in (("own", "of its own"), ("stalls", "by the host"))
+        ),
+        Target("records lost", with_["lost"], 0, ""),
+    ]
 
 
 def resident_mib(pid: int) -> float:
@@ -254,28 +360,21 @@ def replay(folder: Path, seconds: int) -> dict[str, float]:
     return {"messages": sent, "times": seconds / took_s, "times_of_cpu": seconds / cpu_s}
 
 
-def main() -> None:
+def main() -> int:
+    """Measure and print; return 1 where a target is not met."""
     parser = argparse.ArgumentParser(description="What recording costs, how quick a replay is.")
-    parser.add_argument("--seconds", type=float, default=4, help="of each run of (a)")
-    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--seconds", type=float, default=2, help="of each leg of (a)")
+    parser.add_argument("--rounds", type=number_above_0, default=8)
     parser.add_argument("--long", type=float, default=0, metavar="SECONDS", help="of (b)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="keep all figures")
     options = parser.parse_args()
     found: dict[str, Any] = {}
+    hosts = [print_machine("before")]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "busy"
         make(folder, "1ms")
         found["costs"] = costs(folder, options.seconds, options.rounds)
-        print("(a)        CPU time of a cycle  missed  records lost")
-        for kind, runs in found["costs"]["runs"].items():
-            for each in runs:
-                missed, lost = each["missed"], each["lost"]
-                print(f"{kind:<10} {each['cpu_us']:16.1f} us {missed:7} {lost:13}")
-        costly = found["costs"]
-        rights = costly["runs"]["with"][0]["rights"]
-        print(f"recording costs {costly['cost_us']:.1f} us of a cycle (median)")
-        print(f"{costly['extra_missed']:g} grid points missed beyond those without (median)")
-        print(f"real-time rights: {', '.join(rights) or 'none'}")
+        targets = print_costs(found["costs"])
         if options.long:
             found["memory"] = memory(folder, options.long)
             print("(b) MiB:        scan recorder      bag")
@@ -294,9 +393,12 @@ def main() -> None:
             f"(c) {times['messages']} messages played {times['times']:.0f} times as fast as real "
             f"time ({times['times_of_cpu']:.0f} times by CPU time)"
         )
-    if options.json is not None:
-        options.json.write_text(json.dumps(found, indent=2) + "\n")
+    targets.append(Target("replay, times real time", times["times"], 30, "times", at_least=True))
+    hosts.append(print_machine("after"))
+    print_targets(targets)
+    write_json(options.json, hosts, targets, **found)
+    return 0 if all(target.met for target in targets) else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
