@@ -163,7 +163,10 @@ class FileResolver(ConstantResolver):
         if entry.state != DONE and not self._may_resolve(node, entry):
             return None
         self._depth = max(self._depth, entry.depth)
-        return entry.data_type
+        found = entry.data_type
+        if node.given and found is not None and not isinstance(resolve_alias(found), DataBlockType):
+            self.error(node, f"{node.name} is no function block, so it has no FB_init to be given")
+        return found
 
     def _find_type(self, node: NamedType) -> IndexEntry | None:
         entry = self.find("types", node.name, node.at)

@@ -44,7 +44,7 @@ from st_types.syntax.trivia import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from st_types.syntax.expressions import Expression
+    from st_types.syntax.expressions import Argument, Expression
 
 
 def print_file(file: DeclarationFile) -> str:
@@ -143,7 +143,7 @@ class Printer(ExpressionPrinter):
         """Return the text of a type; lines after the first are indented by ``indent``."""
         match node:
             case NamedType():
-                return node.name
+                return node.name + self._given(node)
             case StringSpecification():
                 return f"{node.name}[{self.expression(node.length)}]"
             case ArraySpecification():
@@ -160,6 +160,17 @@ class Printer(ExpressionPrinter):
             case StructSpecification():
                 return self._struct(node, indent)
         return self._enumeration(node, indent)
+
+    def _given(self, node: NamedType) -> str:
+        lists = [
+            f"({', '.join(self._argument(argument) for argument in arguments)})"
+            for arguments in node.given
+        ]
+        return f"[{', '.join(lists)}]" if len(lists) > 1 else "".join(lists)
+
+    def _argument(self, node: Argument) -> str:
+        value = "" if node.value is None else self.expression(node.value)
+        return f"{node.name} := {value}" if node.name else value
 
     def _range(self, low: Expression, high: Expression) -> str:
         text = self.expression(low)

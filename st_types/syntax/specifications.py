@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from st_types.syntax.expressions import Argument
 from st_types.syntax.initials import InitialParser
 from st_types.syntax.lexer import TokenKind, kind_of
 from st_types.syntax.reader import UnexpectedTokenError
@@ -20,6 +21,7 @@ from st_types.syntax.tree import (
     SubrangeSpecification,
 )
 from st_types.syntax.trivia import pragmas_in
+from st_types.types.elementary import ALL_ELEMENTARY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -222,6 +224,8 @@ class SpecificationParser(InitialParser):
             text = self.texts[self.index - 1]
         if self.texts[self.index] == "(":
             return self._restricted(self.index - 1, text)
+        if self.texts[self.index] == "[":
+            return self._given_to_each(self.index - 1, text)
         return NamedType(self.index - 1, text)
 
     def _array_specification(self) -> ArraySpecification | OpenArraySpecification:
@@ -317,17 +321,48 @@ class SpecificationParser(InitialParser):
         trivia = self.trivia
         return EnumerationValue(at, name, value, trivia[at], trivia[self.index])
 
-    def _restricted(self, at: int, base: str) -> SubrangeSpecification | EnumerationSpecification:
-        """Parse ``(low..high)`` or ``(A, B)`` behind the name of a type."""
-        if self.texts[self.index + 2] in (",", ")", ":="):
+    def _restricted(
+        self, at: int, base: str
+    ) -> SubrangeSpecification | EnumerationSpecification | NamedType:
+        """Parse ``(low..high)``, ``(A, B)`` or ``(input := value)`` behind the name of a type."""
+        is_elementary = base.upper() in ALL_ELEMENTARY
+        if is_elementary and self.texts[self.index + 2] in (",", ")", ":="):
             found = self._enumeration_specification()
             return EnumerationSpecification(at, found.values, base)
+        if not is_elementary and self.texts[self.index + 2] == ":=":
+            return NamedType(at, base, [self._given()])
         self.index += 1
         low = self.expression()
+        if not is_elementary and self.text != "..":
+            return NamedType(at, base, [self._given(Argument(low.at, "", low))])
         self.expect("..", f"between the bounds of {base}")
         high = self.expression()
         self.expect(")", f"after the bounds of {base}")
         return SubrangeSpecification(at, base, low, high)
+
+    def _given_to_each(self, at: int, name: str) -> NamedType:
+        """Parse ``[(input := value), (input := value)]`` behind the name of a function block."""
+        self.index += 1
+        given = [self._given()]
+        while self.accept(","):
+            given.append(self._given())
+        self.expect("]", "or ',' after what an instance is given")
+        return NamedType(at, name, given)
+
+    def _given(self, first: Argument | None = None) -> list[Argument]:
+        """Parse what FB_init gets, up to the parenthesis; ``first`` was read already."""
+        found = [] if first is None else [first]
+        if first is None:
+            self.expect("(", "before what FB_init is given")
+        while not self.accept(")"):
+            if found:
+                self.expect(",", "or ')' after what FB_init is given")
+            at = self.index
+            name = self.expect_name("of an input") if self.texts[at + 1] == ":=" else ""
+            if name:
+                self.expect(":=", f"after {name}")
+            found.append(Argument(at, name, self.expression()))
+        return found
 
 
 _RULES: dict[str, Callable[[SpecificationParser], TypeSpecification]] = {

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from st_types.syntax.expressions import Expression, Node
+from st_types.syntax.expressions import Argument, Expression, Node
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,9 +21,14 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class NamedType(Node):
-    """A type by its name, elementary or not, STRING without a length included."""
+    """A type by its name, elementary or not, STRING without a length included.
+
+    ``given`` is what FB_init of the instances gets: ``Block(a := 1)`` has it once, for all, and
+    ``ARRAY[0..1] OF Block[(a := 1), (a := 2)]`` for each element.
+    """
 
     name: str
+    given: Sequence[Sequence[Argument]] = ()
 
 
 @dataclass(slots=True)

@@ -19,6 +19,7 @@ from plcsim.program.structured_text.check.classes import (
     key_of_method,
 )
 from plcsim.program.structured_text.check.findings import FileFindings
+from plcsim.program.structured_text.check.initialisers import Initialisers
 from plcsim.program.structured_text.check.kinds import plain
 from plcsim.program.structured_text.check.names import ScopeNames, Symbols, named
 from plcsim.program.structured_text.check.open_arrays import OpenFunction, takes_any_bounds
@@ -402,6 +403,7 @@ class _ProgramChecker:
             base = self._scope.find_function_block(each.block.node.base)
             if each.block.node.base and base is not None and base.data_type is not None:
                 each.base = self.symbols.classes.get(base.data_type)
+        self._set_up_instances()
         waiting = [job for job in reversed(self._jobs) if job.is_needed]
         while waiting:
             waiting += self._check(waiting.pop(), found)
@@ -416,6 +418,19 @@ class _ProgramChecker:
         self._check_recursion()
         self._check_used()
         return found
+
+    def _set_up_instances(self) -> None:
+        """Call the FB_init of all instances at the beginning of INIT."""
+        jobs = [job for job in self._jobs if job.kind == "unit"]
+        if not jobs:
+            return
+        owner = jobs[0].owner
+        calls = Initialisers(self.symbols.classes, self._hidden).calls(owner.scope.chain)
+        init = next((job for job in jobs if job.name == "init"), None)
+        if calls and init is not None:
+            init.nodes = [*calls, *init.nodes]
+        elif calls:
+            self._jobs.append(replace(jobs[0], name="init", nodes=calls, calls=set()))
 
     def _surrounded(self, job: _Job, body: typed.CheckedBody) -> list[typed.CheckedBody]:
         """Surround a body by what happens before and after it; it becomes an action then.

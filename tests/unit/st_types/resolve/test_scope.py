@@ -444,6 +444,10 @@ def test_an_unknown_name_is_a_warning_and_strictly_an_error() -> None:
         ("TYPE A : ARRAY[0..1/0] OF INT; END_TYPE", ["1:20: error: division by zero"]),
         ("TYPE A : (); END_TYPE", ["1:10: warning: the enumeration has no values"]),
         (
+            "VAR a : A(x := 1); END_VAR TYPE A : STRUCT x : INT; END_STRUCT END_TYPE",
+            ["1:9: error: A is no function block, so it has no FB_init to be given"],
+        ),
+        (
             "TYPE A : REAL (x, y); B : (x) DINT; END_TYPE",
             ["1:10: error: an enumeration is an integer, REAL is none"],
         ),

@@ -88,6 +88,11 @@ def test_text_in_the_usual_shape_comes_back_unchanged() -> None:
         ("TYPE e : (); END_TYPE", "TYPE\n\te :\n\t\t(\n\t\t);\nEND_TYPE\n"),
         ("VAR END_VAR (*x*) VAR END_VAR", "VAR\nEND_VAR\n(*x*)\nVAR\nEND_VAR\n"),
         ("{P} VAR END_VAR", "{P} VAR\nEND_VAR\n"),
+        (
+            "VAR a:F(x:=1,y:=A.b);b:F(1);c:ARRAY[0..1] OF F[(x:=1),(2)];END_VAR",
+            "VAR\n\ta : F(x := 1, y := A.b);\n\tb : F(1);\n"
+            "\tc : ARRAY[0..1] OF F[(x := 1), (2)];\nEND_VAR\n",
+        ),
         ("VAR a : A := (0); END_VAR", "VAR\n\ta : A := (0);\nEND_VAR\n"),
         (
             "VAR a : ARRAY[(0)..(N)] OF INT := [((N)+1)((2))]; END_VAR",
