@@ -90,8 +90,10 @@ def test_text_in_the_usual_shape_comes_back_unchanged() -> None:
         ("{P} VAR END_VAR", "{P} VAR\nEND_VAR\n"),
         (
             "VAR a:F(x:=1,y:=A.b);b:F(1);c:ARRAY[0..1] OF F[(x:=1),(2)];END_VAR",
-            "VAR\n\ta : F(x := 1, y := A.b);\n\tb : F(1);\n"
-            "\tc : ARRAY[0..1] OF F[(x := 1), (2)];\nEND_VAR\n",
+            (
+                "VAR\n\ta : F(x := 1, y := A.b);\n\tb : F(1);\n"
+                "\tc : ARRAY[0..1] OF F[(x := 1), (2)];\nEND_VAR\n"
+            ),
         ),
         ("VAR a : A := (0); END_VAR", "VAR\n\ta : A := (0);\nEND_VAR\n"),
         (
