@@ -6,6 +6,7 @@ from st_types.types.arrays import Array
 from st_types.types.elementary import (
     BOOL,
     BYTE,
+    CHAR,
     DATE,
     DATE_AND_TIME,
     DINT,
@@ -26,6 +27,7 @@ from st_types.types.elementary import (
     UINT,
     ULINT,
     USINT,
+    WCHAR,
     WORD,
     DataType,
 )
@@ -47,6 +49,7 @@ __all__ = [
     "ARRAY",
     "BOOL",
     "BYTE",
+    "CHAR",
     "DATE",
     "DATE_AND_TIME",
     "DINT",
@@ -69,6 +72,7 @@ __all__ = [
     "UINT",
     "ULINT",
     "USINT",
+    "WCHAR",
     "WORD",
     "WSTRING",
     "Array",

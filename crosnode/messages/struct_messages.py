@@ -36,6 +36,8 @@ _ROS_TYPES = {
     **{declared: ros for ros, declared in reversed(PRIMITIVES.items())},
     "BYTE": "uint8",
     "WORD": "uint16",
+    "CHAR": "uint8",
+    "WCHAR": "uint16",
     "DWORD": "uint32",
     "LWORD": "uint64",
 }

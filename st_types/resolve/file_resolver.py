@@ -39,7 +39,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import DINT, UNSUPPORTED_TYPES, DataType, ElementaryType
+from st_types.types.elementary import DINT, DataType, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -170,10 +170,7 @@ class FileResolver(ConstantResolver):
 
     def _find_type(self, node: NamedType) -> IndexEntry | None:
         entry = self.find("types", node.name, node.at)
-        key = node.name.upper()
-        if entry is None and key in UNSUPPORTED_TYPES and not self.scope.dialect.case_sensitive:
-            self.error(node.at, f"{key} is not supported")
-        elif entry is None and key not in GENERIC_TYPES:
+        if entry is None and node.name.upper() not in GENERIC_TYPES:
             hint = self.scope.hint("types", node.name)
             self.missing(node.at, f"no type is called {node.name}", hint)
         return entry

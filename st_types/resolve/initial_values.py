@@ -24,7 +24,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import ElementaryType, Kind
+from st_types.types.elementary import CHARACTERS, ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -197,6 +197,8 @@ def _scalar(
             return bool(value)
         case ElementaryType(kind=Kind.REAL) if not isinstance(value, str):
             return _real(context, node, value, data_type)
+        case ElementaryType() if data_type in _CHARACTERS and _is_character(value):
+            return _integer(context, node, ord(str(value)), data_type)
         case ElementaryType() if _is_whole(value) and data_type.is_integer:
             return _integer(context, node, int(value), data_type)
         case EnumerationType() as enumeration if isinstance(value, int):
@@ -208,6 +210,13 @@ def _scalar(
             return None
     context.error(node, f"{_shown(value)} is not a value of {declared}")
     return None
+
+
+_CHARACTERS = tuple(CHARACTERS.values())
+
+
+def _is_character(value: object) -> bool:
+    return isinstance(value, str) and len(value) == 1
 
 
 def _is_whole(value: object) -> bool:

@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from st_types.errors import ValueRangeError
-from st_types.types.elementary import ALL_ELEMENTARY, TIME, UNSUPPORTED_TYPES
+from st_types.types.elementary import ALL_ELEMENTARY, CHARACTERS, TIME
 
 MAX_DIGITS = 400
 """Longest number that is read; the largest LREAL has 309 digits before its point."""
@@ -76,8 +76,11 @@ def parse_literal(text: str) -> Constant:
 def _typed(type_name: str, body: str) -> Constant:
     if type_name in _PARSERS:
         return Constant(type_name, _PARSERS[type_name](body))
-    if type_name in UNSUPPORTED_TYPES:
-        raise LiteralError(f"{type_name} is not supported")
+    if type_name in CHARACTERS and body[:1] in ("'", '"'):
+        text = _string(body)
+        if len(text) != 1:
+            raise LiteralError(f"{body} is not one character")
+        return Constant(type_name, ord(text))
     if type_name in _STRINGS and body[:1] in ("'", '"'):
         return Constant(type_name, _string(body))
     if type_name == "BOOL":

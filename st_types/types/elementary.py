@@ -134,8 +134,14 @@ LONG_TIMES: Final[dict[str, ElementaryType[int]]] = {
 All count nanoseconds, dates from 1970-01-01 on.
 """
 
-ALL_ELEMENTARY: Final = {**ELEMENTARY, **LONG_TIMES}
-"""The elementary types of all dialects."""
+CHAR: Final[ElementaryType[int]] = ElementaryType("CHAR", 1, "B", Kind.BITS)
+WCHAR: Final[ElementaryType[int]] = ElementaryType("WCHAR", 2, "H", Kind.BITS)
 
-UNSUPPORTED_TYPES: Final = frozenset(["CHAR", "WCHAR"])
-"""Elementary types of IEC 61131-3 edition 3 that Automation Studio does not have, nor do we."""
+CHARACTERS: Final[dict[str, ElementaryType[int]]] = {t.name: t for t in (CHAR, WCHAR)}
+"""Characters of IEC 61131-3 edition 3, which Automation Studio does not have, by keyword.
+
+Their values are codes, so that they count like BYTE and WORD; a text of one character is one.
+"""
+
+ALL_ELEMENTARY: Final = {**ELEMENTARY, **LONG_TIMES, **CHARACTERS}
+"""The elementary types of all dialects."""

@@ -62,6 +62,8 @@ C_TYPES = {
     "DATE": "plcdate",
     "TIME_OF_DAY": "plctod",
     "DATE_AND_TIME": "plcdt",
+    "CHAR": "unsigned char",
+    "WCHAR": "unsigned short",
     **dict.fromkeys((t.name for t in LONG_TIMES.values()), "signed long long"),
 }
 """C type of each elementary type."""

@@ -21,6 +21,7 @@ from st_types.types.derived import (
     resolve_alias,
 )
 from st_types.types.elementary import (
+    CHARACTERS,
     DATE,
     DATE_AND_TIME,
     LDATE,
@@ -30,6 +31,7 @@ from st_types.types.elementary import (
     LTIME_OF_DAY,
     TIME,
     TIME_OF_DAY,
+    WCHAR,
 )
 
 if TYPE_CHECKING:
@@ -62,6 +64,8 @@ def value_text(data_type: DataType[Any], value: Any) -> str:
         return "TRUE" if value else "FALSE"
     if isinstance(value, float):
         return _real_text(value, data_type.size)
+    if data_type in _CHARACTERS and value:
+        return string_literal(chr(value), wide=data_type is WCHAR)
     return _time_text(data_type, value) if data_type in _TIMES else str(value)
 
 
@@ -84,6 +88,7 @@ def _real_text(value: float, size: int) -> str:
     return text if "." in text or "e" in text else f"{text}.0"
 
 
+_CHARACTERS = tuple(CHARACTERS.values())
 _TIMES = (TIME, DATE, TIME_OF_DAY, DATE_AND_TIME, *LONG_TIMES.values())
 
 

@@ -475,3 +475,39 @@ FUNCTION STRING_TO_LWORD : LWORD (*number in the decimal digits at the start*)
 		IN : STRING[80];
 	END_VAR
 END_FUNCTION
+
+FUNCTION CHAR_TO_STRING : STRING[80] (*text of one character, none for the code 0*)
+	VAR_INPUT
+		IN : BYTE;
+	END_VAR
+	VAR
+		first : REFERENCE TO BYTE;
+	END_VAR
+END_FUNCTION
+
+FUNCTION STRING_TO_CHAR : BYTE (*code of the first character, 0 for none*)
+	VAR_INPUT
+		IN : STRING[80];
+	END_VAR
+	VAR
+		first : REFERENCE TO BYTE;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WCHAR_TO_WSTRING : WSTRING[80] (*text of one character, none for the code 0*)
+	VAR_INPUT
+		IN : WORD;
+	END_VAR
+	VAR
+		first : REFERENCE TO WORD;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WSTRING_TO_WCHAR : WORD (*code of the first character, 0 for none*)
+	VAR_INPUT
+		IN : WSTRING[80];
+	END_VAR
+	VAR
+		first : REFERENCE TO WORD;
+	END_VAR
+END_FUNCTION

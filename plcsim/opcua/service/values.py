@@ -38,6 +38,8 @@ _ELEMENTARY: Final = {
     "INT": _VARIANT.Int16,
     "UINT": _VARIANT.UInt16,
     "WORD": _VARIANT.UInt16,
+    "CHAR": _VARIANT.Byte,
+    "WCHAR": _VARIANT.UInt16,
     "DINT": _VARIANT.Int32,
     "UDINT": _VARIANT.UInt32,
     "DWORD": _VARIANT.UInt32,

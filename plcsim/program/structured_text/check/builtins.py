@@ -10,6 +10,7 @@ from itertools import pairwise, product
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.program.structured_text.check import operations
+from plcsim.program.structured_text.check.fits import as_character
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     BOOL,
@@ -73,6 +74,7 @@ def converted(name: str, arguments: Sequence[Value]) -> Value | None:
     assert found is not None
     (value,) = arguments
     source, target = found
+    value = value if source is None else as_character(value, source)
     kind = kind_of(value.type)
     if kind > TypeKind.WSTRING:
         return None

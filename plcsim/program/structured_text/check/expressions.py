@@ -44,7 +44,7 @@ from st_types.types.derived import (
     StructType,
     WStringType,
 )
-from st_types.types.elementary import ALL_ELEMENTARY, BYTE, DWORD, WORD
+from st_types.types.elementary import ALL_ELEMENTARY, BYTE, CHAR, DWORD, WCHAR, WORD
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -319,11 +319,12 @@ class ExpressionChecker:
         if len(indices) != 1 or self.names.scope.dialect.case_sensitive:
             return None
         data_type = value.type
-        lying: Type = BYTE
+        lying: Type = CHAR
         address: Value = value
         if isinstance(data_type, ReferenceType) and data_type.target is not None:
             lying = plain(data_type.target)
-        elif isinstance(data_type, StringType) and isinstance(value, PLACES):
+        elif isinstance(data_type, StringType | WStringType) and isinstance(value, PLACES):
+            lying = CHAR if isinstance(data_type, StringType) else WCHAR
             keep_address(value)
             address = Address(UDINT, value)
         else:

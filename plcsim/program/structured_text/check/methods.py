@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.program.structured_text.check.classes import BODY, GET, SET
 from plcsim.program.structured_text.check.expressions import ExpressionChecker
+from plcsim.program.structured_text.check.fits import as_character
 from plcsim.program.structured_text.check.kinds import UDINT, VOID, plain
 from plcsim.program.structured_text.check.names import NOTHING, keep_address
 from plcsim.program.structured_text.check.typed import (
@@ -102,7 +103,8 @@ class MethodChecker(ExpressionChecker):
         return {n: each for n, each in numbered if each.implements(name, known)}
 
     def as_implementation(self, value: Value, target: Type) -> Value:
-        """Return what goes into a variable of an interface; any other value as it is."""
+        """Return what goes into a variable of an interface, or a character; else the value."""
+        value = as_character(value, target)
         symbols = self.names.symbols
         interface = symbols.interfaces.get(target)
         if interface is None or value.type is target:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.program.structured_text.check.fits import as_character
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
     ANY_REAL,
@@ -121,6 +122,7 @@ _SIGNED: Final = (SINT, INT, DINT, LINT)
 
 def operation(operator: str, left: Value, right: Value) -> Value | None:
     """Return an operation on two values, None if there is none for their types."""
+    left, right = as_character(left, right.type), as_character(right, left.type)
     if operator in COMPARISONS:
         operands = compared_type(left, right)
         return None if operands is None else Compare(BOOL, operator, operands, left, right)

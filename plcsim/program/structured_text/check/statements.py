@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check import typed
 from plcsim.program.structured_text.check.blocks import BlockChecker
+from plcsim.program.structured_text.check.fits import as_character
 from plcsim.program.structured_text.check.kinds import BOOL, COUNTS, UDINT, VOID, kind_of
 from plcsim.program.structured_text.check.names import NOTHING
 from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from plcsim.program.structured_text.check.findings import FileFindings
+    from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
@@ -242,15 +244,17 @@ class StatementChecker(BlockChecker):
         selector = self.value(node.selector)
         self.integer(node.selector, selector)
         taken: list[tuple[int, int]] = []
-        elements = [self._element(element, taken) for element in node.elements]
+        elements = [self._element(element, taken, selector.type) for element in node.elements]
         other = self.statements(node.other) if node.other else ()
         into.append(typed.Case(self.findings.line(node), selector, elements, other))
 
-    def _element(self, node: tree.CaseElement, taken: list[tuple[int, int]]) -> typed.CaseElement:
+    def _element(
+        self, node: tree.CaseElement, taken: list[tuple[int, int]], selector: Type
+    ) -> typed.CaseElement:
         ranges = []
         for low, high in node.labels:
-            first = self._label(low)
-            last = first if high is None else self._label(high)
+            first = self._label(low, selector)
+            last = first if high is None else self._label(high, selector)
             if first is None or last is None:
                 continue
             place = bisect(taken, (first, last))
@@ -264,9 +268,9 @@ class StatementChecker(BlockChecker):
             ranges.append((first, last))
         return typed.CaseElement(self.findings.line(node), ranges, self.statements(node.body))
 
-    def _label(self, node: Expression) -> int | None:
+    def _label(self, node: Expression, selector: Type) -> int | None:
         try:
-            value = self._label_value(node)
+            value = self._label_value(node, selector)
         except EvaluationError as err:
             self.error(node, FindingCode.WRONG_LABEL, f"this is no constant: {err.message}")
             return None
@@ -275,9 +279,9 @@ class StatementChecker(BlockChecker):
         self.error(node, FindingCode.WRONG_LABEL, "the label of a CASE is an integer")
         return None
 
-    def _label_value(self, node: Expression) -> object:
+    def _label_value(self, node: Expression, selector: Type) -> object:
         if isinstance(node, syntax.Name | syntax.MemberAccess | syntax.Literal):
-            value = self.value(node)
+            value = as_character(self.value(node), selector)
             if isinstance(value, Constant):
                 return value.value
             if value.type is not VOID:

@@ -14,6 +14,7 @@ from st_types.types.derived import EnumerationType
 from st_types.types.elementary import (
     BOOL,
     BYTE,
+    CHAR,
     INT,
     LINT,
     LONG_TIMES,
@@ -24,6 +25,7 @@ from st_types.types.elementary import (
     UINT,
     ULINT,
     USINT,
+    WCHAR,
     WORD,
 )
 from st_types.types.values import encode
@@ -36,9 +38,9 @@ if TYPE_CHECKING:
 _WIDTHS: Final[Mapping[Type, ir.Width]] = {
     BOOL: "u8",
     SINT: "s8",
-    **dict.fromkeys((USINT, BYTE), "u8"),
+    **dict.fromkeys((USINT, BYTE, CHAR), "u8"),
     INT: "s16",
-    **dict.fromkeys((UINT, WORD), "u16"),
+    **dict.fromkeys((UINT, WORD, WCHAR), "u16"),
     **dict.fromkeys((LINT, ULINT, LWORD, *LONG_TIMES.values()), "w64"),
     REAL: "f32",
     **dict.fromkeys((LREAL, ANY_REAL), "f64"),

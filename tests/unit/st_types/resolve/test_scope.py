@@ -375,13 +375,23 @@ def test_case_does_not_matter_in_iec() -> None:
     assert scope.files[0].diagnostics.records == []
 
 
-def test_types_of_the_standard_that_are_not_here_are_refused_by_name() -> None:
-    text = "VAR a : CHAR; b : WChar := 'x'; END_VAR TYPE LD : INT; END_TYPE VAR c : LD; END_VAR"
+def test_characters_of_the_standard() -> None:
+    declared = "a : CHAR := 'x'; b : WChar := \"\u20ac\"; c : CHAR := 'xy'; d : CHAR := \"\u20ac\";"
+    text = f"VAR {declared} END_VAR"
     file = parse_text(text, "a")
-    checked([file], dialect=IEC)
+    scope = checked([file], dialect=IEC)
+    assert [each.initial for each in scope.variables] == [120, 0x20AC, None, None]
     assert [str(record) for record in file.diagnostics.records] == [
-        "a:1:9: error: CHAR is not supported",
-        "a:1:19: error: WCHAR is not supported",
+        "a:1:52: error: 'xy' is not a value of CHAR",
+        "a:1:70: error: 8364 is outside 0..255 of CHAR",
+    ]
+
+
+def test_automation_studio_has_no_characters() -> None:
+    file = parse_text("VAR a : CHAR; END_VAR", "a")
+    checked([file])
+    assert [str(record) for record in file.diagnostics.records] == [
+        "a:1:9: warning: no type is called CHAR"
     ]
 
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from st_types import (
     ARRAY,
     BOOL,
+    CHAR,
     DATE,
     DATE_AND_TIME,
     DINT,
@@ -22,6 +23,7 @@ from st_types import (
     TIME,
     TIME_OF_DAY,
     UINT,
+    WCHAR,
     WSTRING,
 )
 from st_types.syntax.literals import parse_literal
@@ -55,6 +57,9 @@ POINT = StructType(
         (DATE_AND_TIME, 1_704_067_199, "DT#2023-12-31-23:59:59"),
         (TIME_OF_DAY, 3_723_004, "TOD#01:02:03.004"),
         (TIME_OF_DAY, 3_723_000, "TOD#01:02:03"),
+        (CHAR, ord("x"), "'x'"),
+        (CHAR, 0, "0"),
+        (WCHAR, 0x20AC, '"\u20ac"'),
         (LTIME, 93_784_005_006_007, "LTIME#1d2h3m4s5ms6us7ns"),
         (LTIME, -1, "LTIME#-1ns"),
         (LTIME, 0, "LTIME#0ms"),
