@@ -4,11 +4,12 @@
 
 Each project is copied, as programs may write files beside it. A process of its own checks it with
 all of its configurations, or with the one that runs by default, then runs what can run on a virtual
-clock, and says in one line: tasks that run, of how many; blocks and functions that are simulated or
-idle; how long it ran until SERVICE, or the end; how many tasks move, which is that at least one of
-their own variables or instances changed after the first second; how many bytes those are, and how
-many bytes of global variables. Below it stand the reasons of what does not run, and the tasks that
-stand still.
+clock, and says in one line: tasks that run, of how many; blocks and functions that are simulated
+or idle; how long it ran until SERVICE, or the end; how many tasks move, which is that at least one
+of their own variables or instances changed after the first second, or a global one while they ran;
+how many bytes of their own those are, and how many bytes of global variables. Below it stand the
+reasons of what does not run, and the tasks that stand still. A folder with a plc.toml is tried as
+it is, so the table [operator] can stand there.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ from plcsim.project.survey import Survey, survey
 if TYPE_CHECKING:
     from plcsim.core.controller import Controller
     from plcsim.core.tag import Tag
+    from plcsim.core.task import Task, TaskClass
 
 RUN_S: Final = 600
 WALL_S: Final = 180
@@ -43,6 +45,10 @@ WALL_S: Final = 180
 
 GLOBAL: Final = "global variables"
 LARGEST_BYTES: Final = 16 << 30
+LARGEST_COMPARED: Final = 256 << 10
+"""Bytes of global variables that are compared after each run of a task; of more, in one second of
+ten."""
+
 NOT_COPIED: Final = ("Temp", "Binaries", "Diagnosis", ".git")
 COLUMNS: Final = ("load", "tasks", "stubs", "ran", "moves", "bytes", "global")
 HEAD: Final = f"{'project':<44}" + "".join(f"{name:>9}" for name in COLUMNS)
@@ -51,6 +57,8 @@ MOST: Final = 6
 
 def projects_in(folder: Path) -> list[Path]:
     """Return the folders with a project file, without those inside another one."""
+    if (folder / "plc.toml").is_file():
+        return [folder]
     found = sorted({file.parent for file in folder.rglob("*.[aA][pP][jJ]")})
     outer = [each for each in found if not any(other in each.parents for other in found)]
     return outer or [folder]
@@ -78,6 +86,40 @@ class Movement:
         self._areas[GLOBAL] = [a for a in controller.areas if not a.path and not a.is_constant]
         self._before = {name: self._read(name) for name in self._areas}
         self.changed: dict[str, set[int]] = {name: set() for name in self._areas}
+        self.writers: set[str] = set()
+        self._views = [
+            memoryview(self._memory.view(t.address, t.data_type.size)) for t in self._areas[GLOBAL]
+        ]
+        self._globals = b"".join(self._views)
+        self.is_large = len(self._globals) > LARGEST_COMPARED
+        controller.image.inputs.append(self._latched)
+        self._scan = controller.scan
+        self.compare(is_on=True)
+
+    def compare(self, *, is_on: bool) -> None:
+        """Compare the global variables after each run of a task, or do not."""
+        self._is_on = is_on
+        self._scan.run_follower = self if is_on else None
+
+    def _latched(self, _task_class: TaskClass) -> None:
+        if self._is_on:
+            self._globals = b"".join(self._views)
+
+    def ran(self, task: Task, _start_ns: int, _end_ns: int, _used_ns: int) -> None:
+        """Note whether a task has changed a global variable."""
+        now = b"".join(self._views)
+        if now != self._globals:
+            self.writers.add(task.name)
+            self._globals = now
+
+    def cycled(self, _task_class: TaskClass, _start_ns: int, _end_ns: int) -> None:
+        """Nothing changes between the last task and the end of the cycle."""
+
+    @property
+    def moving(self) -> set[str]:
+        """The tasks that move."""
+        own = {name for name, places in self.changed.items() if places and name != GLOBAL}
+        return own | self.writers
 
     def _read(self, name: str) -> bytes:
         areas = self._areas[name]
@@ -93,13 +135,17 @@ class Movement:
                 self._before[name] = now
 
 
+def _given(configuration: str) -> dict[str, dict[str, str]]:
+    return {"as": {"config": configuration}} if configuration else {}
+
+
 def survey_of(folder: Path, configuration: str) -> Survey:
     """Check a project.
 
     Raises:
         ConfigurationError: it cannot be read at all.
     """
-    project = read_project(folder, {"as": {"config": configuration}})
+    project = read_project(folder, _given(configuration))
     assert project.automation_studio is not None
     return survey(project, project.automation_studio)
 
@@ -123,7 +169,7 @@ def one(folder: Path, configuration: str, run_s: int, wall_s: int) -> None:
         print(f"{head}{short:>9}", flush=True)
     else:
         shared = len(moves.changed.pop(GLOBAL))
-        moving = sum(1 for places in moves.changed.values() if places)
+        moving = len(moves.moving)
         total = sum(map(len, moves.changed.values()))
         share = f"{moving}/{len(moves.changed)}"
         print(f"{head}{short:>9}{share:>9}{total:>9}{shared:>9}", flush=True)
@@ -137,7 +183,7 @@ def one(folder: Path, configuration: str, run_s: int, wall_s: int) -> None:
         print(f"    ... {len(told) - MOST} more")
     if ":" in ran:
         print(f"    {ran}".replace(str(folder.parent), ""))
-    still = [] if moves is None else [task for task, places in moves.changed.items() if not places]
+    still = [] if moves is None else [task for task in moves.changed if task not in moves.moving]
     if still:
         print(f"    still: {', '.join(still)}")
 
@@ -145,7 +191,7 @@ def one(folder: Path, configuration: str, run_s: int, wall_s: int) -> None:
 def _ran(folder: Path, configuration: str, run_s: int, wall_s: int) -> tuple[str, Movement | None]:
     """Run what can run; return how long it ran, ":" and why not longer; and what moved."""
     try:
-        project = runnable(read_project(folder, {"as": {"config": configuration}}))
+        project = runnable(read_project(folder, _given(configuration)))
         application = load(project).in_process("192.168.0.1")
         clock = VirtualClock()
         network = VirtualNetwork(clock.now_ns).host("192.168.0.1")
@@ -161,6 +207,7 @@ def _ran(folder: Path, configuration: str, run_s: int, wall_s: int) -> tuple[str
     moves = Movement(controller)
     seconds = 1
     while controller.state is State.RUN and seconds < run_s and time.monotonic() < limit:
+        moves.compare(is_on=not moves.is_large or seconds % 10 == 0)
         controller.run_for(1_000_000_000)
         seconds += 1
         moves.look()

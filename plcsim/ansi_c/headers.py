@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from st_types.writers.c_header import C_TYPES, Header, c_header
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
     from st_types.resolve.scope import Scope
 
@@ -94,18 +94,23 @@ def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict
     return _of_files([*around, local]) | headers | _bringing_all(headers)
 
 
-def body_headers(library: Scope, libraries: Sequence[Scope]) -> dict[str, str]:
+def body_headers(
+    library: Scope, libraries: Sequence[Scope], needed: Collection[Scope]
+) -> dict[str, str]:
     """Return the headers for the sources of a library by name.
 
     Args:
         library: whose bodies are in C.
         libraries: all, in the order in which they are included.
+        needed: those that its own header and `DEFAULT` bring; the others are there.
     """
     known: list[Header] = []
     headers = library_headers([each for each in libraries if each is not library], known)
     text = c_header(_header(library, known), library.name)
-    headers[f"{library.name}.h"] = _including(known, text)
-    return _of_files([library]) | headers | _bringing_all(headers)
+    own = f"{library.name}.h"
+    headers[own] = _including([each for each in known if each.scope in needed], text)
+    brought = [f"{each.scope.name}.h" for each in known if each.scope in needed]
+    return _of_files([library]) | headers | _bringing_all([*brought, own])
 
 
 def _including(known: Iterable[Header], text: str) -> str:

@@ -49,6 +49,21 @@ class Scopes(Sequence["Scope"]):
     def __len__(self) -> int:
         return len(self._libraries)
 
+    def needed_by(self, library: Library) -> list[Scope]:
+        """Return the scopes of the libraries that one says it needs, and of what those need.
+
+        All others where it does not say: it was never built by Automation Studio.
+        """
+        if not library.dependencies:
+            return [each.scope for each in self._libraries if each is not library]
+        waiting, names = [library], {library.name.upper()}
+        while waiting:
+            named = {name.upper() for name in waiting.pop().dependencies} - names
+            names |= named
+            waiting += [each for each in self._libraries if each.name.upper() in named]
+        meant = [each for each in self._libraries if each.name.upper() in names]
+        return [each.scope for each in meant if each is not library]
+
     def by_dependency(self) -> list[Scope]:
         """Return the scopes, each behind those of the libraries that it says it needs.
 

@@ -80,8 +80,12 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     """
     around = library.scope.outer
     libraries = around.by_dependency() if isinstance(around, Scopes) else around
+    needed = around.needed_by(library) if isinstance(around, Scopes) else around
+    names = ",".join(sorted(each.name for each in needed))
     headers = _headers(
-        "library", [library.scope, *libraries], lambda: body_headers(library.scope, libraries)
+        f"library {names}",
+        [library.scope, *libraries],
+        lambda: body_headers(library.scope, libraries, needed),
     )
     option = f"-D_{library.name.upper()}_EXPORT"
     folders = [library.folder, *library.c_build.include_folders, headers]

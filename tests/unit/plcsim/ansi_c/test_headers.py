@@ -3,7 +3,13 @@ import subprocess
 import pytest
 
 from plcsim.ansi_c.build import BuildOrder, build
-from plcsim.ansi_c.headers import INCLUDE, identity_of, program_headers, written_headers
+from plcsim.ansi_c.headers import (
+    INCLUDE,
+    body_headers,
+    identity_of,
+    program_headers,
+    written_headers,
+)
 from plcsim.machine import CodeCache
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
@@ -155,3 +161,20 @@ def test_types_are_those_of_the_32_bit_target(each_toolchain, source):
     command = ["gcc", "-m32", "-ffreestanding", "-fsyntax-only", f"-I{INCLUDE}", str(file)]
     native = subprocess.run(command, capture_output=True, text=True, check=False)
     assert "static assertion" not in native.stderr
+
+
+def test_the_sources_of_a_library_see_what_it_needs_and_find_the_rest(
+    each_toolchain, source, tmp_path
+):
+    needed = scope("Timing", "TYPE Pace : (SLOW, FAST); END_TYPE")
+    other = scope("Motion", "TYPE Step : (INIT := 5, MOVE); END_TYPE")
+    library = scope(
+        "Bus", "FUNCTION_BLOCK Talk VAR pace : Pace; END_VAR END_FUNCTION_BLOCK", needed
+    )
+    headers = body_headers(library, [needed, other, library], [needed])
+    folder = written_headers("bus", lambda: headers, tmp_path)
+    own_names = '#include "Bus.h"\n#include <AsDefault.h>\nenum { INIT = 1 };\n'
+    body = "void Talk(struct Talk* inst) { inst->pace = FAST + INIT - 1; }\n"
+    for text in (own_names + body, "#include <Bus.h>\n#include <Motion.h>\nint moving = MOVE;\n"):
+        order = BuildOrder("bus", [source("bus.c", text)], [folder, INCLUDE])
+        assert build(order, each_toolchain, CodeCache(None)).warnings == []

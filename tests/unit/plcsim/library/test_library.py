@@ -90,3 +90,8 @@ def test_libraries_come_behind_those_that_they_need(tmp_path):
     libraries += [library("round", "Trip"), library("trip", "ROUND")]
     names = [scope.name for scope in Scopes(libraries).by_dependency()]
     assert names == ["base", "vendor", "trip", "round", "own"]
+    needed = [[scope.name for scope in Scopes(libraries).needed_by(each)] for each in libraries]
+    assert needed[0] == ["vendor", "base"]
+    assert needed[1] == ["base"]
+    assert needed[2] == ["own", "vendor", "round", "trip"]  # it says nothing: all of them
+    assert needed[3] == ["trip"]
