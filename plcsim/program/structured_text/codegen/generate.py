@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -16,6 +17,7 @@ from plcsim.program.structured_text.codegen.loops import poll
 from plcsim.program.structured_text.codegen.object_code import Holes, ObjectCode
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
 from plcsim.program.structured_text.codegen.options import CodegenOptions
+from plcsim.program.structured_text.codegen.parts import parts_of
 from plcsim.program.structured_text.codegen.profile import Profile
 from plcsim.program.structured_text.codegen.runtime import MATHEMATICS, helper
 from plcsim.program.structured_text.codegen.statements import statements
@@ -43,6 +45,8 @@ def generate(module: ir.Module, options: CodegenOptions = PROGRAM_OPTIONS) -> Ob
     The memory is imported as ``env.memory``, functions as ``block.NAME``, ``function.NAME`` and
     ``rt.NAME``; exported are the functions that the module exports.
     """
+    functions = [part for function in module.functions for part in parts_of(function)]
+    module = replace(module, functions=functions)
     compiler = _Compiler(module, options)
     for function in module.functions:
         compiler.compile(function)
