@@ -1,7 +1,8 @@
 """kill -9 while retained variables change: nothing torn, no more lost than is said.
 
-A program counts in retained variables, all of which change in every cycle: in a DWORD, in an ARRAY
-of 64, in a global variable and in one of Structured Text. Its scan process is killed at random
+A program counts in retained variables, all of which change in every cycle: in a UDINT, in an ARRAY
+of 64, in a global variable, in one of Structured Text and in one of C; the last two have initial
+values. Its scan process is killed at random
 moments, and in every second run the process that writes the files together with it. Each run goes
 on with what the last one left.
 
@@ -50,6 +51,12 @@ CYCLE_MS = 2
 PERIOD_MS = 50
 ELEMENTS = 64
 
+FIRST = [0, 7, 9]
+"""Initial values of the counts in Python, Structured Text and C."""
+
+COUNTS = ["counter.count", "text.count", "machine.count"]
+BEGAN = ["counter.began", "text.began", "machine.began"]
+
 FILES = {
     "plc.toml": f"""
 [plc]
@@ -57,7 +64,7 @@ realtime = "off"
 init_timeout = "60s"
 [task_class.1]
 cycle = "{CYCLE_MS}ms"
-programs = ["counter", "text"]
+programs = ["counter", "text", "machine"]
 [retain]
 period = "{PERIOD_MS}ms"
 """,
@@ -82,8 +89,28 @@ class Counter(Program):
         for number in range(1, {ELEMENTS} + 1):
             self.table[number] = self.count
 """,
-    "text/Main.st": "PROGRAM _CYCLIC\n\tcount := gNow;\nEND_PROGRAM\n",
-    "text/Variables.var": "VAR RETAIN\n\tcount : UDINT;\nEND_VAR\n",
+    "text/Main.st": """
+PROGRAM _INIT
+    began := count;
+END_PROGRAM
+PROGRAM _CYCLIC
+    count := gNow;
+END_PROGRAM
+""",
+    "text/Variables.var": f"""
+VAR RETAIN
+    count : UDINT := {FIRST[1]};
+    began : UDINT;
+END_VAR
+""",
+    "machine/Main.c": f"""
+#include <bur/plctypes.h>
+_LOCAL_RETAIN UDINT count = {FIRST[2]};
+_LOCAL_RETAIN UDINT began;
+_GLOBAL UDINT gNow;
+void _INIT ProgramInit(void) {{ began = count; }}
+void _CYCLIC ProgramCyclic(void) {{ count = gNow; }}
+""",
 }
 
 
@@ -121,15 +148,15 @@ def _kills(folder: Path, chance: random.Random, count: int) -> list[Kill]:
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(text, "utf-8")
     done: list[Kill] = []
-    last = 0
+    last = FIRST
     for number in range(count):
         last, kill = _kill(folder, chance.uniform(0.03, 0.3), last, both=bool(number % 2))
         done.append(kill)
     return done
 
 
-def _kill(folder: Path, after_s: float, last: int, *, both: bool) -> tuple[int, Kill]:
-    """Run, kill after a time in RUN; return the count that is kept, and what was lost."""
+def _kill(folder: Path, after_s: float, last: list[int], *, both: bool) -> tuple[list[int], Kill]:
+    """Run, kill after a time in RUN; return the counts that are kept, and what was lost."""
     published = 0
     killed = False
     until_s = 0.0
@@ -149,9 +176,9 @@ def _kill(folder: Path, after_s: float, last: int, *, both: bool) -> tuple[int, 
                 published = _published(run)
 
         run.wait(look)
-    count, is_whole, began = _kept(folder)
+    counts, is_whole, began = _kept(folder)
     is_torn = not is_whole or began != last
-    return count, Kill(both, is_torn, (published - count) * CYCLE_MS)
+    return counts, Kill(both, is_torn, (published - counts[0]) * CYCLE_MS)
 
 
 def _is_serving(run: Supervisor) -> bool:
@@ -166,17 +193,19 @@ def _published(run: Supervisor) -> int:
     return int.from_bytes(image.copy(at, at + 4)[1], "little")
 
 
-def _kept(folder: Path) -> tuple[int, bool, int]:
-    """Return the count in the files, whether all values are of one cycle, and where it began."""
+def _kept(folder: Path) -> tuple[list[int], bool, list[int]]:
+    """Return the counts in the files, whether all values are of one cycle, and where they began."""
     latest, _ = Generations(folder / "retain").latest()
     assert latest is not None
     taken = fit(latest, latest.variables).taken
-    data = b"".join(part for _, part in taken)
-    numbers = memoryview(data).cast("I").tolist()
-    paths = [tag.path for tag in latest.variables]
-    assert paths == ["gCount", "counter.count", "counter.table", "counter.began", "text.count"]
-    counts = [*numbers[:-2], numbers[-1]]
-    return counts[0], len(set(counts)) == 1, numbers[-2]
+    kept = {
+        tag.path: memoryview(data).cast("I").tolist()
+        for tag, (_, data) in zip(latest.variables, taken, strict=True)
+    }
+    began = [kept.pop(path)[0] for path in BEGAN]
+    assert set(kept) == {"gCount", "counter.table", *COUNTS}
+    counts = [kept[path][0] for path in COUNTS]
+    return counts, len({number for numbers in kept.values() for number in numbers}) == 1, began
 
 
 def _end(pids: set[int]) -> None:
