@@ -40,7 +40,6 @@ from _outcome import (
 
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
-from plcsim.retain.fitting import fit
 from plcsim.retain.generations import Generations
 from plcsim.shared_image import ImageError
 
@@ -177,7 +176,8 @@ def _kill(folder: Path, after_s: float, last: list[int], *, both: bool) -> tuple
 
         run.wait(look)
     counts, is_whole, began = _kept(folder)
-    is_torn = not is_whole or began != last
+    is_unchanged = counts == last  # killed before anything was written: they began earlier
+    is_torn = not is_whole or (began != last and not is_unchanged)
     return counts, Kill(both, is_torn, (published - counts[0]) * CYCLE_MS)
 
 
@@ -197,10 +197,10 @@ def _kept(folder: Path) -> tuple[list[int], bool, list[int]]:
     """Return the counts in the files, whether all values are of one cycle, and where they began."""
     latest, _ = Generations(folder / "retain").latest()
     assert latest is not None
-    taken = fit(latest, latest.variables).taken
+    data = memoryview(latest.data)
     kept = {
-        tag.path: memoryview(data).cast("I").tolist()
-        for tag, (_, data) in zip(latest.variables, taken, strict=True)
+        tag.path: data[tag.address : tag.address + tag.data_type.size].cast("I").tolist()
+        for tag in latest.variables
     }
     began = [kept.pop(path)[0] for path in BEGAN]
     assert set(kept) == {"gCount", "counter.table", *COUNTS}
