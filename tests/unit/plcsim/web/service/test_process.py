@@ -69,13 +69,14 @@ class Site:
         with urllib.request.urlopen(asked, timeout=100) as answer:
             return json.load(answer)
 
-    def await_pages(self):
+    def await_pages(self, ask=None):
         """Ask until there is an answer; a service takes a moment to start."""
         deadline = time.monotonic() + 100
         while True:
             try:
-                return self.ask("read", tags=["echo.cycles"])["values"][0]
+                return ask() if ask else self.ask("read", tags=["echo.cycles"])["values"][0]
             except (OSError, urllib.error.URLError):
+                assert self._thread.is_alive(), "the run has ended"
                 assert time.monotonic() < deadline
                 time.sleep(0.02)
 
@@ -240,16 +241,13 @@ def test_pages_over_tls(tmp_path):
     site = Site(tmp_path, '[web.tls]\ncertificate = "cert.pem"\nkey = "key.pem"\n')
     with site.supervisor:
         context = ssl.create_default_context(cafile=tmp_path / "cert.pem")
-        deadline = time.monotonic() + 100
-        while True:
-            try:
-                url = f"https://localhost:{site.port}/"
-                with urllib.request.urlopen(url, timeout=100, context=context) as answer:
-                    assert b"plcsim" in answer.read()
-                break
-            except (OSError, urllib.error.URLError):
-                assert time.monotonic() < deadline
-                time.sleep(0.02)
+
+        def first_page():
+            url = f"https://localhost:{site.port}/"
+            with urllib.request.urlopen(url, timeout=100, context=context) as answer:
+                return answer.read()
+
+        assert b"plcsim" in site.await_pages(first_page)
         with connect(
             f"wss://localhost:{site.port}/live",
             origin=f"https://localhost:{site.port}",

@@ -8,8 +8,8 @@ from plcsim.core.tag import Tag
 from plcsim.shared_image.samples import Sample
 from plcsim.web.service import traces
 from plcsim.web.service.traces import LiveTrace, code_of
-from st_types import BOOL, INT, LREAL, REAL, STRING, TIME, UDINT
-from st_types.types.derived import SubrangeType
+from st_types import BOOL, INT, LREAL, REAL, SINT, STRING, TIME, UDINT
+from st_types.types.derived import EnumerationType, SubrangeType
 
 from ..site import MODE, Axis, Socket
 
@@ -52,7 +52,8 @@ def test_what_is_missing_is_counted(monkeypatch):
 
 @pytest.mark.parametrize(
     ("data_type", "code"),
-    [(BOOL, "<B"), (UDINT, "<I"), (LREAL, "<d"), (TIME, "<i"), (MODE, "<i4"),
+    [(BOOL, "<B"), (UDINT, "<I"), (LREAL, "<d"), (TIME, "<i"), (MODE, "<i"),
+     (EnumerationType("Gear", {"REVERSE": -1, "NEUTRAL": 0}, base=SINT), "<b"),
      (SubrangeType("Percent", INT, 0, 100), "<h")],
 )  # fmt: skip
 def test_what_has_a_number_can_be_drawn(data_type, code):
