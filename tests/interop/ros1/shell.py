@@ -52,7 +52,7 @@ def next_event(connection: Any, sock: socket.socket) -> Any:
 
 
 def dial(uri: str, scheme: str) -> socket.socket:
-    sock = socket.create_connection(parse_uri(uri, scheme), timeout=10)
+    sock = socket.create_connection(parse_uri(uri, scheme), timeout=100)
     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
     return sock
 

@@ -123,7 +123,7 @@ def theirs(ros: Ros, roscpp: Path, tmp_path: Path) -> Path:
     ros.tool("rosbag", "record", "-O", str(bag), "--limit=60", "/chatter", "/words")
     for peer in peers:
         peer.kill()
-    deadline = time.monotonic() + 10
+    deadline = time.monotonic() + 100
     while not bag.exists() and time.monotonic() < deadline:
         time.sleep(0.1)
     return bag
@@ -220,10 +220,11 @@ def test_a_run_with_modbus_writes_and_a_real_peer_is_repeated(ros: Ros, tmp_path
         ros.until(lambda: not client.write_register(0, 0).isError())  # the first cycle is done
         end_s = time.monotonic() + seconds
         while time.monotonic() < end_s or heard <= 30 * seconds or written <= 20 * seconds:
-            assert not client.write_register(0, written % 1000).isError()
-            written += 1
-            high, low = client.read_holding_registers(1, count=2).registers
-            heard = high << 16 | low
+            written += not client.write_register(0, written % 1000).isError()
+            answer = client.read_holding_registers(1, count=2)
+            if not answer.isError():  # it is while the host lets the scan stand still
+                high, low = answer.registers
+                heard = high << 16 | low
             time.sleep(0.01)
     process.kill(signal.SIGINT, patience_s=60)
     peer.kill()
