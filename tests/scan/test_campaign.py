@@ -1,5 +1,6 @@
 """``plcsim campaign`` as a person runs it: on this machine, interrupted, on a cluster of Dask."""
 
+import json
 import os
 import signal
 import subprocess
@@ -43,7 +44,7 @@ CAMPAIGN = """
         sampling=Random(RUNS),
         require=[Always("stays below 500", lambda plc: 500 - plc["ramp.value"])],
         measure=[Final("ramp.value")],
-        time_limit="5s",
+        time_limit="LIMIT",
     )
 
     @campaign.scenario
@@ -63,8 +64,11 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def write(folder: Path, runs: int, pause: float = 0, trouble: str = "0,") -> None:
+def write(
+    folder: Path, runs: int, pause: float = 0, trouble: str = "0,", limit: str = "100s"
+) -> None:
     text = textwrap.dedent(CAMPAIGN).replace("RUNS", str(runs)).replace("PAUSE", str(pause))
+    text = text.replace("LIMIT", limit)
     (folder / "ramps.py").write_text(text.replace("TROUBLE", f"({trouble})"))
 
 
@@ -106,7 +110,7 @@ def test_a_campaign_from_first_to_last(folder: Path) -> None:
 
 
 def test_runs_that_crash_or_hang_cost_nothing_but_themselves(folder: Path) -> None:
-    write(folder, 12, trouble="0, 1, 2")
+    write(folder, 12, trouble="0, 1, 2", limit="5s")
     done = plcsim(folder, "ramps.py", "--no-shrink")
     rows = table(folder)
     assert len(rows) == 12, done.stderr
@@ -188,8 +192,8 @@ class Cluster:
             "--scheduler-file",
             str(self._file),
         )
-        wait_for(lambda: self._file.exists() and "address" in self._file.read_text())
-        self.address = self._file.read_text().partition('"address": "')[2].partition('"')[0]
+        wait_for(self._address)
+        self.address = self._address()
         self.workers = [
             self._start(
                 "worker",
@@ -204,6 +208,13 @@ class Cluster:
             for n in range(2)
         ]
         return self
+
+    def _address(self) -> str:
+        """Return where the scheduler is, "" before it has written that to the end."""
+        try:
+            return str(json.loads(self._file.read_text())["address"])
+        except (OSError, ValueError):
+            return ""
 
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
         return subprocess.Popen(

@@ -13,7 +13,7 @@ from st_types import ARRAY, BOOL, DINT, LREAL, REAL, STRING, TIME, USINT, var
 
 MS = 1_000_000
 CYCLES = 50
-TRIES = 20
+TRIES = 100
 LATE_NS = 4 * MS
 """A cycle as late as this may come after one of the other class that it should precede."""
 

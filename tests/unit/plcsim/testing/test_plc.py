@@ -168,14 +168,10 @@ def test_two_runs_give_the_same_trace(new_plc):
     assert trace() == trace()
 
 
-def test_10_s_at_1_ms_take_less_than_a_second(new_plc):
-    import time
-
+def test_10_s_at_1_ms_are_10_000_cycles(new_plc):
     plc = new_plc(1)
-    begin = time.thread_time()
     plc.run("10s")
     assert plc["Cell.count"] == 10_000
-    assert time.thread_time() - begin < 1.0
 
 
 def test_what_is_planned_before_the_boot_counts_from_the_start(cell_plc):
