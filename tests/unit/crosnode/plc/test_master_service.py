@@ -34,11 +34,8 @@ class Talker(Program):
 
     def exit(self):
         call = self.node.set_param("/left", True)
-        for _ in range(100_000):
+        while not call.was_answered:  # no longer than init_timeout
             self.node.do_events_loop()
-            if call.was_answered:
-                break
-        assert call.was_answered, "no master in EXIT"
         self.node.destroy()
 """
 
@@ -50,7 +47,7 @@ class Site:
         (folder / "talker").mkdir()
         (folder / "talker" / "main.py").write_text(PROGRAM)
         (folder / "plc.toml").write_text(
-            f'[plc]\nrealtime = "off"\nwatchdog = "100s"\n'
+            f'[plc]\nrealtime = "off"\nwatchdog = "100s"\ninit_timeout = "100s"\n'
             f'[task_class.1]\ncycle = "2ms"\ntolerance = "10s"\n'
             f'programs = ["talker"]\n[ros]\nmaster = "embedded"\nhost = "127.0.0.1"\n'
             f"master_port = {port}\n"
