@@ -26,6 +26,11 @@ from plcsim.cli.command import build_parser
 from plcsim.cli.exit_codes import ExitCode
 from plcsim.cli.run import run
 
+LONGEST_PAGE_S = 800
+"""A page is a dozen and more of processes; on a busy host they take their time."""
+
+pytestmark = pytest.mark.timeout(LONGEST_PAGE_S + 100)
+
 GUIDE = Path(__file__).parents[2] / "docs" / "guide"
 PAGES = sorted(GUIDE.glob("*.md"))
 
@@ -101,7 +106,7 @@ def shell(tmp_path, monkeypatch):
             stderr=subprocess.STDOUT,
             stdin=subprocess.DEVNULL,
             text=True,
-            timeout=300,
+            timeout=LONGEST_PAGE_S,
             check=False,
         )
         return done.returncode, done.stdout
