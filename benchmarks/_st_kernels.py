@@ -13,7 +13,8 @@ from plcsim.machine import CodeCache, Machine
 from plcsim.machine import opcodes as op
 from plcsim.machine.encoder import NO_ARGUMENTS, ModuleWriter, Signature, sleb, uleb
 from plcsim.program.structured_text import ir
-from plcsim.program.structured_text.check.program import check_program, declarations_of
+from plcsim.program.structured_text.check.declared import declarations_of
+from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.lower.memory import Spot

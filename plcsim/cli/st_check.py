@@ -20,7 +20,8 @@ from plcsim.cli.declaration_scopes import (
     library_scopes,
     read_declarations,
 )
-from plcsim.program.structured_text.check.program import QUIET, check_program, declarations_of
+from plcsim.program.structured_text.check.declared import declarations_of
+from plcsim.program.structured_text.check.program import QUIET, check_program
 from plcsim.program.structured_text.check.programs import MeantProgram
 from plcsim.program.structured_text.dialect import is_standard
 from plcsim.program.structured_text.program_uses import program_uses

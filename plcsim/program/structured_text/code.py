@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NoReturn
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Task, Unit
-from plcsim.program.structured_text.check.program import check_program, unit_scope
+from plcsim.program.structured_text.check.declared import unit_scope
+from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
 from plcsim.program.structured_text.code_cache import Stored, code_cache, find, keep, key_of
 from plcsim.program.structured_text.codegen.generate import generate

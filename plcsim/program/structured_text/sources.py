@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
-from plcsim.program.structured_text.check.program import declarations_of
+from plcsim.program.structured_text.check.declared import declarations_of
 from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
 from plcsim.program.structured_text.codes import FindingCode

@@ -6,7 +6,8 @@ from plcsim.core.memory import Memory
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import located
-from plcsim.program.structured_text.check.program import check_program, declarations_of
+from plcsim.program.structured_text.check.declared import declarations_of
+from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.codes import FindingCode
