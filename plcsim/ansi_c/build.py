@@ -97,6 +97,7 @@ class BuildOrder:
         folders: where headers are looked for, in order.
         options: further ones of the compiler, such as ``-DX=1``.
         libraries: of which is linked what the sources need.
+        made: folder of headers that always have the same content under its name; None for none.
     """
 
     name: str
@@ -104,6 +105,7 @@ class BuildOrder:
     folders: Sequence[Path] = ()
     options: Sequence[str] = ()
     libraries: Sequence[StaticLibrary] = ()
+    made: Path | None = None
 
 
 @dataclass
@@ -220,6 +222,7 @@ class _Object:
         self.toolchain = toolchain
         self._work = work
         self._folders = order.folders
+        self._made = "\0" if order.made is None else f"{order.made}{os.sep}"
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
             *_OPTIONS,
@@ -237,7 +240,7 @@ class _Object:
         """Take the object from the cache where nothing has changed."""
         try:
             manifest = json.loads(cache.load(self._manifest) or b"null")
-            if manifest is None or any(_hash_of(f) != h for f, h in manifest["files"].items()):
+            if manifest is None or any(self._hash(f) != h for f, h in manifest["files"].items()):
                 return False
         except (ValueError, OSError):
             return False
@@ -285,11 +288,15 @@ class _Object:
         self.content = self.file.read_bytes()
         self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
 
+    def _hash(self, file: str) -> str:
+        """Return the hash of a file; "" where its name says already what is in it."""
+        return "" if file.startswith(self._made) else _hash_of(file)
+
     def store(self, cache: CodeCache) -> None:
         """Keep the object."""
         key = _key("object", self.content)
         manifest = {
-            "files": {file: _hash_of(file) for file in sorted(self.files)},
+            "files": {file: self._hash(file) for file in sorted(self.files)},
             "object": key,
             "warnings": self.warnings,
         }

@@ -82,6 +82,8 @@ def own_variables(
         declared: names of variables that are declared elsewhere.
         name: of the STRUCT.
     """
+    if not module.memory_size:
+        return None  # no data, so nothing has a place in it; most programs declare what they have
     types = _Types(DebugInfo(module.section), scope)
     found: dict[str, tuple[int, DataType[object]]] = {}
     retained: set[str] = set()

@@ -54,10 +54,11 @@ def compile_program(source: ProgramSource) -> LinkedModule:
     c_build = source.declarations.layout.c_build
     folders = [source.folder, *c_build.include_folders, *brought, headers]
     static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
-    order = BuildOrder(
-        source.name, source.files, folders, compiler_options(c_build), [*static, UNIT_TEST]
+    options = compiler_options(c_build)
+    libraries_in_c = [*static, UNIT_TEST]
+    return _compiled(
+        BuildOrder(source.name, source.files, folders, options, libraries_in_c, headers)
     )
-    return _compiled(order)
 
 
 def is_static(library: Library) -> bool:
@@ -89,9 +90,8 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     )
     option = f"-D_{library.name.upper()}_EXPORT"
     folders = [library.folder, *library.c_build.include_folders, headers]
-    return _compiled(
-        BuildOrder(library.name, files, folders, [option, *compiler_options(library.c_build)])
-    )
+    options = [option, *compiler_options(library.c_build)]
+    return _compiled(BuildOrder(library.name, files, folders, options, made=headers))
 
 
 def compiler_options(c_build: CBuild) -> list[str]:

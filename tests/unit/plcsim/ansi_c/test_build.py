@@ -121,6 +121,22 @@ def test_a_header_that_is_gone_is_missed(source, toolchain, tmp_path):
         build(order, toolchain, cache)
 
 
+def test_headers_whose_folder_names_their_content_are_not_read_again(source, toolchain, tmp_path):
+    source("part.h", "#define STEP 2\n")
+    made = tmp_path / "made"
+    made.mkdir()
+    (made / "made.h").write_text("#define MADE 1\n")
+    file = source(
+        "main.c", '#include "part.h"\n#include <made.h>\nint f(void) { return MADE + STEP; }'
+    )
+    cache, order = CodeCache(tmp_path / "cache"), BuildOrder("p", [file], [made], made=made)
+    first = build(order, toolchain, cache).wasm
+    (made / "made.h").write_text("#define MADE 8\n")
+    assert build(order, toolchain, cache).wasm == first
+    source("part.h", "#define STEP 3\n")
+    assert build(order, toolchain, cache).wasm != first
+
+
 def test_other_options_make_another_module(source, toolchain, tmp_path):
     file, cache = source("a.c", "int f(void) { return X; }"), CodeCache(tmp_path / "cache")
     one, two = (
