@@ -5,6 +5,7 @@ controller on the virtual clock (`make_controller`). A program of a test says wh
 `VirtualClock.spend_ns`, `stall_ns` and `wait_ns`.
 """
 
+import faulthandler
 import sys
 import textwrap
 
@@ -46,6 +47,18 @@ def pytest_runtest_makereport(item, call):
             if text:
                 report.sections.append((title, text))
     return report
+
+
+def pytest_runtest_setup(item):
+    """Let no stack be told of a test with a limit of its own before that limit.
+
+    ``faulthandler_timeout`` is one for all; its thread reads frames that change meanwhile, which
+    has ended a process by SIGSEGV (CPython 3.11). Where a test hangs that does not matter.
+    """
+    limit = item.get_closest_marker("timeout")
+    told_s = float(item.config.getini("faulthandler_timeout") or 0)
+    if limit is not None and limit.args and told_s and limit.args[0] > told_s:
+        faulthandler.cancel_dump_traceback_later()
 
 
 settings.register_profile("plcsim", deadline=None)  # how long it takes is not what tests ask
