@@ -3,6 +3,7 @@
 #ifndef PLCSIM_NETINET_TCP_H
 #define PLCSIM_NETINET_TCP_H
 
+#define SOL_TCP 6 /* IPPROTO_TCP */
 #define TCP_NODELAY 1
 #define TCP_MAXSEG 2
 #define TCP_KEEPIDLE 4
