@@ -264,18 +264,28 @@ class _Object:
 
     def command_to_bitcode(self) -> list[str]:
         """Return what compiles the source."""
-        overlay = overlay_without_rdtsc(self.source, self._work.folder)
-        read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
-        made = ("-MD", "-MF", str(self._dependencies), "-o", str(self._bitcode))
-        return [*self.command, *_TO_BITCODE, *read, *made]
+        return [*self._whole_command(), *_TO_BITCODE, "-o", str(self._bitcode)]
 
     def command_to_object(self) -> list[str]:
         """Return what makes an object of the bitcode."""
         return [*self._second_command, str(self._bitcode), "-o", str(self.file)]
 
+    def command_that_tells(self) -> list[str]:
+        """Return what makes an object at once, and so knows where what is wrong in it stands."""
+        return [*self._whole_command(), "-o", str(self.file)]
+
+    def _whole_command(self) -> list[str]:
+        overlay = overlay_without_rdtsc(self.source, self._work.folder)
+        read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
+        return [*self.command, *read, "-MD", "-MF", str(self._dependencies)]
+
     def take(self, code: int, told: str) -> None:
-        """Take what one run of the compiler has told."""
-        found = [(m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}") for m in _FINDING.finditer(told)]
+        """Take what a run of the compiler has told."""
+        found = [
+            (m[4], f"{m[1]}:{m[2]}:{m[3]}: {m[5]}")
+            for m in _FINDING.finditer(told)
+            if m[1] != str(self._bitcode)  # it is no place in a source
+        ]
         self.warnings += [text for kind, text in found if kind == "warning"]
         if code:
             errors = [text for kind, text in found if kind == "error"]
@@ -306,8 +316,10 @@ class _Object:
 
 def _compile(objects: Sequence[_Object]) -> None:
     """Compile files."""
-    for command in (_Object.command_to_bitcode, _Object.command_to_object):
-        _run([o for o in objects if not o.errors], command)
+    _run(objects, _Object.command_to_bitcode)
+    right = [each for each in objects if not each.errors]
+    _run(right, _Object.command_to_object)
+    _run([each for each in right if each.errors], _Object.command_that_tells)
     for each in objects:
         if not each.errors:
             each.finish()

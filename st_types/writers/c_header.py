@@ -405,7 +405,10 @@ class Header:
     def _result(self, declared: DataType[object] | None, call: str) -> str:
         if declared is None:
             return f"void {call}"
-        is_scalar = isinstance(resolve_alias(declared), _SCALARS)
+        data_type = resolve_alias(declared)
+        if isinstance(data_type, StringType | WStringType):
+            return self._pointer(data_type, call)
+        is_scalar = isinstance(data_type, _SCALARS)
         return self._declarator(declared, call) if is_scalar else f"void* {call}"
 
 

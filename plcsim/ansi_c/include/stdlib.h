@@ -1,7 +1,7 @@
 /* Numbers, memory, searching and sorting (ISO C 7.20). Memory comes from the heap of the program. */
 
-#ifndef PLCSIM_STDLIB_H
-#define PLCSIM_STDLIB_H
+#ifndef _STDLIB_H_ /* as in newlib: projects bring copies of its header, which take the place of this one */
+#define _STDLIB_H_
 
 #include <stddef.h>
 

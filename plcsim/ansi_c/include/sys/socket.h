@@ -57,7 +57,7 @@ struct linger {
 };
 
 #define PLC_NO_SOCKETS \
-	__attribute__((__warning__("a controller has no sockets of POSIX: TCP is the library AsTCP (AsTCP.h)")))
+	__attribute__((diagnose_if(1, "socket fails, a controller has no sockets of POSIX: TCP is the library AsTCP (AsTCP.h)", "warning")))
 
 int socket(int family, int type, int protocol) PLC_NO_SOCKETS;
 int bind(int socket, const struct sockaddr *address, socklen_t size) PLC_NO_SOCKETS;
