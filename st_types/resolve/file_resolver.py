@@ -217,7 +217,7 @@ class FileResolver(ConstantResolver):
         return self._made(node, lambda: ArrayType(element, known))
 
     def _open_array(self, node: OpenArraySpecification, _name: str) -> None:
-        self.error(node, "ARRAY[*] is known as a parameter of a FUNCTION in Structured Text only")
+        self.error(node, "ARRAY[*] is known as a parameter of a FUNCTION or a METHOD only")
 
     def _enter(self, node: Node) -> bool:
         """Count one level of nesting; False, after an error, if it is one too many."""

@@ -40,8 +40,10 @@ from st_types.types.derived import ArrayType, DataBlockType, ReferenceType
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from plcsim.program.structured_text.check.classes import ClassMethod
     from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.methods import Callees
     from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Value
@@ -124,6 +126,9 @@ class CallChecker(MethodChecker):
         name = node.function
         found = self.method_of(name)
         if found is not None:
+            found = self._for_bounds(node, found)
+            if found is None:
+                return NOTHING
             return self.call_by(found, lambda method: self.arguments_of(node, method.function))
         if type(name) is syntax.MemberAccess and self.is_namespace(name.base):
             name = syntax.Name(name.at, name.name)
@@ -315,8 +320,35 @@ class CallChecker(MethodChecker):
             self.error(node, FindingCode.UNKNOWN_TYPE, f"the type of {name.name} is not known")
         return Call(result, function, arguments)
 
+    def _for_bounds(self, node: syntax.Call, found: Callees) -> Callees | None:
+        """Return the methods for the bounds of what they are given, None after an error."""
+        methods: dict[int, ClassMethod] = {}
+        for number, method in found.methods.items():
+            made: ClassMethod | None = method
+            if method.open is not None:
+                arrays = self._arrays_given(node, method.open)
+                made = None if arrays is None else method.made_for(arrays)
+            if made is None:
+                return None
+            methods[number] = made
+        return found._replace(methods=methods)
+
     def _open(self, node: syntax.Call, open_function: OpenFunction) -> Value:
         """Check the call of a function that takes arrays of any bounds."""
+        arrays = self._arrays_given(node, open_function)
+        function = None if arrays is None else open_function.made_for(arrays)
+        if function is None:
+            return NOTHING  # what is wrong was told
+        self.called_open[function.name] = (open_function, function)
+        self.called_functions.add(function.name)
+        arguments = self.arguments_of(node, function)
+        result = VOID if function.result is None else plain(function.result)
+        return Call(result, function, arguments)
+
+    def _arrays_given(
+        self, node: syntax.Call, open_function: OpenFunction
+    ) -> dict[str, ArrayType[object]] | None:
+        """Return what a call gives for parameters ARRAY[*], by their names; None after an error."""
         arrays: dict[str, ArrayType[object]] = {}
         for each, specification, argument in self._for_open_arrays(node, open_function):
             given = None if argument is None else argument.value
@@ -327,16 +359,9 @@ class CallChecker(MethodChecker):
                     dimensions = f"{count} dimension{'' if count == 1 else 's'}"
                     message = f"{each.name} takes an array of {dimensions}"
                     self.error(argument or node, FindingCode.WRONG_ARGUMENTS, message)
-                return NOTHING
+                return None
             arrays[each.name] = data_type
-        function = open_function.made_for(arrays)
-        if function is None:
-            return NOTHING  # what is wrong was told
-        self.called_open[function.name] = (open_function, function)
-        self.called_functions.add(function.name)
-        arguments = self.arguments_of(node, function)
-        result = VOID if function.result is None else plain(function.result)
-        return Call(result, function, arguments)
+        return arrays
 
     def _for_open_arrays(
         self, node: syntax.Call, open_function: OpenFunction

@@ -8,9 +8,10 @@ declared type.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from plcsim.program.structured_text.check.open_arrays import OpenFunction, takes_any_bounds
 from plcsim.program.structured_text.syntax.tree import MethodUnit
 from st_types.resolve.scope import Scope
 from st_types.syntax.tree import (
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
         StructuredTextFile,
     )
     from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
-    from st_types.types.derived import DataBlockType
+    from st_types.types.derived import ArrayType, DataBlockType
 
 BODY: Final = ""
 """Key of the body of a function block, which SUPER^() calls."""
@@ -51,6 +52,8 @@ class ClassMethod:
         unit: what it does.
         owner: the function block that it is compiled for.
         maker: the function block that declares it: ``owner`` or what that extends.
+        open: what is made for each set of bounds, where it takes arrays of any; ``function`` has
+            parameters without a type then.
     """
 
     label: str
@@ -58,6 +61,15 @@ class ClassMethod:
     unit: MethodUnit
     owner: Class
     maker: Class
+    open: OpenFunction | None = None
+
+    def made_for(self, arrays: Mapping[str, ArrayType[object]]) -> ClassMethod | None:
+        """Return the method for arrays of some bounds, None after an error."""
+        function = None if self.open is None else self.open.made_for(arrays)
+        if function is None:
+            return None
+        bounds = function.name.removeprefix(self.unit.declaration.name)
+        return replace(self, label=self.label + bounds, function=function, open=None)
 
 
 @dataclass(slots=True, eq=False)
@@ -130,13 +142,22 @@ class Class:
                 dialect=scope.dialect,
                 strict=scope.strict,
             )
-            around.check()
+            is_open = takes_any_bounds(unit.declaration)
+            if not is_open:
+                around.check()
             function = around.find_function(unit.declaration.name)
             if function is None:
                 return None
             through = "" if maker is self else f"{maker.block.name}."
             label = f"{self.block.name}.{through}{key or 'body'}"
-            made = self._made[maker, key] = ClassMethod(label, function, unit, self, maker)
+            made = self._made[maker, key] = ClassMethod(
+                label,
+                function,
+                unit,
+                self,
+                maker,
+                OpenFunction(unit, file, scope) if is_open else None,
+            )
         return made
 
 

@@ -1,4 +1,4 @@
-"""Functions with parameters ARRAY[*]: compiled for each set of bounds that they are called with.
+"""What has parameters ARRAY[*] is compiled for each set of bounds that it is called with.
 
 So their bounds are known: an index is checked as in any other array, and LOWER_BOUND and
 UPPER_BOUND are numbers. The price is code, as with methods (docs/decisions/0015).
@@ -22,7 +22,11 @@ from st_types.syntax.tree import (
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from plcsim.program.structured_text.syntax.tree import FunctionUnit, StructuredTextFile
+    from plcsim.program.structured_text.syntax.tree import (
+        FunctionUnit,
+        MethodUnit,
+        StructuredTextFile,
+    )
     from st_types.resolve.declared import DeclaredFunction
     from st_types.syntax.tree import FunctionDeclaration
     from st_types.types.derived import ArrayType
@@ -44,7 +48,7 @@ def parameters(node: FunctionDeclaration) -> Iterator[Declaration]:
 
 @dataclass(slots=True, eq=False)
 class OpenFunction:
-    """A function that takes arrays of any bounds.
+    """A function or a method that takes arrays of any bounds.
 
     Attributes:
         unit: its text.
@@ -52,7 +56,7 @@ class OpenFunction:
         scope: around it.
     """
 
-    unit: FunctionUnit
+    unit: FunctionUnit | MethodUnit
     file: StructuredTextFile
     scope: Scope
     _made: dict[str, DeclaredFunction | None] = field(default_factory=dict)
