@@ -28,6 +28,7 @@ from pathlib import Path
 from statistics import median
 from typing import TYPE_CHECKING, NamedTuple
 
+from _children import end_at_sigterm
 from _outcome import (
     Target,
     console,
@@ -136,22 +137,26 @@ def main() -> int:
     options = parser.parse_args()
     before = print_machine("before")
     chance = random.Random(options.seed)
-    with tempfile.TemporaryDirectory(prefix="plcsim-retain-") as folder:
-        kills = _kills(Path(folder), chance, options.kills)
+    kills: list[Kill] = []
+    end_at_sigterm()
+    with (
+        contextlib.suppress(SystemExit),  # what was found until then counts
+        tempfile.TemporaryDirectory(prefix="plcsim-retain-") as folder,
+    ):
+        _fill(kills, Path(folder), chance, options.kills)
     after = print_machine("after")
-    return _report(options.json, [before, after], kills)
+    return _report(options.json, [before, after], kills, options.kills)
 
 
-def _kills(folder: Path, chance: random.Random, count: int) -> list[Kill]:
+def _fill(kills: list[Kill], folder: Path, chance: random.Random, count: int) -> None:
+    """Make the project, and kill it so often."""
     for name, text in FILES.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(text, "utf-8")
-    done: list[Kill] = []
     last = FIRST
     for number in range(count):
         last, kill = _kill(folder, chance.uniform(0.03, 0.3), last, both=bool(number % 2))
-        done.append(kill)
-    return done
+        kills.append(kill)
 
 
 def _kill(folder: Path, after_s: float, last: list[int], *, both: bool) -> tuple[list[int], Kill]:
@@ -230,7 +235,7 @@ def _children() -> set[int]:
     return found
 
 
-def _report(file: Path | None, hosts: list[Host], kills: list[Kill]) -> int:
+def _report(file: Path | None, hosts: list[Host], kills: list[Kill], wanted: int) -> int:
     table = figures_table("killed", "runs", "torn", "lost p50 ms", "worst ms")
     for both, text in ((False, "the scan"), (True, "scan and service")):
         lost = sorted(k.lost_ms for k in kills if k.both is both) or [0]
@@ -240,6 +245,7 @@ def _report(file: Path | None, hosts: list[Host], kills: list[Kill]) -> int:
     alone = [k.lost_ms for k in kills if not k.both]
     both_killed = sorted(k.lost_ms for k in kills if k.both) or [0]
     targets = [
+        Target("kills", len(kills), wanted, "", at_least=True),
         Target("torn values", sum(k.is_torn for k in kills), 0, ""),
         Target("lost, the scan killed", max(alone, default=0), 0, "ms"),
         Target("lost, both killed, median", median(both_killed), PERIOD_MS, "ms"),
