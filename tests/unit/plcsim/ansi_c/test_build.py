@@ -154,6 +154,42 @@ def test_names_with_blanks_and_signs_are_files_like_others(source, toolchain, tm
     assert build(BuildOrder("p", [file], []), toolchain, cache).wasm != first
 
 
+def test_what_is_found_wrong_when_code_is_made_has_its_place(each_toolchain, source):
+    file = source("main.c", 'void f(void)\n{\n\t__asm__ volatile("cli");\n}\n')
+    with pytest.raises(ConfigurationError) as refused:
+        build(BuildOrder("p", [file], []), each_toolchain, CodeCache(None))
+    (finding,) = refused.value.args
+    assert finding.startswith(f"{file}:3:")
+
+
+NEWLIB = """
+#ifndef _STDLIB_H_
+#define _STDLIB_H_
+#include "_ansi.h"
+#include <sys/reent.h>
+#include <machine/stdlib.h>
+_BEGIN_STD_C
+#define RAND_MAX __RAND_MAX
+extern __IMPORT int __mb_cur_max;
+typedef struct { int quot, rem; } div_t;
+int _EXFUN(abs,(int));
+_PTR _EXFUN(bsearch,(_CONST _PTR, _CONST _PTR, size_t, size_t,
+	int _EXPARM(_compare,(_CONST _PTR, _CONST _PTR))));
+_VOID _EXFUN(abort,(_VOID) _ATTRIBUTE ((noreturn)));
+int _EXFUN(_mblen_r,(struct _reent *, const char *, size_t, _mbstate_t *));
+_END_STD_C
+#endif
+"""
+
+
+def test_a_copy_of_newlib_s_header_takes_the_place_of_ours(each_toolchain, source):
+    source("AnsiCFunc.h", NEWLIB)
+    text = "#include <AnsiCFunc.h>\n#include <stdlib.h>\nint f(void) { return abs(RAND_MAX); }\n"
+    file = source("main.c", text)
+    order = BuildOrder("p", [file], [file.parent, INCLUDE])
+    assert build(order, each_toolchain, CodeCache(None)).warnings == []
+
+
 LOOPS = """
 float a[4], b[4];
 float sum(void) { float s = 0; for (int i = 0; i < 4; i++) s += a[i] * b[i]; return s; }

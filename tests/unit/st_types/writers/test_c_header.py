@@ -124,6 +124,13 @@ def test_the_library_compiles_and_lies_as_laid_out(folder: Path) -> None:
     check(folder, table, "-fno-builtin")  # atan2 of AsMath is one of REALs, unlike the built-in one
 
 
+def test_a_function_that_gives_a_string_returns_its_address() -> None:
+    text = "FUNCTION Name : STRING[5] END_FUNCTION FUNCTION Wide : WSTRING[5] END_FUNCTION"
+    header = c_header(Header(checked([parse_text(text)])), "Check")
+    assert "_BUR_PUBLIC plcstring* Name(void);" in header
+    assert "_BUR_PUBLIC plcwstring* Wide(void);" in header
+
+
 def test_constants_have_their_values(folder: Path) -> None:
     text = c_header(Header(checked([parse_text(EVERY_KIND)])), "Check")
     text += (
