@@ -117,8 +117,10 @@ class MasterClient:
 
     @property
     def is_registered(self) -> bool:
-        """Whether the master has taken all registrations."""
-        return all(registration.is_settled for registration in self._registrations)
+        """Whether the master has taken all registrations, those that rest included."""
+        return not self._resting and all(
+            registration.is_settled for registration in self._registrations
+        )
 
     def add(self, registration: Registration) -> None:
         """Register from now on, or when the node has returned."""

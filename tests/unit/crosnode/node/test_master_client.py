@@ -184,7 +184,8 @@ def test_what_is_taken_back_while_the_master_is_away_is_taken_back_later() -> No
     world.run(3)
     node.unregister(publisher)
     assert "/x" in published(world)
-    world.until(lambda: "/x" not in published(world))
+    world.until(lambda: publisher.registration.state is RegistrationState.GONE)
+    assert "/x" not in published(world)
     assert len(news(node, StatusKind.UNREGISTERED)) == 1
 
 
