@@ -9,7 +9,9 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -18,6 +20,7 @@ from plcsim.core.errors import PlcError
 from plcsim.core.system import State
 from plcsim.process import supervisor, watchdog
 from plcsim.process.run_file import find_run
+from plcsim.process.scan_process import DUMP
 from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 from plcsim.shared_image.status_page import StatusPage
@@ -169,6 +172,29 @@ def test_a_program_that_cannot_be_interrupted_is_killed(program, supervise, unit
     assert fault["location"] == line_of(folder, "sum(" if "sum" in body else "time.monotonic()")
     assert "s and could not be interrupted" in fault["text"]
     assert fault["location"] in result["logbook"][-1]["text"]
+
+
+def test_a_stack_that_takes_its_time_is_waited_for(program, supervise, monkeypatch, tmp_path):
+    """The scan process stands still when it is asked for its stack, as on a busy host."""
+    monkeypatch.setattr(supervisor, "DUMP_POLLS", 5000)
+    is_there, woken = tmp_path / "there", []
+    line = f"open({str(is_there)!r}, 'w').close() or sum(range(10**15))"
+    folder = program(plc=QUICK, cyclic=line)
+
+    def hold(supervised):
+        process = supervised._process
+        if is_there.exists() and "send_signal" not in vars(process):
+            os.kill(process.pid, signal.SIGSTOP)
+            process.send_signal = partial(send, process)
+
+    def send(process, number):
+        os.kill(process.pid, number)
+        if number == DUMP and not woken:
+            woken.append(threading.Timer(0.3, os.kill, (process.pid, signal.SIGCONT)))
+            woken[0].start()
+
+    assert supervise(folder, hold)["fault"]["location"] == line_of(folder, "sum(")
+    woken[0].join()
 
 
 def test_a_killed_program_is_exit_code_3(program, start):
