@@ -226,6 +226,10 @@ class SpecificationParser(InitialParser):
             return self._restricted(self.index - 1, text)
         if self.texts[self.index] == "[":
             return self._given_to_each(self.index - 1, text)
+        if self.texts[self.index] == "<":
+            self.fail_before(
+                f"{text}<...> (VAR_GENERIC) is not supported: expected the name of a type alone"
+            )
         return NamedType(self.index - 1, text)
 
     def _array_specification(self) -> ArraySpecification | OpenArraySpecification:
