@@ -207,21 +207,29 @@ void drive(int cycles)
 
 
 class InC:
-    """A kernel as gcc compiles it.
+    """A kernel as a C compiler compiles it.
 
     Args:
         text: the kernel.
         variables: all of them as one STRUCT.
         level: of optimisation, such as "-O2".
         folder: for files.
+        compiler: gcc, or another one that takes its options.
     """
 
-    def __init__(self, text: Text, variables: StructType[Any], level: str, folder: Path) -> None:
+    def __init__(
+        self,
+        text: Text,
+        variables: StructType[Any],
+        level: str,
+        folder: Path,
+        compiler: str = "gcc",
+    ) -> None:
         source = folder / f"{text.name}.c"
-        library = folder / f"{text.name}{level}.so"
+        library = folder / f"{text.name}{level}.{compiler}.so"
         source.write_text(f"{_c_types(variables)}\n{text.c}\n{DRIVE}", "utf-8")
         flags = ["-fno-strict-aliasing", "-fwrapv", "-shared", "-fPIC", "-w"]
-        command = ["gcc", level, *flags, "-o", str(library), str(source)]
+        command = [compiler, level, *flags, "-o", str(library), str(source)]
         subprocess.run(command, check=True)
         loaded = ctypes.CDLL(str(library))
         self._drive = loaded.drive
