@@ -117,10 +117,14 @@ def start_all(peers: Peers, cell: Project, folder: Path) -> None:
     peers.start_master()
     cell.change("plc.toml", "port = 1503", f"port = {free_port()}")
     cell.start(peers.uri)
-    for _ in range(300):
+    for _ in range(1000):
         if cell.is_readable():
             break
+        if not cell.is_running:
+            raise SystemExit(f"the cell ended: {cell.said}")
         time.sleep(0.1)  # Modbus answers when the first cycle is done
+    else:
+        raise SystemExit(f"the cell did not start in 100 s: {cell.said}")
     listener = compiled_listener(folder)
     peers.start("steady", listener, "steady")
     peers.start("stopped", listener, "stopped")
