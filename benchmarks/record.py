@@ -1,15 +1,16 @@
 """What recording costs the scan, what the recorder needs, and how quick a replay is.
 
-    python benchmarks/record.py [--seconds 2] [--rounds 8] [--long 0] [--json FILE]
+    python benchmarks/record.py [--seconds 2] [--rounds 8] [--long 0]
+        [--disordered 0] [--json FILE]
 
 (a) A project with 50 tags that change in every cycle and 10 topics that are published in every
 cycle, at 1 ms on the real clock, in short legs by turns: "without" a recorder, "with" one, and
 "busy", without one and with a plain busy process in its place. The rounds begin with another one
 each time. Told of each leg: CPU time of the scan in a cycle (the median of its cycles), and of a
 fixed loop of 200 additions that the program goes through in each cycle, which tells how quick the
-processor is just then. The cost is the difference within a round, in loops of that leg each, times
-the loop's median: so what a shared host does between two legs counts little. The plain difference
-stands beside it.
+processor is just then. On a host that is shared that changes from one second to the next by more
+than recording costs. So the cost is measured within a run: three runs have all that records taken
+away and put back every 20 cycles, and the medians of neighbouring blocks are compared.
 Grid points are missed in stalls, each with one cause (`_stalls.figures_of`): "own" where the scan
 was on the processor for longer than its cycle time, the host's otherwise. What the host did stands
 beside: the time that the scan waited for a processor though it could run (/proc/thread-self/
@@ -27,6 +28,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import random
 import re
 import statistics
 import struct
@@ -69,11 +71,15 @@ PARTS = (0.1, 0.5, 1.0)
 LOOP = 200
 """Additions of the loop that tells how quick the processor is."""
 
+BLOCK = 20
+"""Cycles with a recorder, then as many without, in the run in which it is switched."""
+
 WARMING_UP = 500
 """Cycles that do not count."""
 
 PROGRAM = f'''"""Fifty tags that change, ten of them published."""
 
+import gc
 import json
 import statistics
 import time
@@ -89,7 +95,7 @@ def waited_ns():
 
 
 class Busy(Program):
-    __slots__ = ("loops", "spent", "stamp_ns", "waited_ns")
+    __slots__ = ("loops", "spent", "stamp_ns", "switch", "waited_ns")
     count = var(UDINT)
     values = var(ARRAY(LREAL, (0, {TAGS - 2})))
     out = var(ARRAY(LREAL, (0, {TOPICS - 1})))
@@ -99,11 +105,15 @@ class Busy(Program):
         self.loops = deque(maxlen=20_000)
         self.stamp_ns = 0
         self.waited_ns = waited_ns()
+        self.switch = Switch() if SWITCHED else None
 
     def cyclic(self):
         stamp_ns = time.thread_time_ns()
         if self.count > {WARMING_UP}:
             self.spent.append(stamp_ns - self.stamp_ns)
+            if self.switch:
+                self.switch.took(stamp_ns - self.stamp_ns)
+                stamp_ns = time.thread_time_ns()
         self.stamp_ns = stamp_ns
         start_ns = time.perf_counter_ns()
         total = 0
@@ -119,15 +129,66 @@ class Busy(Program):
         print(json.dumps({{
             "cpu_us": statistics.median(self.spent) / 1000,
             "loop_us": statistics.median(self.loops) / 1000,
+            "switched_us": self.switch.cost_us() if self.switch else 0,
             "waited_ms": (waited_ns() - self.waited_ns) / 1e6,
         }}))
 '''
 
 
-def make(folder: Path, cycle: str) -> None:
+SWITCH = '''
+
+class Switch:
+    """Takes away all that records, and puts it back: blocks of cycles by turns."""
+
+    def __init__(self):
+        names = {"ProcessImage", "Traffic", "RecordedClock", "RecordedNetwork"}
+        kept = {type(o).__name__: o for o in gc.get_objects() if type(o).__name__ in names}
+        image, traffic = kept["ProcessImage"], kept["Traffic"]
+        self.clock, self.net = kept["RecordedClock"], kept["RecordedNetwork"]
+        lists = image.watchers, image.inputs, traffic.followers
+        self.lists = [(each, list(each)) for each in lists]
+        self.answers = dict(vars(self.clock))
+        self.look = self.net.recorded.look
+        self.on, self.left, self.block, self.blocks = True, 0, [], ([], [])
+
+    def plain_look(self):
+        return [self.net._made[each] for each in self.look() if each in self.net._made]
+
+    def turn(self):
+        self.on = not self.on
+        for each, whole in self.lists:
+            each[:] = whole if self.on else [entry for entry in whole if not records(entry)]
+        for name in ("now_ns", "cpu_ns", "waits", "unix_ns"):
+            plain = getattr(self.clock.recorded, name)
+            setattr(self.clock, name, self.answers[name] if self.on else plain)
+        self.net.look = type(self.net).look.__get__(self.net) if self.on else self.plain_look
+
+    def took(self, spent):
+        self.left -= 1
+        self.block.append(spent)
+        if self.left <= 0:
+            self.blocks[self.on].append(statistics.median(self.block[3:] or [0]))
+            self.block, self.left = [], BLOCK
+            self.turn()
+
+    def cost_us(self):
+        off, on = (each[len(each) // 10 :] for each in self.blocks)
+        return statistics.median(b - a for a, b in zip(off, on)) / 1000
+
+
+def records(entry):
+    """Whether an entry of a list is the recorder's: a method of its tape or of a list it fills."""
+    owner = entry.__self__ if hasattr(entry, "__self__") else entry
+    return type(owner).__name__ == "Tape" or type(owner) is list
+'''
+"""Joins the program where recording is switched off and on within a run."""
+
+
+def make(folder: Path, cycle: str, *, switched: bool = False) -> None:
     """Write the project."""
     (folder / "busy").mkdir(parents=True)
-    (folder / "busy" / "main.py").write_text(PROGRAM)
+    program = PROGRAM.replace("SWITCHED", str(switched)) + SWITCH.replace("BLOCK", str(BLOCK))
+    (folder / "busy" / "main.py").write_text(program)
     published = "\n".join(
         f'"/busy/out_{n}" = {{ tag = "busy.out[{n}]", type = "std_msgs/Float64", '
         f'every = "{cycle}" }}'
@@ -146,14 +207,14 @@ def plcsim(*words: object) -> list[str]:
 
 def run(folder: Path, seconds: float, kind: str) -> dict[str, Any]:
     """Run the project; return its figures."""
-    project, bag = folder, folder.parent / "run.bag"
-    words: list[object] = ["--record", bag]
-    if kind != "with":
-        project, words = folder.parent / "plain", []
-        if not project.exists():
-            make(project, "1ms")
-            toml = project / "plc.toml"
+    project, bag = folder.parent / kind, folder.parent / "run.bag"
+    is_recorded = kind in ("with", "switched")
+    if not project.exists():
+        make(project, "1ms", switched=kind == "switched")
+        toml = project / "plc.toml"
+        if not is_recorded:
             toml.write_text(toml.read_text().replace('[record]\ntags = ["busy"]\n', ""))
+    words: list[object] = ["--record", bag] if is_recorded else []
     report = folder.parent / "report.json"
     words = ["run", project, "--for", f"{seconds}s", "--quiet", "--report", report, *words]
     stolen = stolen_by_all()
@@ -162,7 +223,7 @@ def run(folder: Path, seconds: float, kind: str) -> dict[str, Any]:
     figures: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
     figures["stolen_ms"] = (stolen_by_all() - stolen) * 1000 / os.sysconf("SC_CLK_TCK")
     figures |= figures_of(report) | {"lost": 0}
-    if kind == "with":
+    if is_recorded:
         told = subprocess.run(
             plcsim("bag", "info", bag), stdout=subprocess.PIPE, text=True, check=True
         )
@@ -193,11 +254,13 @@ def costs(folder: Path, seconds: float, rounds: int) -> dict[str, Any]:
                 f"{found['waited_ms']:8.1f} {found['stolen_ms']:8.0f}  {found['lost']:4}",
                 flush=True,
             )
+    switched = [run(folder, 3 * seconds, "switched") for _ in range(3)]
     loop_us = statistics.median(each["loop_us"] for kind in KINDS for each in runs[kind])
     return {
         "runs": runs,
         "loop_us": loop_us,
-        "cost_us": loop_us * more(runs, lambda leg: leg["cpu_us"] / leg["loop_us"]),
+        "cost_us": statistics.median(leg["switched_us"] for leg in switched),
+        "switched": switched,
         "plain_us": more(runs, lambda leg: leg["cpu_us"]),
     }
 
@@ -227,10 +290,12 @@ def print_costs(found: dict[str, Any]) -> list[Target]:
             f"{row['own']} own, in {len(runs[kind])} legs",
             soft_wrap=True,
         )
-    loop_us = found["loop_us"]
+    runs_of = [f"{leg['switched_us']:.1f} (loop {leg['loop_us']:.1f})" for leg in found["switched"]]
+    loop_us = statistics.median(leg["loop_us"] for leg in found["switched"])
     console.print(
-        f"recording costs {found['cost_us']:.1f} us of a cycle, {found['cost_us'] / loop_us:.2f} "
-        f"times the loop ({loop_us:.1f} us); plain difference {found['plain_us']:.1f} us",
+        f"recording switched off and on costs {', '.join(runs_of)} us of a cycle: the median is "
+        f"{found['cost_us'] / loop_us:.2f} times the loop; between legs with and without "
+        f"{found['plain_us']:.1f} us",
         soft_wrap=True,
     )
     console.print(f"real-time rights: {runs['with'][0]['rights']}", soft_wrap=True)
@@ -360,19 +425,57 @@ def replay(folder: Path, seconds: int) -> dict[str, float]:
     return {"messages": sent, "times": seconds / took_s, "times_of_cpu": seconds / cpu_s}
 
 
+READS = """
+import json, resource, sys, time
+from pathlib import Path
+from plcsim.recorder.bag.reading import open_bag
+
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+start_s, latest_ns, count = time.monotonic(), 0, 0
+with open_bag(Path(sys.argv[1])) as bag:
+    for message in bag.messages():
+        if message.time_ns < latest_ns:
+            sys.exit("messages are read out of order")
+        latest_ns = message.time_ns
+        count += 1
+most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print(json.dumps({"read": count, "mib": (most - before) / 1024, "s": time.monotonic() - start_s}))
+"""
+
+
+def disorder(folder: Path, count: int) -> dict[str, float]:
+    """Write messages of 200 bytes in any order into a bag; return what reading it in order took."""
+    path = folder.parent / "disordered.bag"
+    bag = create(path)
+    topics = [bag.add(f"/topic_{n}", "std_msgs/msg/String") for n in range(TOPICS)]
+    data = struct.pack("<I196s", 196, b"x" * 196)
+    times = list(range(1, count + 1))
+    random.Random(1).shuffle(times)
+    for time_ns in times:
+        bag.write(time_ns, [(topics[time_ns % TOPICS], data)])
+    bag.close()
+    done = subprocess.run(
+        [sys.executable, "-c", READS, path], stdout=subprocess.PIPE, text=True, check=True
+    )
+    path.unlink()
+    found: dict[str, float] = json.loads(done.stdout)
+    return found
+
+
 def main() -> int:
     """Measure and print; return 1 where a target is not met."""
     parser = argparse.ArgumentParser(description="What recording costs, how quick a replay is.")
     parser.add_argument("--seconds", type=float, default=2, help="of each leg of (a)")
     parser.add_argument("--rounds", type=number_above_0, default=8)
     parser.add_argument("--long", type=float, default=0, metavar="SECONDS", help="of (b)")
+    parser.add_argument("--disordered", type=int, default=0, metavar="MESSAGES", help="of (d)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="keep all figures")
     options = parser.parse_args()
     found: dict[str, Any] = {}
     hosts = [print_machine("before")]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "busy"
-        make(folder, "1ms")
+        make(folder, "1ms")  # of (b)
         found["costs"] = costs(folder, options.seconds, options.rounds)
         targets = print_costs(found["costs"])
         if options.long:
@@ -393,6 +496,12 @@ def main() -> int:
             f"(c) {times['messages']} messages played {times['times']:.0f} times as fast as real "
             f"time ({times['times_of_cpu']:.0f} times by CPU time)"
         )
+        if options.disordered:
+            told = found["disordered"] = disorder(folder, options.disordered)
+            print(
+                f"(d) {told['read']} messages out of order read in order in {told['s']:.1f} s "
+                f"with {told['mib']:.0f} MiB more memory"
+            )
     targets.append(Target("replay, times real time", times["times"], 30, "times", at_least=True))
     hosts.append(print_machine("after"))
     print_targets(targets)

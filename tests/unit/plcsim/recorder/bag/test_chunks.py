@@ -75,6 +75,33 @@ def test_messages_of_chunks_that_overlap_are_merged(tmp_path: Path, compression:
     assert found == [(t, f"/{t % 3}", text_message(str(t))) for t in sorted(times) if t % 3 != 1]
 
 
+def test_a_hundred_thousand_messages_out_of_order_are_sorted_in_bounded_memory(
+    tmp_path: Path,
+) -> None:
+    count, size = 100_000, 300
+    bag = Ros1Bag(tmp_path / "a.bag")
+    topic = bag.add("/topic", TEXT)
+    data = text_message("x" * (size - 4))
+    for time_ns in random.Random(1).sample(range(1, count + 1), count):
+        bag.write(time_ns, [(topic, data)])
+    bag.close()
+
+    before, most, read = anonymous_bytes(), 0, 0
+    with open_bag(tmp_path / "a.bag") as reader:
+        for read, message in enumerate(reader.messages(["/topic"]), 1):
+            assert message.time_ns == read
+            if read % 5_000 == 1:
+                most = max(most, anonymous_bytes())
+    assert read == count
+    assert most - before < count * size / 2
+
+
+def anonymous_bytes() -> int:
+    """Return the memory of this process that is no file."""
+    (line,) = (t for t in Path("/proc/self/status").read_text().splitlines() if "RssAnon" in t)
+    return int(line.split()[1]) * 1024
+
+
 @pytest.mark.parametrize("more", [b"", b"more=x"])
 @pytest.mark.parametrize("order", list(permutations(range(3))))
 def test_the_fields_of_a_header_may_stand_in_any_order(order: tuple[int, ...], more: bytes) -> None:

@@ -1,6 +1,8 @@
 """The recorder, in a process of its own beside a scan on the real clock."""
 
 import os
+import re
+import resource
 import signal
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,7 @@ from plcsim.process.supervisor import Supervisor
 from plcsim.project.assembly import load
 from plcsim.project.plc_toml import read_project
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.reindex import reindex
 from plcsim.recorder.bag.types import DIAGNOSTICS, typestore
 from plcsim.recorder.replay.replay import Replay
 
@@ -104,3 +107,47 @@ def test_a_recorder_that_was_killed_is_started_again_and_loses_nothing(project: 
     (task_class,) = report["task_classes"]
     assert repeat(project, project / "run_1.bag").cycles == task_class["cycles"]
     assert (project / "run.bag.active").stat().st_size > 10_000
+
+
+def test_a_disk_that_is_full_ends_a_file_and_not_the_scan(
+    project: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    main, toml = project / "cell" / "main.py", project / "plc.toml"
+    main.write_text(MAIN.replace("var(UDINT)\n", "var(UDINT)\n    large = var(STRING(8000))\n")
+                    .replace("import UDINT", "import STRING, UDINT"))  # fmt: skip
+    toml.write_text(
+        toml.read_text() + 'buffer = "64KiB"\n'
+    )  # for 8 cycles: what comes later is lost
+    full: list[int] = []
+    looks: list[int] = []
+
+    def fill(supervisor: Supervisor) -> None:
+        pids = list(supervisor.services.pids)
+        if not full and pids and (project / "run.bag.active").exists():
+            resource.prlimit(pids[0], resource.RLIMIT_FSIZE, (60_000, 60_000))
+            full.append(pids[0])
+        after = project / "run_1.bag.active"
+        if after.exists() and after.stat().st_size > 30_000 and not looks:
+            looks.append(supervisor.page.of_class(1).cycles)
+            supervisor.stop()
+
+    report = run(project, fill, for_ns=100_000_000_000)
+
+    assert looks
+    told = capfd.readouterr().err
+    left = project / "run.bag.active"
+    assert "run.bag: cannot be written: [Errno 27] File too large" in told
+    assert f"plcsim bag reindex {left} makes readable what is there" in told
+    assert re.search(r"record: \d+ records are lost", told)
+    assert reindex(left, project / "left.bag").messages > 0
+    before, after = (cycles_in(project / name) for name in ("left.bag", "run_1.bag"))
+    (task_class,) = report["task_classes"]
+    assert before
+    assert after[0] > before[-1] + 1
+    assert after[-1] == task_class["cycles"] >= looks[0] > 0
+
+
+def cycles_in(bag: Path) -> list[int]:
+    """Return the numbers of the cycles in a bag."""
+    with open_bag(bag) as reader:
+        return [each.cycle for _, each in reader.records() if not each.step]
