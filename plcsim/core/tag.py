@@ -201,18 +201,15 @@ def leaves(
     return (Tag(part.path, part.data_type, part.offset, tag.is_constant) for part in inside)
 
 
-def first_difference(
+def differences(
     areas: Iterable[Tag], one: bytes, other: bytes
-) -> tuple[Tag, bytes, bytes] | None:
-    """Return the first tag that differs in two images of areas, with its bytes in both.
+) -> Iterator[tuple[Tag, bytes, bytes]]:
+    """Iterate over the tags that differ in two images of areas, each with its bytes in both.
 
     Args:
         areas: lie in an image one behind another.
         one: an image.
         other: as long.
-
-    Returns:
-        None where nothing differs but bytes between two variables.
     """
     begin = 0
     for area in areas:
@@ -220,6 +217,5 @@ def first_difference(
             start = begin + leaf.address - area.address
             here, there = (each[start : start + leaf.data_type.size] for each in (one, other))
             if here != there:
-                return leaf, here, there
+                yield leaf, here, there
         begin += area.data_type.size
-    return None

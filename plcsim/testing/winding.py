@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.clock import VirtualClock
 from plcsim.core.control import Step
-from plcsim.core.tag import first_difference
+from plcsim.core.tag import differences
 from plcsim.testing.errors import PlcTestError
 from st_types.types.values import decode
 from st_types.writers.value_text import value_text
@@ -179,7 +179,7 @@ class Winding:
 
     def _name(self, now: bytes, was: bytes) -> str:
         """Return the first tag that differs, with both values, where it is known."""
-        found = first_difference(self._plc.controller.areas, now, was) if was else None
+        found = next(differences(self._plc.controller.areas, now, was), None) if was else None
         if found is None:
             return "ends otherwise than it did"
         leaf, *images = found

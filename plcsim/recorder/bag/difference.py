@@ -6,7 +6,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Final
 
 from plcsim.recorder.bag.types import CYCLES, DIAGNOSTICS, HEAD, LOGBOOK
-from plcsim.recorder.bag.values import first_difference
+from plcsim.recorder.bag.values import MOST_NAMED, differences
 from plcsim.recorder.journal.record import CYCLE
 from plcsim.shared_image.directory import describe_type
 
@@ -68,8 +68,10 @@ def _of_records(head: Head, one: JournalRecord, other: JournalRecord) -> str:
     if (one.task_class, one.cycle) != (other.task_class, other.cycle):
         return f"{_name(one)} against {_name(other)}"
     if one.variables != other.variables:
-        tag, here, there = first_difference(head, one.variables, other.variables)
-        return f"{_name(one)}: {tag} is {here} against {there}"
+        found = differences(head, one.variables, other.variables)
+        named = [f"{tag} is {here} against {there}" for tag, here, there in found[:MOST_NAMED]]
+        more = ["more"] if len(found) > MOST_NAMED else []
+        return f"{_name(one)}: {', '.join(named + more) or 'a byte between two variables'}"
     return ""
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import islice
+from typing import TYPE_CHECKING, Final
 
 from plcsim.core import tag
 from st_types.types.values import decode
@@ -13,13 +14,20 @@ if TYPE_CHECKING:
     from plcsim.recorder.bag.head import Head
 
 
+MOST_NAMED: Final = 4
+"""Tags that are told of a cycle that differs."""
+
+
+def differences(head: Head, one: bytes, other: bytes) -> list[tuple[str, str, str]]:
+    """Return the tags whose value differs, with both values as text, and one more than are told."""
+    found = islice(tag.differences(head.areas, one, other), MOST_NAMED + 1)
+    return [(leaf.path, text_of(leaf, here), text_of(leaf, there)) for leaf, here, there in found]
+
+
 def first_difference(head: Head, one: bytes, other: bytes) -> tuple[str, str, str]:
     """Return the first tag whose value differs, with both values as text."""
-    found = tag.first_difference(head.areas, one, other)
-    if found is None:
-        return "a byte between two variables", "one", "another"
-    leaf, here, there = found
-    return leaf.path, text_of(leaf, here), text_of(leaf, there)
+    found = differences(head, one, other)
+    return found[0] if found else ("a byte between two variables", "one", "another")
 
 
 def text_of(leaf: Tag, data: bytes) -> str:

@@ -103,7 +103,9 @@ def test_diff_tells_the_first_cycle_that_differs(
     assert main(["bag", "diff", bag, bag]) == 0
     assert capsys.readouterr().out == "the recordings are the same\n"
     assert main(["bag", "diff", bag, str(project / "other.bag")]) == 4
-    assert capsys.readouterr().out == "cycle 1 of task class 1: cell.count is 1 against 2\n"
+    assert capsys.readouterr().out == (
+        "cycle 1 of task class 1: cell.count is 1 against 2, cell.even is FALSE against TRUE\n"
+    )
 
 
 @pytest.mark.parametrize("name", ["p.svg", "p.html"])

@@ -124,10 +124,10 @@ def test_a_disk_that_is_full_ends_a_file_and_not_the_scan(
     def fill(supervisor: Supervisor) -> None:
         pids = list(supervisor.services.pids)
         if not full and pids and (project / "run.bag.active").exists():
-            resource.prlimit(pids[0], resource.RLIMIT_FSIZE, (60_000, 60_000))
+            resource.prlimit(pids[0], resource.RLIMIT_FSIZE, (30_000, 30_000))
             full.append(pids[0])
         after = project / "run_1.bag.active"
-        if after.exists() and after.stat().st_size > 30_000 and not looks:
+        if after.exists() and after.stat().st_size > 10_000 and not looks:
             looks.append(supervisor.page.of_class(1).cycles)
             supervisor.stop()
 
