@@ -64,6 +64,7 @@ def test_a_bag_of_a_killed_recorder_is_reindexed(ros: Ros, tmp_path: Path) -> No
     ros.until(
         lambda: (
             active.exists()
+            and active.stat().st_size > 5_000  # more than the head of a bag
             and recovered(active, early) > 100
             and counts(ros, early).get("/plcsim/cycles", 0) > 100
         )
