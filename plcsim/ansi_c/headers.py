@@ -106,10 +106,11 @@ def body_headers(
     """
     known: list[Header] = []
     headers = library_headers([each for each in libraries if each is not library], known)
-    text = c_header(_header(library, known), library.name)
+    around = [each for each in known if each.scope in needed]
     own = f"{library.name}.h"
-    headers[own] = _including([each for each in known if each.scope in needed], text)
-    brought = [f"{each.scope.name}.h" for each in known if each.scope in needed]
+    text = c_header(_header(library, around), library.name)  # what others have as well, it declares
+    headers[own] = _including(around, text)
+    brought = [f"{each.scope.name}.h" for each in around]
     return _of_files([library]) | headers | _bringing_all([*brought, own])
 
 

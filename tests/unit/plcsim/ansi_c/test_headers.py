@@ -113,6 +113,13 @@ def test_what_c_has_and_a_library_does_not_name_is_free(each_toolchain, source, 
     assert built.warnings == []
 
 
+def test_a_library_declares_what_one_that_it_does_not_need_has_as_well():
+    other = scope("drives", LIBRARY)
+    own = scope("filters", LIBRARY, other)
+    assert "typedef struct Ramp {" in body_headers(own, [other], [])["filters.h"]
+    assert "typedef struct Ramp {" not in body_headers(own, [other], [other])["filters.h"]
+
+
 def test_cpp_passes_pointers_as_numbers(each_toolchain, source, tmp_path):
     text = """
     FUNCTION TMP_alloc : UINT VAR_INPUT size : UDINT; place : UDINT; END_VAR END_FUNCTION
