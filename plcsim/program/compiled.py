@@ -11,12 +11,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from plcsim.core.errors import ConfigurationError, Fault
 from plcsim.library.executable import CompiledExecutable
 from plcsim.machine import frames_of, trace_inside
+from plcsim.program.compiled_body import CompiledBody
 from plcsim.program.fault import describe, frames
-from plcsim.program.structured_text.calling import extern_of, interface_of
+from plcsim.program.structured_text.calling import (
+    extern_for_c,
+    extern_of,
+    gives_large,
+    interface_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from plcsim.library.executable import Executable
     from plcsim.machine import Extern, Frame
     from plcsim.program.site import Site
     from st_types.resolve.declared import DeclaredFunction
@@ -88,12 +95,34 @@ class CompiledPrograms:
             self._externs[key] = self._made(function)
         return self._externs[key]
 
-    def _made(self, function: DeclaredFunction) -> Extern:
-        site = self._site
-        found = site.catalogue.find_function(function.name)
-        executable = None if found is None else found[1]
-        if executable is None:
+    def function_for_c(self, function: DeclaredFunction) -> Extern:
+        """Return a FUNCTION as its header declares it: what is large is returned as an address.
+
+        Raises:
+            ConfigurationError: nothing executes it.
+        """
+        if not gives_large(function):
+            return self.function(function)
+        key = ("for C", function.scope)
+        if key not in self._externs:
+            self._externs[key] = self._made_for_c(function)
+        return self._externs[key]
+
+    def _made_for_c(self, function: DeclaredFunction) -> Extern:
+        site, executable = self._site, self._executable(function)
+        if isinstance(executable, CompiledBody):
+            return executable.extern_for_c(site.context)
+        call = executable.bind(site.context)
+        return extern_for_c(site.machine, site.memory, interface_of(function), call)
+
+    def _executable(self, function: DeclaredFunction) -> Executable:
+        found = self._site.catalogue.find_function(function.name)
+        if found is None or found[1] is None:
             raise ConfigurationError(no_function_body(function.name))
+        return found[1]
+
+    def _made(self, function: DeclaredFunction) -> Extern:
+        site, executable = self._site, self._executable(function)
         if isinstance(executable, CompiledExecutable):
             return executable.extern(site.context)
         call = executable.bind(site.context)

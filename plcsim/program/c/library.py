@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.module import CModule
@@ -13,6 +14,7 @@ from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
 from plcsim.program.compiled import CompiledPrograms
 from plcsim.program.compiled_body import CompiledBody
 from plcsim.program.structured_text.calling import interface_of
+from st_types.types.derived import StringType, WStringType
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
     from plcsim.library.library import Library
     from plcsim.machine.shared_module import SharedModule
     from plcsim.program.site import Site
+    from st_types.resolve.declared import DeclaredFunction
 
 
 def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
@@ -39,14 +42,27 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     }
     for function in library.scope.functions:
         if function.name in known:
-            interface = interface_of(function)
-            if interface.large is not None:
-                raise ConfigurationError(
-                    f"{function.file.location(function.node)}: error: {function.name} gives "
-                    f"{interface.large.name}, which a function in C cannot give"
-                )
-            found[function.name] = CompiledBody(whole, function.name, interface)
+            found[function.name] = _function(whole, function)
     return found
+
+
+def _function(whole: CLibraryCode, function: DeclaredFunction) -> CompiledBody:
+    """Return the body of a FUNCTION; one that gives a STRING returns its address.
+
+    Raises:
+        ConfigurationError: its result is a STRUCT or an ARRAY.
+    """
+    interface, only_c = interface_of(function), ""
+    large = interface.large
+    if large is not None:
+        place = function.file.location(function.node)
+        gives = f"{function.name} gives {large.name}"
+        if not isinstance(large, StringType | WStringType):
+            raise ConfigurationError(f"{place}: error: {gives}, which a function in C cannot give")
+        interface = replace(interface, results="I")
+        if not large.length:
+            only_c = f"{gives} ({place}), an address without a length: only C can call it"
+    return CompiledBody(whole, function.name, interface, only_c)
 
 
 class CLibraryCode:

@@ -90,7 +90,7 @@ class ProgramSurroundings:
         found = self._site.catalogue.find_function(name)
         if function is None or found is None or not isinstance(found[1], CompiledExecutable):
             return None
-        return self._compiled.function(function)
+        return self._compiled.function_for_c(function)
 
     def _any_function(self, name: str) -> Extern | None:
         """Return a function of C, else a FUNCTION in Python."""
@@ -99,7 +99,9 @@ class ProgramSurroundings:
         if extern is not None or function is None or function.name != name:
             return extern
         found = self._site.catalogue.find_function(name)
-        return None if found is None or found[1] is None else self._compiled.function(function)
+        if found is None or found[1] is None:
+            return None
+        return self._compiled.function_for_c(function)
 
     def _own_heap(self) -> ProgramHeap:
         if self.heap is None:

@@ -1,7 +1,8 @@
 """Calls of functions between Structured Text and Python, by what a FUNCTION declares.
 
 Values go over as values, what is larger by its address. A function whose result is a STRING, a
-STRUCT or an ARRAY writes it to an address that the caller hands over as the first parameter.
+STRUCT or an ARRAY writes it to an address that the caller hands over as the first parameter; one
+in C returns the address of its STRING instead, as its header declares it.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from plcsim.program.structured_text.check.kinds import plain
 from plcsim.program.structured_text.lower.memory import is_scalar, width_of
+from st_types.types.derived import StringType, WStringType
 from st_types.types.elementary import BOOL, DINT, TIME
 from st_types.types.values import decode, encode
 
@@ -51,8 +53,9 @@ class Interface:
 
     Attributes:
         params: codes of its parameters (see `plcsim.machine.calls`), without that of the result.
-        results: code of its result, "" where it has none, or one that is written to an address.
-        large: the type of such a result, None otherwise.
+        results: code of its result, "" where it has none, or one that is written to an address;
+            "I" with a large one whose address is returned.
+        large: the type of a result that is larger than a value, None otherwise.
         flags: numbers of the parameters that are BOOLs.
         is_flag: the result is a BOOL.
     """
@@ -62,6 +65,16 @@ class Interface:
     large: DataType[Any] | None
     flags: tuple[int, ...]
     is_flag: bool
+
+    @property
+    def gives_address(self) -> bool:
+        """Whether it returns the address of its result, as functions in C do."""
+        return self.large is not None and bool(self.results)
+
+
+def gives_large(function: DeclaredFunction) -> bool:
+    """Return whether the result of a function is larger than a value."""
+    return function.result is not None and not is_scalar(plain(function.result))
 
 
 def interface_of(function: DeclaredFunction) -> Interface:
@@ -110,6 +123,25 @@ def extern_of(
     return machine.host_function(write_result, "I" + interface.params)
 
 
+def extern_for_c(
+    machine: Machine, memory: Memory, interface: Interface, call: Callable[..., Any]
+) -> Extern:
+    """Return a function in Python whose result is large as C calls it: it returns its address.
+
+    The result stands there until the next call.
+    """
+    large = interface.large
+    assert large is not None
+    address = memory.keep(bytes(large.size), large.alignment)
+    flagged = _with_flags(call, interface.flags)
+
+    def give_address(*arguments: Any) -> int:
+        memory.write(address, encode(large, flagged(*arguments)))
+        return address
+
+    return machine.host_function(give_address, interface.params, "I")
+
+
 def _with_flags(call: Callable[..., Any], flags: tuple[int, ...]) -> Callable[..., Any]:
     """Return a function whose BOOLs are those of Python."""
 
@@ -130,6 +162,9 @@ def callable_of(
     if large is None:
         function = instance.function(name, interface.params, interface.results)
         return (lambda *given: bool(function(*given))) if interface.is_flag else function
+    if interface.gives_address:
+        give_address = instance.function(name, interface.params, interface.results)
+        return lambda *given: _text(memory, give_address(*given), large)
     write_result = instance.function(name, "I" + interface.params)
     address = memory.keep(bytes(large.size), large.alignment)
 
@@ -138,3 +173,17 @@ def callable_of(
         return decode(large, memory.read(address, large.size))
 
     return call
+
+
+def _text(memory: Memory, address: int, data_type: DataType[Any]) -> str:
+    """Return the text at an address, cut off at the length of a STRING or WSTRING."""
+    if isinstance(data_type, StringType):
+        return memory.string(address, data_type.length).decode("latin-1")
+    assert isinstance(data_type, WStringType)
+    units = bytearray()
+    while len(units) < 2 * data_type.length:
+        unit = memory.read(address + len(units), 2)  # what lies behind the end may not be valid
+        if unit == b"\0\0":
+            break
+        units += unit
+    return str(decode(data_type, bytes(units) + b"\0\0"))

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from plcsim.machine import Instance, Machine
     from plcsim.program.language import ProgramSource
     from plcsim.program.site import Site
+    from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.check.typed import CheckedProgram, Storage
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from plcsim.program.structured_text.sources import UnitFile
@@ -89,8 +90,20 @@ def compile_program(
     keep_possible(stored.code.profile, {file.path: file.source.text for file in files})
     absent = missing(catalogue, scope, stored.code.imports)
     if absent:
-        raise ConfigurationError(*(f"{Path(files[0].path).parent}: {each}" for each in absent))
+        raise ConfigurationError(*(f"{_caller(files, each)}: {text}" for each, text in absent))
     return StructuredTextCode(stored.code, scope, variables, stored.warnings)
+
+
+def _caller(files: Sequence[UnitFile], wanted: ir.Import) -> str:
+    """Return where a function is called first; the folder for a block, which has instances."""
+    call = [wanted.name.upper(), "("]
+    for file in files if wanted.space == "function" else ():
+        tokens = file.parsed.tokens
+        texts = [text.upper() for text in tokens.texts]
+        for at in range(1, len(texts)):
+            if texts[at : at + 2] == call and texts[at - 1] != ".":
+                return f"{tokens.location(at)}: error"
+    return str(Path(files[0].path).parent)
 
 
 def _check_meant(files: Sequence[UnitFile], meant: str) -> None:

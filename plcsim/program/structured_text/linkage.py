@@ -6,6 +6,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.compiled import CompiledPrograms, no_function_body
+from plcsim.program.compiled_body import CompiledBody
 from plcsim.program.site import no_body
 from plcsim.program.structured_text.check import located
 from plcsim.program.structured_text.codegen.link import Linker
@@ -129,11 +130,18 @@ def executable_of(catalogue: Catalogue, scope: Scope, wanted: ir.Import) -> Exec
     return None if found is None else found[1]
 
 
-def missing(catalogue: Catalogue, scope: Scope, imports: Iterable[ir.Import]) -> list[str]:
-    """Return what is wrong with what a module calls and nothing executes."""
-    return [
-        _no_body(scope, each) for each in imports if executable_of(catalogue, scope, each) is None
-    ]
+def missing(
+    catalogue: Catalogue, scope: Scope, imports: Iterable[ir.Import]
+) -> list[tuple[ir.Import, str]]:
+    """Return what is wrong with what a module calls: nothing executes it, or only C can call it."""
+    wrong = ((each, _wrong(scope, each, executable_of(catalogue, scope, each))) for each in imports)
+    return [(each, text) for each, text in wrong if text]
+
+
+def _wrong(scope: Scope, wanted: ir.Import, executable: Executable | None) -> str:
+    if executable is None:
+        return _no_body(scope, wanted)
+    return executable.only_c if isinstance(executable, CompiledBody) else ""
 
 
 def _no_body(scope: Scope, wanted: ir.Import) -> str:

@@ -151,13 +151,202 @@ def test_global_variables_are_shared_with_other_languages(run, value):
 
 def test_what_a_function_in_c_cannot_give_is_told(run):
     files = {
-        "util/util.fun": "FUNCTION Title : STRING[10] VAR_INPUT n : INT; END_VAR END_FUNCTION",
-        "util/util.c": "char *Title(short n) { return 0; }",
+        "util/util.fun": "FUNCTION Pair : ARRAY[0..1] OF INT VAR_INPUT n:INT; END_VAR END_FUNCTION",
+        "util/util.c": "short *Pair(short n) { return 0; }",
         "main/Main.c": C,
         "main/Variables.var": "",
     }
-    with pytest.raises(ConfigurationError, match=r"util\.fun:1:1.*Title gives STRING\[10\]"):
+    with pytest.raises(ConfigurationError, match=r"util\.fun:1:1.*Pair gives ARRAY"):
         run(files)
+
+
+TITLES = {
+    "titles/ANSIC.lby": "<Library/>",
+    "titles/titles.fun": """
+        FUNCTION Title : STRING[4]
+            VAR_INPUT n : INT; upper : BOOL; END_VAR
+        END_FUNCTION
+        FUNCTION Wide : WSTRING[4]
+            VAR_INPUT n : INT; END_VAR
+        END_FUNCTION
+        FUNCTION Behind : STRING[0]
+            VAR_INPUT text : STRING[0]; n : UDINT; END_VAR
+        END_FUNCTION
+        FUNCTION Count : INT
+        END_FUNCTION
+    """,
+    "titles/titles.c": """
+        #include "titles.h"
+        static int calls;
+        plcstring *Title(signed short n, plcbit upper)
+        {
+            static char long_[] = "abcdef";
+            calls++;
+            return n == 0 ? 0 : n == 1 ? long_ : upper ? "UP" : "down";
+        }
+        plcwstring *Wide(signed short n)
+        {
+            static plcwstring wide[] = {'v', 'w', 0x20AC, 'x', 'y', 'z', 0};
+            return wide + n;
+        }
+        plcstring *Behind(plcstring *text, unsigned long n) { return n > 9 ? 0 : text + n; }
+        signed short Count(void) { return calls + (Title(1, 0)[5] == 'f'); }
+    """,
+}
+TITLES_DECLARED = """
+    VAR
+        a, b, c : STRING[80]; wide, end : WSTRING[80]; count : INT; at : DINT; is_nil : BOOL;
+    END_VAR
+"""
+TITLES_FROM = {
+    "Structured Text": {
+        "main/Cyclic.st": """
+            PROGRAM _CYCLIC
+                a := Title(1, FALSE); b := Title(2, TRUE); c := Title(2, FALSE);
+                wide := Wide(0); end := Wide(4);
+                count := Count();
+            END_PROGRAM
+        """,
+    },
+    "Python": {
+        "main/main.py": PYTHON.partition("class Main")[0]
+        + """
+    class Main(Program):
+        def cyclic(self):
+            self.a = call(self.context, "Title", 1, False)
+            self.b = call(self.context, "Title", 2, True)
+            self.c = call(self.context, "Title", 2, False)
+            self.wide = call(self.context, "Wide", 0)
+            self.end = call(self.context, "Wide", 4)
+            self.count = call(self.context, "Count")
+""",
+    },
+}
+
+
+@pytest.mark.parametrize("language", TITLES_FROM)
+def test_a_string_of_a_function_in_c_is_copied_and_cut_off(run, value, language):
+    files = TITLES | TITLES_FROM[language] | {"main/V.var": TITLES_DECLARED}
+    controller = run(files, cycles=1)
+    assert controller.state is State.RUN, controller.fault
+    names = ("a", "b", "c", "wide", "end", "count")
+    found = [value(controller, f"main.{name}") for name in names]
+    assert found == ["abcd", "UP", "down", "vw\u20acx", "yz", 4]
+
+
+def test_c_gets_the_address_that_a_function_in_c_returns(run, value):
+    files = TITLES | {
+        "main/Main.c": """
+            #include <string.h>
+            #include <AsDefault.h>
+            void _CYCLIC f(void)
+            {
+                strcpy(a, Title(1, 0));
+                at = Behind(a, 2) - a;
+                is_nil = !Behind(a, 10);
+            }
+        """,
+        "main/V.var": TITLES_DECLARED,
+    }
+    controller = run(files)
+    assert controller.state is State.RUN, controller.fault
+    assert [value(controller, f"main.{n}") for n in ("a", "at", "is_nil")] == ["abcdef", 2, True]
+
+
+def test_only_a_call_of_what_has_no_length_is_refused(run):
+    files = TITLES | {
+        "main/Cyclic.st": "PROGRAM _CYCLIC (* Behind() *)\n a := Behind('b', 1);\nEND_PROGRAM",
+        "main/V.var": TITLES_DECLARED,
+    }
+    told = (
+        r"main/Cyclic\.st:2:7: error: Behind gives STRING\[0\] \(.*titles\.fun:8:\d+\), "
+        r"an address without a length: only C can call it"
+    )
+    with pytest.raises(ConfigurationError, match=told):
+        run(files)
+    files["main/Cyclic.st"] = "PROGRAM _CYCLIC count := Count(); END_PROGRAM"
+    assert run(files).state is State.RUN
+
+
+def test_python_is_refused_what_has_no_length_where_it_calls(run):
+    main = (
+        PYTHON.partition("class Main")[0]
+        + """
+    class Main(Program):
+        def cyclic(self):
+            call(self.context, "Behind", 0, 1)
+"""
+    )
+    controller = run(TITLES | {"main/main.py": main, "main/V.var": TITLES_DECLARED})
+    assert controller.state is State.SERVICE
+    assert "Behind gives STRING[0]" in controller.fault.reason
+    assert controller.fault.location.endswith("main/main.py:6")
+
+
+def test_an_address_of_nothing_is_a_page_fault_where_it_is_called(run):
+    files = TITLES | {
+        "main/Cyclic.st": "PROGRAM _CYCLIC\n a := Title(0, FALSE);\nEND_PROGRAM",
+        "main/V.var": TITLES_DECLARED,
+    }
+    controller = run(files)
+    assert controller.state is State.SERVICE
+    assert "page fault" in controller.fault.reason
+    assert controller.fault.calls[0].endswith("main/Cyclic.st:2 in cyclic")
+
+
+def test_libraries_in_c_that_need_each_other_give_strings(run, value):
+    files = {
+        "one/ANSIC.lby": "<Library/>",
+        "one/one.fun": """
+            FUNCTION Text : STRING[0] VAR_INPUT n : INT; END_VAR END_FUNCTION
+            FUNCTION Outer : INT END_FUNCTION
+        """,
+        "one/one.c": """
+            #include <AsDefault.h>
+            plcstring *Text(signed short n) { return n == 1 ? "a" : "z"; }
+            signed short Outer(void) { return Inner(); }
+        """,
+        "two/ANSIC.lby": "<Library/>",
+        "two/two.fun": "FUNCTION Inner : INT END_FUNCTION",
+        "two/two.c": """
+            #include <AsDefault.h>
+            signed short Inner(void) { return Text(1)[0] + Text(2)[0]; }
+        """,
+        "main/Main.st": "PROGRAM _CYCLIC count := Outer(); END_PROGRAM",
+        "main/V.var": TITLES_DECLARED,
+    }
+    controller = run(files)
+    assert controller.state is State.RUN, controller.fault
+    assert value(controller, "main.count") == ord("a") + ord("z")
+
+
+def test_c_gets_the_address_of_a_string_from_structured_text_and_python(run, value):
+    files = {
+        "text/text.fun": "FUNCTION Name : STRING[5] VAR_INPUT x : BOOL; END_VAR END_FUNCTION\n",
+        "text/name.st": "FUNCTION Name Name := SEL(x, 'no', 'yes'); END_FUNCTION",
+        "snake/snake.fun": "FUNCTION Kind : STRING[5] VAR_INPUT x : BOOL; END_VAR END_FUNCTION\n",
+        "snake/kind.py": """
+            from plcsim.library.executable import function
+
+            @function("Kind")
+            def kind(context, x):
+                return f"is {x}"
+        """,
+        "main/Main.c": """
+            #include <string.h>
+            #include <AsDefault.h>
+            void _CYCLIC f(void)
+            {
+                strcpy(a, Name(1));
+                strcpy(b, Name(0));
+                strcpy(c, Kind(1));
+            }
+        """,
+        "main/V.var": TITLES_DECLARED,
+    }
+    controller = run(files)
+    assert controller.state is State.RUN, controller.fault
+    assert [value(controller, f"main.{n}") for n in "abc"] == ["yes", "no", "is Tr"]
 
 
 def test_errors_in_a_library_are_told_once_with_their_places(run):

@@ -213,9 +213,10 @@ def test_what_has_no_body_is_told_before_the_run(wrong):
         "FUNCTION_BLOCK Empty VAR_INPUT a : INT; END_VAR END_FUNCTION_BLOCK\n"
         "FUNCTION f : INT VAR_INPUT a : INT; END_VAR END_FUNCTION\n"
     )
+    no_body = "has no body: it is declared, and nothing executes it"
     assert wrong(files).splitlines() == [
-        "main: FUNCTION_BLOCK Empty has no body: it is declared, and nothing executes it",
-        "main: FUNCTION f has no body: it is declared, and nothing executes it",
+        f"main: FUNCTION_BLOCK Empty {no_body}",
+        f"main/Cyclic.st:2:11: error: FUNCTION f {no_body}",
     ]
 
 
