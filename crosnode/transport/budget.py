@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 POLL_WORK: Final = 1_024
 """Price of looking at a connection."""
 
-LARGE_SHARE: Final = 5
+LARGE_SHARE: Final = 4
 """Bytes of a large message, which go between the socket and their place without a copy in pieces
 of up to a mebibyte, that cost as much as one byte of others."""
 

@@ -220,23 +220,27 @@ class ProgramLoader:
         when they are loaded here.
         """
         compiled = self._compiled(names)
+        others = [name for name in names if name not in set(compiled)]
+        found: dict[str, ProgramCode | tuple[str, ...]] = {}
+        for count, name in enumerate(others, 1):
+            found[name] = self._tried(name)
+            self._progress(count, len(names))
         libraries = self.declarations.own_libraries
         jobs: list[Library | str] = [*libraries, *compiled]
-        found: dict[str, ProgramCode | tuple[str, ...]] = {}
-        done = len(names) - len(compiled) - len(libraries)
         with ExitStack() as stack:
             numbers = stack.enter_context(SharedNumbers(len(jobs)))
             wait = None
             for number in numbers:
                 start = time.perf_counter()
                 self._do(jobs[number], found)
-                self._progress(max(0, done + numbers.taken), len(names))
+                taken = max(0, numbers.taken - len(libraries))  # they come first
+                self._progress(len(others) + taken, len(names))
                 is_slow = time.perf_counter() - start > LONGEST_KNOWN_S
                 if is_slow and wait is None and len(jobs) >= FEWEST_FOR_HELP and can_help():
                     wait = stack.enter_context(helper_process(partial(self._help, jobs, numbers)))
             if wait is not None:
                 wait()
-        return {**found, **{name: self._tried(name) for name in names if name not in found}}
+        return {**found, **{name: self._tried(name) for name in compiled if name not in found}}
 
     def _help(self, jobs: Sequence[Library | str], numbers: Iterable[int]) -> None:
         """Do jobs in a copy of this process, for the caches."""
