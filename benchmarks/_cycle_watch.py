@@ -6,6 +6,7 @@ The scan writes a record of each cycle for whoever follows it, as for the page o
 
 from __future__ import annotations
 
+import math
 import statistics
 from collections import Counter
 from dataclasses import dataclass, field
@@ -86,7 +87,7 @@ class Cycles:
 
 def percentile(values: Sequence[int], percent: float) -> int:
     """Return the smallest value that so many percent do not exceed."""
-    return sorted(values)[max(0, -(-len(values) * percent // 100).__int__() - 1)]
+    return sorted(values)[max(0, math.ceil(len(values) * percent / 100) - 1)]
 
 
 class CycleWatch:

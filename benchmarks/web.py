@@ -32,7 +32,6 @@ about twice the root of their sum.
 from __future__ import annotations
 
 import argparse
-import math
 import statistics
 import sys
 import tempfile
@@ -55,6 +54,7 @@ from _outcome import (
     print_targets,
     write_json,
 )
+from _stalls import by_chance
 from _web_site import HERE, Clients, Site
 
 KINDS: Final = ("nobody", "busy", "modbus", "all")
@@ -195,7 +195,7 @@ def targets_of(legs: list[Leg], joining: Cycles) -> list[Target]:
     added = {}
     for key in ("stalls", "own"):
         a, b = (getattr(pooled[kind], key) for kind in ("all", "nobody"))
-        added[key] = a - b, math.floor(2 * math.sqrt(a + b))
+        added[key] = a - b, by_chance(a, b)
     everybody = [leg.found for leg in legs if leg.kind == "all"]
     torn = sum(leg.found.get("torn", 0) for leg in legs)
     return [

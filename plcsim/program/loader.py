@@ -220,7 +220,8 @@ class ProgramLoader:
         when they are loaded here.
         """
         compiled = self._compiled(names)
-        others = [name for name in names if name not in set(compiled)]
+        known = set(compiled)
+        others = [name for name in names if name not in known]
         found: dict[str, ProgramCode | tuple[str, ...]] = {}
         for count, name in enumerate(others, 1):
             found[name] = self._tried(name)

@@ -24,7 +24,7 @@ from st_types.types.derived import (
     WStringType,
     resolve_alias,
 )
-from st_types.types.elementary import CHARACTERS, ElementaryType, Kind
+from st_types.types.elementary import CHARACTER_TYPES, ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -197,7 +197,7 @@ def _scalar(
             return bool(value)
         case ElementaryType(kind=Kind.REAL) if not isinstance(value, str):
             return _real(context, node, value, data_type)
-        case ElementaryType() if data_type in _CHARACTERS and _is_character(value):
+        case ElementaryType() if data_type in CHARACTER_TYPES and _is_character(value):
             return _integer(context, node, ord(str(value)), data_type)
         case ElementaryType() if _is_whole(value) and data_type.is_integer:
             return _integer(context, node, int(value), data_type)
@@ -210,9 +210,6 @@ def _scalar(
             return None
     context.error(node, f"{_shown(value)} is not a value of {declared}")
     return None
-
-
-_CHARACTERS = tuple(CHARACTERS.values())
 
 
 def _is_character(value: object) -> bool:

@@ -143,5 +143,7 @@ CHARACTERS: Final[dict[str, ElementaryType[int]]] = {t.name: t for t in (CHAR, W
 Their values are codes, so that they count like BYTE and WORD; a text of one character is one.
 """
 
+CHARACTER_TYPES: Final = frozenset(CHARACTERS.values())
+
 ALL_ELEMENTARY: Final = {**ELEMENTARY, **LONG_TIMES, **CHARACTERS}
 """The elementary types of all dialects."""

@@ -21,7 +21,7 @@ from st_types.types.derived import (
     resolve_alias,
 )
 from st_types.types.elementary import (
-    CHARACTERS,
+    CHARACTER_TYPES,
     DATE,
     DATE_AND_TIME,
     LDATE,
@@ -64,7 +64,7 @@ def value_text(data_type: DataType[Any], value: Any) -> str:
         return "TRUE" if value else "FALSE"
     if isinstance(value, float):
         return _real_text(value, data_type.size)
-    if data_type in _CHARACTERS and value:
+    if data_type in CHARACTER_TYPES and value:
         return string_literal(chr(value), wide=data_type is WCHAR)
     return _time_text(data_type, value) if data_type in _TIMES else str(value)
 
@@ -88,7 +88,6 @@ def _real_text(value: float, size: int) -> str:
     return text if "." in text or "e" in text else f"{text}.0"
 
 
-_CHARACTERS = tuple(CHARACTERS.values())
 _TIMES = (TIME, DATE, TIME_OF_DAY, DATE_AND_TIME, *LONG_TIMES.values())
 
 

@@ -6,7 +6,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING, Final
 
 from plcsim.recorder.bag.types import CYCLES, DIAGNOSTICS, HEAD, LOGBOOK
-from plcsim.recorder.bag.values import MOST_NAMED, differences
+from plcsim.recorder.bag.values import BETWEEN, MOST_NAMED, differences
 from plcsim.recorder.journal.record import CYCLE
 from plcsim.shared_image.directory import describe_type
 
@@ -71,7 +71,7 @@ def _of_records(head: Head, one: JournalRecord, other: JournalRecord) -> str:
         found = differences(head, one.variables, other.variables)
         named = [f"{tag} is {here} against {there}" for tag, here, there in found[:MOST_NAMED]]
         more = ["more"] if len(found) > MOST_NAMED else []
-        return f"{_name(one)}: {', '.join(named + more) or 'a byte between two variables'}"
+        return f"{_name(one)}: {', '.join(named + more) or BETWEEN}"
     return ""
 
 

@@ -13,9 +13,11 @@ if TYPE_CHECKING:
     from plcsim.core.tag import Tag
     from plcsim.recorder.bag.head import Head
 
-
 MOST_NAMED: Final = 4
 """Tags that are told of a cycle that differs."""
+
+BETWEEN: Final = "a byte between two variables"
+"""Is told where two images differ, and no tag does."""
 
 
 def differences(head: Head, one: bytes, other: bytes) -> list[tuple[str, str, str]]:
@@ -27,7 +29,7 @@ def differences(head: Head, one: bytes, other: bytes) -> list[tuple[str, str, st
 def first_difference(head: Head, one: bytes, other: bytes) -> tuple[str, str, str]:
     """Return the first tag whose value differs, with both values as text."""
     found = differences(head, one, other)
-    return found[0] if found else ("a byte between two variables", "one", "another")
+    return found[0] if found else (BETWEEN, "one", "another")
 
 
 def text_of(leaf: Tag, data: bytes) -> str:

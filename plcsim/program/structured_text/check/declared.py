@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.program.structured_text.check.classes import (
-    interface_type,
-)
+from plcsim.program.structured_text.check.classes import interface_type
 from plcsim.program.structured_text.check.open_arrays import takes_any_bounds
-from plcsim.program.structured_text.check.programs import (
-    as_block,
-    instance_of,
-    is_shared,
-)
+from plcsim.program.structured_text.check.programs import as_block, instance_of, is_shared
 from plcsim.program.structured_text.program_uses import NO_USES
 from plcsim.program.structured_text.syntax.tree import (
     Configuration,
@@ -31,9 +25,7 @@ from st_types.syntax.tree import (
 
 if TYPE_CHECKING:
     from plcsim.program.structured_text.program_uses import ProgramUses
-    from plcsim.program.structured_text.syntax.tree import (
-        StructuredTextFile,
-    )
+    from plcsim.program.structured_text.syntax.tree import StructuredTextFile
     from st_types.syntax.tree import Item
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from plcsim.program.structured_text.check.kinds import (
     ANY_INT,
@@ -16,13 +16,11 @@ from plcsim.program.structured_text.check.kinds import (
 )
 from plcsim.program.structured_text.check.typed import Constant
 from st_types.types.derived import ArrayType, ReferenceType
-from st_types.types.elementary import CHARACTERS, UDINT
+from st_types.types.elementary import CHARACTER_TYPES, UDINT
 
 if TYPE_CHECKING:
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Value
-
-_CHARACTERS: Final = frozenset(CHARACTERS.values())
 
 
 def fit(value: Value, target: Type) -> Fit:
@@ -38,7 +36,7 @@ def fit(value: Value, target: Type) -> Fit:
 
 def as_character(value: Value, target: Type) -> Value:
     """Return a text of one character as a CHAR or a WCHAR, any other value as it is."""
-    if target not in _CHARACTERS or not isinstance(value, Constant):
+    if target not in CHARACTER_TYPES or not isinstance(value, Constant):
         return value
     text = value.value
     return Constant(target, ord(text)) if isinstance(text, str) and len(text) == 1 else value

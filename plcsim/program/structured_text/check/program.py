@@ -10,10 +10,7 @@ from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.initialisers import Initialisers
 from plcsim.program.structured_text.check.kinds import plain
 from plcsim.program.structured_text.check.names import ScopeNames, named
-from plcsim.program.structured_text.check.programs import (
-    ALL_PROGRAMS,
-    MeantProgram,
-)
+from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
 from plcsim.program.structured_text.check.recursion import needs_memory, reaches
 from plcsim.program.structured_text.check.statements import StatementChecker
 from plcsim.program.structured_text.check.surroundings import Surroundings
@@ -28,9 +25,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.classes import ClassMethod
     from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Storage
-    from plcsim.program.structured_text.syntax.tree import (
-        StructuredTextFile,
-    )
+    from plcsim.program.structured_text.syntax.tree import StructuredTextFile
     from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.scope import Scope
 

@@ -40,10 +40,7 @@ from plcsim.program.structured_text.syntax.tree import (
     ProgramUnit,
     UnsupportedUnit,
 )
-from st_types.syntax.tree import (
-    TypeBlock,
-    VariableBlock,
-)
+from st_types.syntax.tree import TypeBlock, VariableBlock
 from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
