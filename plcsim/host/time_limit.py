@@ -59,22 +59,25 @@ def time_limit(limit_ns: int) -> Iterator[None]:
         return
 
     tries = 0
+    is_open = True
 
     def end(_number: int, frame: FrameType | None) -> None:
         nonlocal tries
-        if frame is not None and frame.f_code.co_filename in _OWN_FILES:
-            return  # the block has ended meanwhile
+        if not is_open or (frame is not None and frame.f_code.co_filename in _OWN_FILES):
+            return  # the block has ended meanwhile, and what puts things back calls others
         tries += 1
         if tries == TRIES:
             signal.setitimer(signal.ITIMER_REAL, HAIL_S, HAIL_S)
         raise CycleTimeViolation(f"did not return within {format_duration(limit_ns)}")
 
+    due_s, interval_s = signal.setitimer(signal.ITIMER_REAL, 0)
     handler = signal.signal(signal.SIGALRM, end)
     start = time.monotonic()
-    due_s, interval_s = signal.setitimer(signal.ITIMER_REAL, limit_ns / 1e9, AGAIN_S)
+    signal.setitimer(signal.ITIMER_REAL, limit_ns / 1e9, AGAIN_S)
     try:
         yield
     finally:
+        is_open = False
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, _late if tries and handler in _NOBODYS else handler)
         if due_s:

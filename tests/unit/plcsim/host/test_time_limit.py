@@ -92,6 +92,28 @@ def test_an_alarm_that_comes_after_its_block_is_no_fault(alarms):
     assert not alarms
 
 
+def test_an_alarm_that_comes_while_things_are_put_back_is_no_fault(alarms, monkeypatch):
+    class Late:
+        """Signals, of which one was handed to another thread that is slow."""
+
+        SIGALRM = signal.SIGALRM
+        ITIMER_REAL = signal.ITIMER_REAL
+        SIG_DFL = signal.SIG_DFL
+        setitimer = staticmethod(signal.setitimer)
+
+        @staticmethod
+        def signal(number, handler):
+            signal.raise_signal(number)
+            return signal.signal(number, handler)
+
+    before = signal.getsignal(signal.SIGALRM)
+    monkeypatch.setattr(time_limit_module, "signal", Late)
+    with time_limit(10**12):
+        alarms.clear()  # the one that came before was theirs
+    assert signal.getsignal(signal.SIGALRM) is before
+    assert not alarms
+
+
 def test_an_alarm_of_somebody_else_is_on_again(alarms):
     signal.setitimer(signal.ITIMER_REAL, 1000, 5)
     with time_limit(SHORT_NS):
