@@ -35,15 +35,16 @@ class Orphans:
         self._spared = _children()
         _become_subreaper(1)
 
-    def reap(self, own: set[int]) -> None:
+    def reap(self) -> None:
         """Let go of those that have ended.
 
-        Args:
-            own: processes that this process started itself.
+        Who started a process waits for its exit code, so what this process started itself is left
+        alone, be it for another run or for something else: it is in our group or leads its own.
         """
-        for pid in _children() - self._spared - own:
-            with contextlib.suppress(ChildProcessError):
-                os.waitpid(pid, os.WNOHANG)
+        for pid in _children() - self._spared:
+            with contextlib.suppress(ChildProcessError, ProcessLookupError, FileNotFoundError):
+                if not _is_own(pid):
+                    os.waitpid(pid, os.WNOHANG)
 
     def end(self) -> None:
         """Kill them all; what this process started itself has to have ended."""
@@ -57,6 +58,17 @@ class Orphans:
 
 def _become_subreaper(is_one: int) -> None:
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, is_one)
+
+
+def _is_own(pid: int) -> bool:
+    """Whether a child may have been started by this process, and not left to it.
+
+    Raises:
+        FileNotFoundError, ProcessLookupError: there is no such process any more.
+    """
+    status = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()
+    group, session = int(status[2]), int(status[3])
+    return session == os.getsid(0) and group in (pid, os.getpgrp())
 
 
 def _kill(pid: int) -> bool:

@@ -235,7 +235,7 @@ class Supervisor:
         self.services.tend(now_ns)
         self._output.carry()
         if now_ns - self._reaped_ns > REAP_NS:
-            self._orphans.reap({self._process.pid} | self.services.pids)
+            self._orphans.reap()
             self._reaped_ns = now_ns
 
     @property

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from plcsim.process import orphans
 from plcsim.process.orphans import Orphans, end_group
 
@@ -54,15 +56,35 @@ def test_after_it_orphans_are_no_children_of_ours():
 def test_orphans_that_have_ended_are_let_go_of():
     found = Orphans()
     daemon = leave_a_daemon()
-    own = subprocess.Popen(["true"])
-    os.waitid(os.P_PID, own.pid, os.WEXITED | os.WNOWAIT)
-    found.reap({own.pid})
+    found.reap()
     assert is_there(daemon)
     os.kill(daemon, signal.SIGKILL)
     os.waitid(os.P_PID, daemon, os.WEXITED | os.WNOWAIT)
-    found.reap({own.pid})
+    found.reap()
     assert not is_there(daemon)
-    assert own.wait() == 0  # its exit code was not taken away
+    found.end()
+
+
+def test_an_orphan_in_the_group_of_a_scan_is_let_go_of():
+    found = Orphans()
+    command = "sleep 3600 >&- & echo $!"
+    leader = subprocess.Popen(["sh", "-c", command], stdout=subprocess.PIPE, process_group=0)
+    left = int(leader.communicate()[0])
+    os.kill(left, signal.SIGKILL)
+    os.waitid(os.P_PID, left, os.WEXITED | os.WNOWAIT)
+    found.reap()
+    assert not is_there(left)
+    found.end()
+
+
+@pytest.mark.parametrize("group", [0, None])
+def test_the_exit_code_of_what_was_started_here_is_not_taken_away(group):
+    """Another run in this process has a scan and services, which lead groups of their own."""
+    found = Orphans()
+    started = subprocess.Popen(["sh", "-c", "exit 7"], process_group=group)
+    os.waitid(os.P_PID, started.pid, os.WEXITED | os.WNOWAIT)
+    found.reap()
+    assert started.wait() == 7
     found.end()
 
 
