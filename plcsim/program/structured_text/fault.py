@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.machine import FaultKind
 from plcsim.program.compiled import CallSite
 
 if TYPE_CHECKING:
@@ -11,7 +12,10 @@ if TYPE_CHECKING:
     from plcsim.program.compiled import Locate
     from plcsim.program.structured_text.codegen.lines import ModuleLines
 
-REASONS = {"index": "index outside the bounds of its array"}
+REASONS = {
+    "index": "index outside the bounds of its array",
+    "stack": FaultKind.STACK_OVERFLOW.value,
+}
 """By what compiled code has noted for a trap that it has made itself (`Location.trap`)."""
 
 

@@ -30,7 +30,7 @@ Nodes have slots and no behaviour. They are never changed once made, and may be 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, ClassVar, Final, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -438,6 +438,21 @@ own members are places based on local 0. ``action`` takes nothing, that of a blo
 ``helper`` is what the front makes."""
 
 
+class StackFrame(NamedTuple):
+    """Bytes of the stack of compiled programs that each call of a function has of its own.
+
+    Attributes:
+        size: bytes, a multiple of 16; 0 for none.
+        local: holds their address while the function runs.
+    """
+
+    size: int
+    local: int
+
+
+NO_FRAME: Final = StackFrame(0, 0)
+
+
 @dataclass(slots=True, eq=False)
 class Function:
     """A function of the module.
@@ -452,6 +467,7 @@ class Function:
         file: number of its file in ``Module.files``.
         line: where it begins.
         exported: it can be called from outside.
+        frame: what each call has on the stack; what is in it at the start is not known.
     """
 
     name: str
@@ -463,6 +479,7 @@ class Function:
     file: int = 0
     line: int = 1
     exported: bool = False
+    frame: StackFrame = NO_FRAME
 
 
 @dataclass(slots=True, eq=False)

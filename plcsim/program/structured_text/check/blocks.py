@@ -14,6 +14,7 @@ from plcsim.program.structured_text.check.kinds import (
     kind_of,
 )
 from plcsim.program.structured_text.check.names import NOTHING, root_of
+from plcsim.program.structured_text.check.recursion import block_label
 from plcsim.program.structured_text.check.typed import (
     PLACES,
     Address,
@@ -30,6 +31,8 @@ from st_types.syntax import expressions as syntax
 from st_types.types.derived import DataBlockType, ReferenceType, Section
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
@@ -60,7 +63,13 @@ class BlockChecker(CallChecker):
                     continue
                 name = member.name
             self._block_argument(argument, name, instance, before, after, line)
-        return CallBlock(line, instance, block.name, before, after)
+        return self._block_called(line, instance, before, after)
+
+    def _block_called(
+        self, line: int, instance: Value, before: Sequence[Statement], after: Sequence[Statement]
+    ) -> CallBlock:
+        self.called_bodies.add(block_label(instance.type.name))
+        return CallBlock(line, instance, instance.type.name, before, after)
 
     def _instance(self, node: Expression) -> Value | None:
         if self.method_of(node) is not None:
@@ -77,7 +86,7 @@ class BlockChecker(CallChecker):
         instance = self._instance(node)
         if instance is None:
             return None
-        return CallBlock(line, instance, instance.type.name, (), ())
+        return self._block_called(line, instance, (), ())
 
     def _block_argument(
         self,

@@ -311,7 +311,7 @@ class CallChecker(MethodChecker):
             found = self.names.symbols.open_functions.get(scope.dialect.key(name.name))
             return self._no_function(node, name) if found is None else self._open(node, found)
         self.names.check_case(name, hit)
-        self.called_functions.add(function.name)
+        self.called_bodies.add(function.name)
         if function.name == "CONCAT" and not scope.dialect.case_sensitive:
             node = _in_pairs(node)
         arguments = self.arguments_of(node, function)
@@ -340,7 +340,7 @@ class CallChecker(MethodChecker):
         if function is None:
             return NOTHING  # what is wrong was told
         self.called_open[function.name] = (open_function, function)
-        self.called_functions.add(function.name)
+        self.called_bodies.add(function.name)
         arguments = self.arguments_of(node, function)
         result = VOID if function.result is None else plain(function.result)
         return Call(result, function, arguments)

@@ -49,13 +49,13 @@ class MethodChecker(ExpressionChecker):
     """Checks what names a method or a property.
 
     Attributes:
-        called_functions: names of the functions, and labels of the methods, that are called.
+        called_bodies: names of the functions, labels of the methods and blocks, that are called.
         called_methods: the methods that are called, by their labels.
     """
 
     def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         super().__init__(names, findings)
-        self.called_functions: set[str] = set()
+        self.called_bodies: set[str] = set()
         self.called_methods: dict[str, ClassMethod] = {}
 
     def arguments_of(self, node: syntax.Call, function: DeclaredFunction) -> Sequence[Value | None]:
@@ -157,7 +157,7 @@ class MethodChecker(ExpressionChecker):
         self, instance: Value, method: ClassMethod, arguments: Sequence[Value | None]
     ) -> MethodCall:
         self.called_methods[method.label] = method
-        self.called_functions.add(method.label)
+        self.called_bodies.add(method.label)
         keep_address(instance)
         function = method.function
         result = VOID if function.result is None else plain(function.result)

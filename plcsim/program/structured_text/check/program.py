@@ -11,7 +11,7 @@ from plcsim.program.structured_text.check.initialisers import Initialisers
 from plcsim.program.structured_text.check.kinds import plain
 from plcsim.program.structured_text.check.names import ScopeNames, named
 from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
-from plcsim.program.structured_text.check.recursion import needs_memory, reaches
+from plcsim.program.structured_text.check.recursion import in_cycles
 from plcsim.program.structured_text.check.statements import StatementChecker
 from plcsim.program.structured_text.check.surroundings import Surroundings
 from plcsim.program.structured_text.check.units import BodyJob, BodyOwner, UnitCollector
@@ -89,7 +89,7 @@ class _ProgramChecker(UnitCollector):
         for job in self._jobs:
             if job.body is not None and job.kind in ("unit", "block"):
                 found += self._surrounded(job, job.body)
-        self._check_recursion()
+        self._note_recursion()
         self._check_used()
         return found
 
@@ -151,24 +151,15 @@ class _ProgramChecker(UnitCollector):
                     offset = file.tokens.offset(entry.node.at)
                     file.diagnostics.warning(offset, message, "", FindingCode.UNUSED_VARIABLE)
 
-    def _check_recursion(self) -> None:
-        """Refuse functions that call themselves and need memory for what lives in one call."""
-        functions = {job.name: job for job in self._jobs if job.function is not None}
-        calls = {name: job.calls for name, job in functions.items()}
-        for job in functions.values():
-            body = job.body
-            is_large = body is not None and (needs_memory(body) or self._copies_inputs(body))
-            if body is None or not is_large or not reaches(job.name, calls):
-                continue
-            message = f"{job.name} calls itself, and has variables that are no single values"
-            hint = "such variables of a FUNCTION exist once"
-            findings = FileFindings(job.file.tokens, job.file.diagnostics, self._hidden)
-            findings.error(job.unit, FindingCode.NOT_SUPPORTED, f"{message}: not supported", hint)
-
-    def _copies_inputs(self, body: typed.CheckedBody) -> bool:
-        """Return whether a function of a standard file has copies of what it is given."""
-        inputs = (each for each in body.parameters if each.by_address and each.is_input)
-        return not self._scope.dialect.case_sensitive and any(each.written for each in inputs)
+    def _note_recursion(self) -> None:
+        """Note which functions and methods call themselves."""
+        calls: dict[str, set[str]] = {}
+        for job in self._jobs:
+            calls.setdefault(job.label, set()).update(job.calls)
+        recursive = in_cycles(calls)
+        for job in self._jobs:
+            if job.body is not None:
+                job.body.is_recursive = job.label in recursive
 
     def _check(self, job: BodyJob, into: list[typed.CheckedBody]) -> list[BodyJob]:
         """Check a body and return the actions that it is the first to call."""
@@ -188,8 +179,8 @@ class _ProgramChecker(UnitCollector):
         if job.kind in ("function", "block", "method"):
             body.parameters, body.locals = self._variables(owner.scope)
         into.append(body)
-        job.body, job.calls = body, checker.called_functions
         called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
+        job.body, job.calls = body, checker.called_bodies | {action.label for action in called}
         found = [action for action in called if not action.is_needed]
         for action in found:
             action.is_needed = True

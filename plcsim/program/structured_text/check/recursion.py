@@ -1,37 +1,48 @@
-"""Functions that call themselves: what lives in one call must be single values then."""
+"""Functions that call themselves: what lives in one call of them is there once for each call."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.program.structured_text.check.kinds import kind_of
-from plcsim.program.structured_text.check.names import BY_ADDRESS
-
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
 
-    from plcsim.program.structured_text.check import typed
+
+def block_label(name: str) -> str:
+    """Return the name of the body of a function block among those of all bodies."""
+    return f"block {name}"
 
 
-def needs_memory(body: typed.CheckedBody) -> bool:
-    """Return True for a function with an array, a structure, a string, or an address taken."""
-    others = [*body.locals, *([body.result] if body.result is not None else [])]
-    addressed = [symbol for symbol in body.parameters if not symbol.by_address]
-    return any(
-        symbol.has_address or kind_of(symbol.type) in BY_ADDRESS for symbol in [*others, *addressed]
-    )
-
-
-def reaches(name: str, calls: Mapping[str, Collection[str]]) -> bool:
-    """Return True if a function calls itself, by whatever others.
+def in_cycles(calls: Mapping[str, Collection[str]]) -> set[str]:
+    """Return the bodies that call themselves, by whatever others, and those between two such.
 
     Args:
-        name: of the function.
-        calls: names of what each function calls.
+        calls: names of what each body calls; names that are no key are left out.
     """
-    waiting, seen = [name], set[str]()
-    while waiting:
-        for called in set(calls.get(waiting.pop(), ())) - seen:
-            seen.add(called)
-            waiting.append(called)
-    return name in seen
+    inside = {name: set(called) & calls.keys() for name, called in calls.items()}
+    inside = _without_ends(inside)
+    inside = _without_ends(_turned(inside))
+    return set(inside)
+
+
+def _without_ends(calls: Mapping[str, set[str]]) -> dict[str, set[str]]:
+    """Return what is left once bodies that call nothing that is left are taken away."""
+    callers = _turned(calls)
+    open_calls = {name: len(called) for name, called in calls.items()}
+    ends = [name for name, count in open_calls.items() if not count]
+    gone = set(ends)
+    while ends:
+        for caller in callers[ends.pop()]:
+            open_calls[caller] -= 1
+            if not open_calls[caller]:
+                gone.add(caller)
+                ends.append(caller)
+    return {name: called - gone for name, called in calls.items() if name not in gone}
+
+
+def _turned(calls: Mapping[str, set[str]]) -> dict[str, set[str]]:
+    callers: dict[str, set[str]] = {name: set() for name in calls}
+    for caller, called in calls.items():
+        for name in called:
+            callers[name].add(caller)
+    return callers

@@ -448,6 +448,7 @@ class CheckedBody:
         parameters: of a function, in order.
         locals: variables that live for one call: those of a function, VAR_TEMP.
         result: of a function, None for none; among the locals too.
+        is_recursive: it may call itself, by whatever others.
     """
 
     name: str
@@ -459,6 +460,7 @@ class CheckedBody:
     parameters: Sequence[Symbol] = ()
     locals: Sequence[Symbol] = ()
     result: Symbol | None = None
+    is_recursive: bool = False
 
 
 @dataclass(slots=True, eq=False)

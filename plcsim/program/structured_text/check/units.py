@@ -26,6 +26,7 @@ from plcsim.program.structured_text.check.programs import (
     call_of,
     is_shared,
 )
+from plcsim.program.structured_text.check.recursion import block_label
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.program_uses import NO_USES, UNITS
 from plcsim.program.structured_text.syntax.tree import (
@@ -85,6 +86,16 @@ class BodyJob:
     maker: Class | None = None
     calls: set[str] = field(default_factory=set)
     body: typed.CheckedBody | None = None
+
+    @property
+    def label(self) -> str:
+        """Return its name among those of all bodies; functions and methods have their own."""
+        if self.kind in ("function", "method"):
+            return self.name
+        if self.kind == "block":
+            return block_label(self.name)
+        block = self.owner.block
+        return f"{self.kind} {'' if block is None else block.name}.{self.name}"
 
 
 class UnitCollector:

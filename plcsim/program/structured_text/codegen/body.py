@@ -4,8 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.machine.encoder import uleb
-from plcsim.machine.opcodes import EMPTY, END, IF, UNREACHABLE
+from plcsim.ansi_c.c_library import STACK_SIZE
+from plcsim.core.memory import SYSTEM_AREA
+from plcsim.machine.encoder import sleb, uleb
+from plcsim.machine.opcodes import (
+    EMPTY,
+    END,
+    GLOBAL_GET,
+    GLOBAL_SET,
+    I32_ADD,
+    I32_CONST,
+    I32_LT_U,
+    I32_SUB,
+    IF,
+    LOCAL_GET,
+    LOCAL_TEE,
+    RETURN,
+    UNREACHABLE,
+)
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.copies import Copies, join
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
@@ -24,6 +40,11 @@ HOLE: Final = b"\x80\x80\x80\x80\x00"
 NO_OFFSET: Final = b"\0\0"
 """Memory argument of an access whose address is complete."""
 
+STACK_POINTER: Final = 0
+"""Number of the global variable that is the stack pointer, in modules with frames."""
+
+LOWEST: Final = SYSTEM_AREA - STACK_SIZE
+"""Lowest address of the stack."""
 
 _OF_BLOCKS: Final = ("block", "action", "method")
 """Kinds of functions whose only parameter, if there is one, is the address of a data block."""
@@ -202,6 +223,27 @@ class FunctionWriter:
         """End the innermost block."""
         self.code += END
         self.depth -= 1
+
+    def take_frame(self) -> None:
+        """Append the instructions by which a call gets its frame on the stack."""
+        size, local = self.function.frame
+        pointer, bytes_needed = uleb(STACK_POINTER), I32_CONST + sleb(size)
+        self.code += GLOBAL_GET + pointer + I32_CONST + sleb(LOWEST + size) + I32_LT_U
+        self.trap_if("stack")
+        self.code += GLOBAL_GET + pointer + bytes_needed + I32_SUB
+        self.code += LOCAL_TEE + uleb(local) + GLOBAL_SET + pointer
+
+    def return_(self) -> None:
+        """Append RETURN; a value that the function gives lies on the stack."""
+        self.give_frame_back()
+        self.code += RETURN
+
+    def give_frame_back(self) -> None:
+        """Append the instructions by which a call gives its frame back, if it has one."""
+        size, local = self.function.frame
+        if size:
+            self.code += LOCAL_GET + uleb(local) + I32_CONST + sleb(size) + I32_ADD
+            self.code += GLOBAL_SET + uleb(STACK_POINTER)
 
     def branch(self, opcode: bytes, depth: int) -> None:
         """Append br or br_if to a block that `open` began."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from plcsim.machine.opcodes import BLOCK, BR, BR_IF, ELSE, I32_EQZ, IF, RETURN
+from plcsim.machine.opcodes import BLOCK, BR, BR_IF, ELSE, I32_EQZ, IF
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.body import BranchLabel
 from plcsim.program.structured_text.codegen.copies import join
@@ -101,4 +101,4 @@ def leave(body: FunctionWriter, end: BranchLabel, node: ir.If | ir.Switch) -> No
         body.branch(BR, end.depth)
         return
     body.leaves.add(len(body.code))
-    body.code += RETURN
+    body.return_()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from plcsim.machine.encoder import ModuleWriter, Signature, sleb
-from plcsim.machine.opcodes import I64, I64_CONST, UNREACHABLE
+from plcsim.machine.opcodes import I32, I64, I64_CONST, UNREACHABLE
 from plcsim.program.structured_text.codegen.accesses import Effects
 from plcsim.program.structured_text.codegen.body import FunctionWriter, GenerationContext
 from plcsim.program.structured_text.codegen.instrument import Instrument
@@ -82,13 +82,16 @@ class _Compiler:
         segments = {id(segment): number for number, segment in enumerate(module.segments)}
         self._context = GenerationContext(self._indices, segments, Effects(module))
         self._bodies: list[FunctionWriter] = []
-        self._instrument = Instrument() if options.counters else None
-        self._import()
+        has_frames = any(function.frame.size for function in module.functions)
+        self._instrument = Instrument(first=int(has_frames)) if options.counters else None
+        self._import(has_frames=has_frames)
         for function in module.functions:
             self._indices.announce(function)
 
-    def _import(self) -> None:
+    def _import(self, *, has_frames: bool) -> None:
         self._writer.import_memory("env", "memory")
+        if has_frames:
+            self._writer.import_global("env", "__stack_pointer", I32, mutable=True)
         for name in MATHEMATICS:
             field = name.removeprefix("rt.")
             index = self._writer.import_function("rt", field, _signature(RUNTIME[name]))
@@ -102,12 +105,16 @@ class _Compiler:
         body = FunctionWriter(function, self._context, self._options, statements)
         if function.kind != "unit" and self._context.effects.calls_of(function.name):
             poll(body)
+        if function.frame.size:
+            body.take_frame()
         self._write(body)
         if function.exported:
             self._writer.export_function(function.name, self._indices[function.name])
 
     def _write(self, body: FunctionWriter) -> None:
         statements(body, body.function.body)
+        if body.reached:
+            body.give_frame_back()
         if body.function.result is not None:
             body.code += UNREACHABLE  # every path has returned, or goes on for ever
         if self._instrument:

@@ -49,13 +49,17 @@ def _add(variable: int, value: int) -> bytes:
 class Instrument:
     """Puts counters into the functions of a module, one after another.
 
+    Args:
+        first: number of the global variable that is the first counter, `OVERHEAD`.
+
     Attributes:
         counters: how many there are.
         costs: see `plcsim.program.structured_text.codegen.profile.Profile`.
         arcs: likewise.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, first: int = 0) -> None:
+        self.first = first
         self.counters = 0
         self.costs: list[LineCost] = []
         self.arcs: list[Arc] = []
@@ -115,7 +119,8 @@ class _Counted:
     def _begin(self, more: int = 0) -> None:
         """Have a new counter count from here on; it costs ``more`` than a pass."""
         self._counter = self._instrument.counter()
-        self.code += _add(OVERHEAD + 1 + self._counter, 1) + _add(OVERHEAD, _PASS + more)
+        overhead = self._instrument.first + OVERHEAD
+        self.code += _add(overhead + 1 + self._counter, 1) + _add(overhead, _PASS + more)
 
     def _copy(self, instruction: Instruction) -> None:
         self._old.append(instruction.start)

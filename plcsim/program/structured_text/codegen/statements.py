@@ -88,7 +88,7 @@ def _evaluate(body: FunctionWriter, node: ir.Evaluate) -> None:
 def _return(body: FunctionWriter, node: ir.Return) -> None:
     if node.value is not None:
         emit(body, node.value)
-    body.code += opcodes.RETURN
+    body.return_()
     body.copies.known = None
 
 

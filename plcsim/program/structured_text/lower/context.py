@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.lower.memory import (
+    FrameVariables,
     Hidden,
     VariablePlaces,
     is_scalar,
@@ -65,10 +66,12 @@ class FunctionContext:
         module: that it belongs to.
         block: data block that local 0 leads to, None for a function without one.
         parameters: types of the parameters.
+        is_recursive: it may call itself, by whatever others.
 
     Attributes:
         locals: types of all locals, the parameters first.
         in_locals: variables that live in parameters and locals, by number.
+        frame: what each call has of its own in memory, None where calls share it.
     """
 
     def __init__(
@@ -76,6 +79,8 @@ class FunctionContext:
         module: LoweringContext,
         block: DataBlockType[object] | None,
         parameters: Sequence[ir.ValueType],
+        *,
+        is_recursive: bool = False,
     ) -> None:
         self.module = module
         self.block = block
@@ -84,6 +89,8 @@ class FunctionContext:
         self.in_locals: dict[Symbol, int] = {}
         self._members: dict[str, int] = {}
         self._labels = 0
+        self.frame = FrameVariables(self.local("i32")) if is_recursive else None
+        self._in_frame: dict[Symbol, ir.Place] = {}
 
     def local(self, value_type: ir.ValueType) -> int:
         """Return the number of a new local."""
@@ -99,6 +106,24 @@ class FunctionContext:
         """Give a variable that lives for one call its local, if it fits into one."""
         if is_scalar(symbol.type) and not symbol.has_address:
             self.in_locals[symbol] = self.local(ir.VALUE_TYPE[width_of(symbol.type)])
+        else:
+            self.add_to_frame(symbol)
+
+    def add_to_frame(self, symbol: Symbol) -> None:
+        """Give a variable that lives for one call its place in the frame, if there is one."""
+        if self.frame is not None:
+            self._in_frame[symbol] = self.frame.place(symbol.type)
+
+    def place(self, symbol: Symbol) -> ir.Place:
+        """Return the place of a variable that is in no local."""
+        return self._in_frame.get(symbol) or self.module.variables.place(symbol)
+
+    def temporary(self, data_type: Type) -> ir.Place:
+        """Return a place that only one call in the text uses."""
+        if self.frame is not None:
+            return self.frame.place(data_type)
+        hidden = self.module.hidden
+        return ir.Place(hidden.segment, hidden.place(data_type.size, data_type.alignment))
 
     def member_root(self, name: str) -> int:
         """Return the root of a member of the data block that the function works on."""

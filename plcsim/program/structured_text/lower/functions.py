@@ -173,13 +173,13 @@ class FunctionLowering(BitLowering):
             return ir.Call(None, name, [this, *arguments])
         if is_scalar(node.type):
             return ir.Call(value_type_of(node.type), name, [this, *arguments])
-        place = ir.AddressOf(self._result_place(node.type))
+        place = ir.AddressOf(self.function.temporary(node.type))
         call = ir.Call(None, name, [this, place, *arguments])
         return ir.StatementExpression("i32", [ir.Evaluate(self.line, call)], place)
 
     def implementation(self, node: typed.Implementation) -> ir.Expression:
         """Return the address of what a variable of an interface is to hold."""
-        place = self._result_place(node.type)
+        place = self.function.temporary(node.type)
         address = ir.Const("i32", 0) if node.place is None else self.address(node.place)
         number = ir.Place(place.base, place.offset + 4)
         before: list[ir.Statement] = [

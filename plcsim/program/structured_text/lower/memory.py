@@ -6,6 +6,7 @@ import struct
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from plcsim.ansi_c.c_library import STACK_SIZE
 from plcsim.core.errors import ConfigurationError
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.check import located
@@ -28,6 +29,7 @@ from st_types.types.elementary import (
     WCHAR,
     WORD,
 )
+from st_types.types.layout import align_up
 from st_types.types.values import encode
 
 if TYPE_CHECKING:
@@ -47,6 +49,9 @@ _WIDTHS: Final[Mapping[Type, ir.Width]] = {
 }
 DIRECT: Final = "direct addresses"
 """The segment that all programs of a controller share."""
+
+_ALIGNMENT_OF_STACK: Final = 16
+"""Bytes, which clang takes for granted."""
 
 MAX_HIDDEN: Final = 1 << 24
 """Bytes of a variable that lives for one call, or of a constant that is no single value."""
@@ -132,6 +137,36 @@ class Hidden:
         self.segment.size = len(self._image)
         self.segment.data = bytes(self._image)
         return self.segment
+
+
+class FrameVariables:
+    """What one call of a function that may call itself has on the stack of compiled programs.
+
+    Its places have root 0: another call of the function may reach them by an address.
+
+    Args:
+        local: holds its address.
+
+    Attributes:
+        size: bytes so far.
+    """
+
+    def __init__(self, local: int) -> None:
+        self.local = local
+        self.size = 0
+
+    def place(self, data_type: Type) -> ir.Place:
+        """Return the place of a new variable, which holds anything."""
+        offset = align_up(self.size, data_type.alignment)
+        self.size = offset + data_type.size
+        if self.size > STACK_SIZE:
+            message = f"a FUNCTION that calls itself has {self.size} bytes of variables"
+            raise ConfigurationError(f"{message}: more than its stack, which has {STACK_SIZE}")
+        return ir.Place(ir.Local("i32", self.local), offset)
+
+    def finish(self) -> ir.StackFrame:
+        """Return the frame with all that was placed."""
+        return ir.StackFrame(align_up(self.size, _ALIGNMENT_OF_STACK), self.local)
 
 
 class VariablePlaces:

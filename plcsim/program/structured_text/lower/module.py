@@ -61,7 +61,8 @@ def function_name(body: CheckedBody) -> str:
 
 def _function(module: LoweringContext, body: CheckedBody, file: int) -> ir.Function:
     parameters, result = _signature(body)
-    context = FunctionContext(module, body.block, parameters)
+    has_frame = body.is_recursive and body.kind in _FUNCTIONS
+    context = FunctionContext(module, body.block, parameters, is_recursive=has_frame)
     _place_parameters(context, body)
     start = _initial_statements(context, body)
     lowering = StatementLowering(context, lambda: _returned(lowering, body))
@@ -79,6 +80,7 @@ def _function(module: LoweringContext, body: CheckedBody, file: int) -> ir.Funct
         file,
         body.line,
         exported=body.kind not in ("action", "method"),
+        frame=ir.NO_FRAME if context.frame is None else context.frame.finish(),
     )
 
 
@@ -110,6 +112,8 @@ def _place_parameters(context: FunctionContext, body: CheckedBody) -> None:
     for index, symbol in enumerate(body.parameters, first):
         if symbol.by_address or not symbol.has_address:
             context.in_locals[symbol] = index
+        else:
+            context.add_to_frame(symbol)
     for symbol in body.locals:
         context.add_variable(symbol)
     if body.result is not None and is_scalar(body.result.type):
@@ -124,7 +128,7 @@ def _initial_statements(context: FunctionContext, body: CheckedBody) -> list[ir.
     for index, symbol in enumerate(body.parameters, first):
         if symbol not in context.in_locals:
             value_type = context.locals[index]
-            place = context.module.variables.place(symbol)
+            place = context.place(symbol)
             value = ir.Local(value_type, index)
             found.append(ir.Store(body.line, width_of(symbol.type), place, value))
         elif symbol.is_input and symbol.written and context.module.semantics.copies_inputs:
@@ -141,8 +145,8 @@ def _copied(
     """Let a parameter that is written lead to a copy of what the caller gave."""
     if not symbol.by_address:
         return ()
-    data_type, hidden = symbol.type, context.module.hidden
-    own = ir.AddressOf(ir.Place(hidden.segment, hidden.place(data_type.size, data_type.alignment)))
+    data_type = symbol.type
+    own = ir.AddressOf(context.temporary(data_type))
     given = ir.Local("i32", index)
     copy: ir.Statement = ir.CopyBytes(line, own, given, ir.Const("i32", data_type.size))
     if isinstance(data_type, StringType | WStringType):
@@ -161,7 +165,7 @@ def _initialised(context: FunctionContext, symbol: Symbol, line: int) -> Sequenc
             return ()
         value = constant_of(image, width_of(symbol.type))
         return [ir.SetLocal(line, index, value)]
-    place = variables.place(symbol) if index is None else None
+    place = context.place(symbol) if index is None else None
     target = ir.Local("i32", index or 0) if place is None else ir.AddressOf(place)
     size = ir.Const("i32", len(image))
     if not any(image):
@@ -181,4 +185,4 @@ def _returned(lowering: StatementLowering, body: CheckedBody) -> ir.Expression |
     value_type = ir.VALUE_TYPE[width]
     if index is not None:
         return ir.Local(value_type, index)
-    return ir.Load(value_type, width, lowering.module.variables.place(result))
+    return ir.Load(value_type, width, lowering.function.place(result))

@@ -43,7 +43,7 @@ class PlaceLowering:
             return ir.Place(self._address_in(symbol), 0)
         if symbol.storage == "instance":
             return self._instance_place(symbol)
-        return self.module.variables.place(symbol)
+        return self.function.place(symbol)
 
     def _address_in(self, symbol: Symbol) -> ir.Expression:
         """Return the address that a VAR_IN_OUT or a parameter holds."""

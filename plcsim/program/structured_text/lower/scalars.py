@@ -187,15 +187,9 @@ class ScalarLowering(ValueLowering):
             function = self.module.function(name, ir.Signature(parameters, value_type))
             return ir.Call(value_type, function, arguments)
         function = self.module.function(name, ir.Signature(("i32", *parameters), None))
-        place = self._result_place(result)
+        place = self.function.temporary(result)
         call = ir.Call(None, function, (ir.AddressOf(place), *arguments))
         return ir.StatementExpression("i32", [ir.Evaluate(self.line, call)], ir.AddressOf(place))
-
-    def _result_place(self, data_type: Type) -> ir.Place:
-        """Return bytes for the result of one call in the text."""
-        hidden = self.module.hidden
-        offset = hidden.place(data_type.size, data_type.alignment)
-        return ir.Place(hidden.segment, offset)
 
     def _twice(
         self,

@@ -25,6 +25,20 @@ from .codegen.build import (
     unit,
 )
 
+DEEP = ir.Function(
+    "DEEP",
+    "function",
+    (),
+    None,
+    ("i32",),
+    [
+        ir.Store(8, "w32", ir.Place(ir.Local("i32", 0), 4), number(1)),
+        ir.Evaluate(9, call("DEEP")),
+    ],
+    frame=ir.StackFrame(0x1000, 0),
+)
+"""A function that calls itself for ever, with 4 KiB on the stack for each call."""
+
 
 @pytest.fixture
 def memory():
@@ -37,11 +51,12 @@ def memory():
 def fault(memory):
     """``fault(body, ...)``: what the fault of an action called in line 3 means."""
 
-    def run(*body, imports=None, provide=None, prepare=lambda: None):
+    def run(*body, imports=None, provide=None, prepare=lambda: None, others=()):
         machine = Machine(memory, cache=CodeCache(None))
         linker = Linker(machine)
         action = function("ACTION", (), None, *body, kind="action", exported=False)
-        whole = module(unit(evaluate(call("ACTION"), line=3)), action, imports=imports)
+        units = unit(evaluate(call("ACTION"), line=3)), action, *others
+        whole = module(*units, imports=imports)
         code = generate(whole)
         instance = linker.link(
             code,
@@ -79,6 +94,12 @@ def test_a_page_fault_tells_the_address(fault):
 def test_an_index_outside_its_array(fault):
     body = store(0, ir.Checked(op("add", load(4), 10), 10), line=20)
     assert fault(body) == ("Main.st:20", "index outside the bounds of its array", chain(20))
+
+
+def test_a_stack_that_is_full(fault):
+    found = fault(evaluate(call("DEEP"), line=5), others=[DEEP])
+    assert (found.location, found.reason) == ("Main.st:1", "stack overflow")
+    assert found.calls[-2:] == ("Main.st:9 in DEEP", "Main.st:1 in DEEP")
 
 
 def test_what_happens_in_a_helper_is_told_at_its_call(fault):

@@ -5,6 +5,7 @@ import struct
 
 import pytest
 
+from plcsim.ansi_c.c_library import STACK_SIZE
 from plcsim.core.memory import FIRST
 from plcsim.machine import MachineFault
 from plcsim.program.structured_text import ir
@@ -23,6 +24,7 @@ from .build import (
     module,
     number,
     op,
+    place,
     program,
     store,
     unit,
@@ -66,6 +68,36 @@ def test_the_sum_of_all_lines_is_what_the_machine_counts_without_counters(compil
         assert ends[0] == ends[1]
         if ends[0] == "end":
             assert costs[0] == costs[1] - overhead == sum(by_line.values())
+
+
+def test_counters_beside_a_stack_pointer(compiled):
+    """Which is a global variable of WebAssembly as they are, and stands before them."""
+    local = ir.Place(ir.Local("i32", 1), 0)
+    body = [
+        ir.Store(12, "w32", local, ir.Local("i32", 0)),
+        ir.If(13, [ir.Arm(13, ir.Local("i32", 0), [ir.Evaluate(14, down(ir.Local("i32", 0)))])]),
+        ir.Store(15, "w32", place(0), op("add", load(0), ir.Load("i32", "w32", local))),
+    ]
+    deep = ir.Function("DEEP", "function", ("i32",), None, ("i32",), body, frame=FRAME)
+    costs = []
+    for options in (CodegenOptions(), COUNTED):
+        machine = compiled(module(unit(evaluate(down(number(6)))), deep), None, options, fuel=True)
+        machine.memory.open_stack(STACK_SIZE)
+        before = machine.machine.fuel
+        machine.run()
+        machine.run()
+        costs.append(before - machine.machine.fuel)
+        assert struct.unpack("<i", machine.read(FIRST, 4)) == (2 * (5 + 4 + 3 + 2 + 1),)
+    overhead = machine.instance.value(COUNTER.format(0))
+    by_line = machine.code.profile.cost_of_lines(machine.counts())
+    assert costs[0] == costs[1] - overhead == sum(by_line.values())
+
+
+FRAME = ir.StackFrame(16, 1)
+
+
+def down(value):
+    return call("DEEP", op("sub", value, 1))
 
 
 def test_costs_are_those_of_the_statements_of_a_line(ran):
