@@ -209,7 +209,7 @@ def as_long(steps_ns: list[int], loops_ns: list[int]) -> int:
     return round(TURNS * longest_ns / statistics.median(loops_ns))
 
 
-def run(case: Case, seconds: int) -> Figures:
+def run(case: Case, seconds: int, rights: realtime.Rights) -> Figures:
     """Run a case; a second from the first message on is not counted, in which all connect."""
     port = free_port()
     command = [sys.executable, str(HERE / "_ros_peer.py"), str(port), *case.peer.split()]
@@ -219,7 +219,7 @@ def run(case: Case, seconds: int) -> Figures:
         time.sleep(0.5)  # the peer has registered, and stands as a talker that was there before
         context, node = make_node("plc", port)
         program = Program(case, node)
-        realtime.settle()  # as the scan does
+        realtime.settle(rights)  # as the scan does
         tick_ns = case.tick_ms * NS_PER_MS
         release_ns, first, start, cpu_ns = time.monotonic_ns(), None, program.received, 0
         steps_ns: list[int] = []
@@ -333,7 +333,7 @@ def main() -> int:
     console.print(f"rights: {', '.join(rights.granted) or 'none'}")
     least_ns = loop_ns()
     cases = [case for case in CASES if any(text in case.name for text in options.only)]
-    found = {case.name: run(case, options.seconds) for case in cases}
+    found = {case.name: run(case, options.seconds, rights) for case in cases}
     rospy = rospy_share(options.seconds) if STRINGS in found else None
     hosts.append(print_machine("after"))
     empty_ns = found[NOTHING].at(0.5) if NOTHING in found else None

@@ -153,7 +153,7 @@ class TcprosConnection(ProtocolConnection):
             return self._fail(str(error))
         if self.state is not before:
             self._since_ns = now_ns
-        self._is_drained = event is None
+        self._is_drained = event is None or self._reader.is_idle
         return event
 
     def close(self) -> None:

@@ -44,7 +44,7 @@ class BlockMemory:
     def take(self, size: int) -> mmap.mmap:
         """Return memory of at least ``size`` bytes, of whatever was there before."""
         kept = self._kept
-        for place in range(len(kept)):
+        for place in reversed(range(len(kept))):  # what was used last is still in the caches
             if len(kept[place]) >= size and getrefcount(kept[place]) == _UNUSED:
                 kept.append(kept.pop(place))
                 return kept[-1]
@@ -129,6 +129,11 @@ class ByteReader:
         """Note that bytes of a large block lie in their ``room``."""
         assert self._large is not None
         self._large.have += size
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether a parser can go on with bytes to come only."""
+        return not (self._buffer or self._eof or self._expected or self._large)
 
     def feed_eof(self) -> None:
         """Note that no more bytes will come."""

@@ -141,12 +141,15 @@ class SubscriberConnection(ClientConnection):
     def _parse(self) -> Generator[ConnectionEvent | None, None, None]:
         yield (yield from self._read_answer(self._md5sum))
         while (yield from self._reader.more_blocks()):
-            bodies: list[bytes | memoryview] = []
-            self._reader.take_blocks(bodies, self.most, self.limits.max_message)
-            if not bodies:
-                bodies.append((yield from self._read_message()))
-            self._move(Trigger.MESSAGE)
-            yield MessagesReceived(bodies)
-            del bodies  # their memory may be used again
+            # No name for it here: its memory may be used again when the owner has let it go.
+            yield (yield from self._read_messages())
         self.close()
         yield Closed()
+
+    def _read_messages(self) -> Generator[None, None, MessagesReceived]:
+        bodies: list[bytes | memoryview] = []
+        self._reader.take_blocks(bodies, self.most, self.limits.max_message)
+        if not bodies:
+            bodies.append((yield from self._read_message()))
+        self._move(Trigger.MESSAGE)
+        return MessagesReceived(bodies)

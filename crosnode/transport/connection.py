@@ -29,6 +29,8 @@ MOST_READ: Final = 1 << 20
 class ConnectionState(Enum):
     """States of all roles; a role uses those in its table."""
 
+    __hash__ = object.__hash__  # that of Enum is written in Python, and each message needs it
+
     HANDSHAKE = auto()  # waiting for the header of the peer
     DECISION = auto()  # waiting for this program to accept or refuse
     STREAMING = auto()  # messages flow
@@ -40,6 +42,8 @@ class ConnectionState(Enum):
 
 class Trigger(Enum):
     """What moves a connection from state to state."""
+
+    __hash__ = object.__hash__  # as above
 
     HEADER = auto()
     ACCEPT = auto()

@@ -189,7 +189,7 @@ class EventLoop:
         while not budget.is_short and (busy := [link for link in self.links if link.has_more]):
             for link in busy:
                 self._give_turn(link, now_ns, budget)
-        if any(link.state is LinkState.OVER for link in self.links):
+        if LinkState.OVER in [link.state for link in self.links]:
             self._remove_ended()
 
     def step_new(self, now_ns: int, budget: StepBudget) -> None:
@@ -217,7 +217,8 @@ class EventLoop:
             link, work = links[place], budget.work
             if (place + self._round) % TIMER_TURNS == 0:
                 link.check_time(now_ns)
-            if link.is_over or not link.has_work(news):  # another link's event may have ended it
+            # Another link's event may have ended it.
+            if link.state is LinkState.OVER or not link.has_work(news):
                 continue
             if budget.polls <= 0:
                 return place

@@ -239,6 +239,8 @@ class PeerLink:
 
     def _receive(self, now_ns: int, budget: StepBudget) -> bool:
         """Take what the socket has and the events of it; return whether it may have more."""
+        if not budget.affords(TRANSFER_WORK):
+            return False
         room = self.connection.room
         if room is not None:
             return self._fill_message(room, now_ns, budget)
@@ -296,10 +298,13 @@ class PeerLink:
             event = connection.next_event(now_ns)
             if event is None:
                 return
-            budget.messages -= event.count
-            budget.work -= event.count * price
+            count = event.count
+            budget.messages -= count
+            budget.work -= count * price
             if not isinstance(event, Progress):
                 self._handle(event, now_ns)
+            if connection.wants_data:  # nothing is left that another event could come of
+                return
 
     def _handle(self, event: ConnectionEvent, now_ns: int) -> None:
         if isinstance(event, Failed):
@@ -307,18 +312,26 @@ class PeerLink:
         self.owner.handle_event(self, event, now_ns)
 
     def _send(self, now_ns: int, budget: StepBudget) -> None:
-        if self._outbox.size < AREA_SIZE and self.connection.state is not ConnectionState.CLOSED:
-            self.owner.fill(self)
+        self._fill_outbox()
+        if self._outbox.size:
+            self._resting = None
+            self._write(now_ns, budget)
+            if self._outbox.size or self.state is LinkState.OVER:
+                return
+            self._fill_outbox()  # what follows is written in the next step; else it can rest now
+        if not self._outbox.size:
+            connection = self.connection
+            rests = self.state is LinkState.OPEN and connection.wants_data
+            self._resting = connection.state if rests else None
+
+    def _fill_outbox(self) -> None:
+        """Take what the owner and the connection have to say, while little waits."""
         connection = self.connection
+        if self._outbox.size < AREA_SIZE and connection.state is not ConnectionState.CLOSED:
+            self.owner.fill(self)
         if connection.outbox:
             for piece in connection.data_to_send():
                 self._outbox.push_back(piece)
-        if not self._outbox.size:
-            rests = self.state is LinkState.OPEN and connection.wants_data
-            self._resting = connection.state if rests else None
-            return
-        self._resting = None
-        self._write(now_ns, budget)
 
     def _write(self, now_ns: int, budget: StepBudget) -> None:
         if self._is_parsed:  # in the price of the call

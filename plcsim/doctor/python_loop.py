@@ -36,7 +36,7 @@ def main() -> int:
     rights = realtime.Rights((), ())
     if priority:
         rights = realtime.acquire(priority, None if cpu < 0 else cpu)
-        realtime.settle()
+        realtime.settle(rights)
     missed, lateness_ns = run(cycle_ns, cycles)
     figures = {"missed": missed, "lateness_ns": lateness_ns, "rights": rights._asdict()}
     json.dump(figures, sys.stdout)

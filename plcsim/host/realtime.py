@@ -16,11 +16,14 @@ from typing import NamedTuple
 
 from plcsim.host import garbage, processors
 
-_MCL_CURRENT, _MCL_FUTURE = 1, 2
+_MCL_CURRENT, _MCL_FUTURE, _MCL_ONFAULT = 1, 2, 4
 _PR_SET_PDEATHSIG, _PR_SET_TIMERSLACK = 1, 29
 _CAP_IPC_LOCK = 14
 
 PROCESS_STATUS = Path("/proc/self/status")
+
+LOCKED_MEMORY = "locked memory"
+"""Of what is granted."""
 
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -111,11 +114,25 @@ def _lock_memory(granted: list[str], refused: list[str]) -> None:
     """Lock all pages; only where no limit could make a later allocation fail (mlock(2))."""
     limit = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0]
     if limit != resource.RLIM_INFINITY and not _has_capability(_CAP_IPC_LOCK):
-        refused.append(f"locked memory: the limit is {limit // 1024} KiB")
-    elif _libc.mlockall(_MCL_CURRENT | _MCL_FUTURE) == 0:
-        granted.append("locked memory")
+        refused.append(f"{LOCKED_MEMORY}: the limit is {limit // 1024} KiB")
+    elif _lock_all():
+        granted.append(LOCKED_MEMORY)
     else:
-        refused.append(f"locked memory: {os.strerror(ctypes.get_errno())}")
+        refused.append(f"{LOCKED_MEMORY}: {os.strerror(ctypes.get_errno())}")
+
+
+def _lock_all() -> bool:
+    """Lay out and lock all that is mapped; return whether the host does.
+
+    What is mapped from now on is locked page by page, as it is touched: laid out at once, a
+    mebibyte, of which Python takes one every now and then, holds a cycle up by half a millisecond
+    (docs/decisions/0039-later-memory-is-locked-page-by-page.md).
+    """
+    if _libc.mlockall(_MCL_CURRENT) != 0:
+        return False
+    if _libc.mlockall(_MCL_FUTURE | _MCL_ONFAULT) == 0:
+        return True
+    return bool(_libc.mlockall(_MCL_CURRENT | _MCL_FUTURE) == 0)  # before Linux 4.4
 
 
 def _has_capability(number: int) -> bool:
@@ -139,6 +156,12 @@ def _stay_awake(granted: list[str], refused: list[str]) -> None:
         refused.append(f"no deep sleep: {err.strerror}")
 
 
-def settle() -> None:
-    """Call after INIT: what was made so far is no garbage, and nothing is collected in a cycle."""
+def settle(rights: Rights) -> None:
+    """Call after INIT: what was made so far is no garbage, and nothing is collected in a cycle.
+
+    Args:
+        rights: where memory is locked, all that was made so far is laid out.
+    """
     garbage.freeze()
+    if LOCKED_MEMORY in rights.granted:
+        _lock_all()

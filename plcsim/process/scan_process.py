@@ -180,7 +180,7 @@ def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
         controller.log(Severity.WARNING, "system", KEPT_IN_MEMORY)
     controller.boot(cold=order.cold)
     if rights.complete:
-        realtime.settle()
+        realtime.settle(rights)
     controller.start()
     origin_ns = page.origin_ns = controller.scan.origin_ns
     operation = Operation(

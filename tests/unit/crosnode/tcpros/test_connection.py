@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from crosnode.errors import LocalProtocolError
 from crosnode.tcpros import (
     HeaderReceived,
+    MessagesReceived,
     PublisherConnection,
     ServiceClientConnection,
     ServiceServerConnection,
@@ -144,10 +145,25 @@ def test_closed_connection_takes_nothing(role: Callable[[], TcprosConnection]) -
 def test_reading_waits_until_events_are_taken(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     assert connection.wants_data
-    connection.receive_data(HEADER)
+    connection.receive_data(HEADER + bytes(2))  # and the begin of what follows it
     assert not connection.wants_data
     assert isinstance(connection.next_event(0), HeaderReceived)
     assert not connection.wants_data
+
+
+def test_where_nothing_is_left_reading_goes_on_without_a_look_for_another_event() -> None:
+    connection = subscriber()
+    connection.receive_data(HEADER)
+    assert isinstance(connection.next_event(0), HeaderReceived)
+    assert connection.wants_data
+    connection.receive_data(length_of(b"a") + b"a" + length_of(b"b"))
+    assert connection.next_event(0) == MessagesReceived([b"a"])
+    assert not connection.wants_data
+    assert connection.next_event(0) is None
+    connection.receive_data(b"b")
+    assert not connection.wants_data
+    assert connection.next_event(0) == MessagesReceived([b"b"])
+    assert connection.wants_data
 
 
 @pytest.mark.parametrize(

@@ -122,6 +122,14 @@ def test_memory_of_a_large_block_is_used_again_when_nobody_has_a_view_of_it() ->
     assert id(read_large(reader, 1 << 21).obj) != used  # too small for it
 
 
+def test_of_the_memories_that_nobody_has_a_view_of_the_one_used_last_is_taken() -> None:
+    reader = ByteReader()
+    first, second = read_large(reader, 1 << 20), read_large(reader, 1 << 20)
+    used = id(second.obj)
+    del first, second
+    assert [id(read_large(reader, 1 << 20).obj) for _ in range(3)] == 3 * [used]
+
+
 def test_a_large_block_that_ends_early_is_an_error() -> None:
     reader = ByteReader()
     reader.feed(struct.pack("<I", 1 << 20) + bytes(100_000))

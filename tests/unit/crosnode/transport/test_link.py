@@ -2,7 +2,13 @@
 
 from typing import ClassVar
 
-from crosnode.transport.budget import LARGE_WORK, StepBudget, StepLimits
+from crosnode.transport.budget import (
+    LARGE_WORK,
+    POLL_WORK,
+    TRANSFER_WORK,
+    StepBudget,
+    StepLimits,
+)
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -144,8 +150,21 @@ def test_a_link_with_nothing_to_do_costs_no_work_of_a_step() -> None:
     assert wire.idle_work() == 0
     wire.protocol.outbox.append(b"hello")
     wire.step(1)
-    wire.now_ns += 1_000_000
+    assert wire.idle_work() == 0
     assert peer.recv(10).data == b"hello"
+
+
+def test_a_read_begins_only_where_its_price_is_left() -> None:
+    wire = Wire()
+    wire.peer().send(b"abc")
+    wire.now_ns += 1_000_000
+    budget = StepBudget(StepLimits())
+    budget.work = POLL_WORK + TRANSFER_WORK - 1
+    wire.loop.step(wire.now_ns, budget)
+    assert wire.protocol.received == b""
+    assert budget.is_short
+    wire.step(1)
+    assert wire.protocol.received == b"abc"
 
 
 def test_a_port_where_nobody_listens() -> None:

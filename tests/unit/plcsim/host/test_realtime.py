@@ -76,11 +76,39 @@ def test_a_processor_that_another_run_has_is_said(scheduler, monkeypatch):
 
 
 class Libc:
-    """A kernel that locks whatever it is asked to."""
+    """A kernel that locks what it is asked to, but for flags that it does not know."""
 
-    @staticmethod
-    def mlockall(_flags):
-        return 0
+    def __init__(self, *unknown):
+        self.unknown = unknown
+        self.asked = []
+
+    def mlockall(self, flags):
+        self.asked.append(flags)
+        return -(flags in self.unknown)
+
+
+CURRENT, FUTURE, ONFAULT = 1, 2, 4
+UNLIMITED = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+
+
+@pytest.mark.parametrize(
+    ("unknown", "asked", "granted"),
+    [
+        ((), [CURRENT, FUTURE | ONFAULT], True),
+        ((FUTURE | ONFAULT,), [CURRENT, FUTURE | ONFAULT, CURRENT | FUTURE], True),
+        ((CURRENT,), [CURRENT], False),
+    ],
+)
+def test_later_memory_is_locked_as_it_is_touched_where_the_kernel_can(
+    monkeypatch, unknown, asked, granted
+):
+    libc = Libc(*unknown)
+    monkeypatch.setattr(realtime, "_libc", libc)
+    monkeypatch.setattr(resource, "getrlimit", lambda _: UNLIMITED)
+    given, refused = [], []
+    realtime._lock_memory(given, refused)
+    assert libc.asked == asked
+    assert (given == ["locked memory"], bool(refused)) == (granted, not granted)
 
 
 @pytest.mark.parametrize(
@@ -97,7 +125,7 @@ def test_memory_is_locked_only_where_no_limit_stops_a_later_allocation(
     monkeypatch, tmp_path, limit, status, granted
 ):
     monkeypatch.setattr(realtime, "PROCESS_STATUS", tmp_path / "status")
-    monkeypatch.setattr(realtime, "_libc", Libc)
+    monkeypatch.setattr(realtime, "_libc", Libc())
     monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, limit))
     if status is not None:
         (tmp_path / "status").write_text(status)
@@ -134,10 +162,19 @@ def test_timers_are_sharpened():
 
 def test_after_init_nothing_is_collected_by_itself():
     try:
-        realtime.settle()
+        realtime.settle(Rights((), ()))
         assert not gc.isenabled()
     finally:
         garbage.thaw()
+
+
+@pytest.mark.parametrize("locked", [True, False])
+def test_what_init_has_made_is_laid_out_where_memory_is_locked(monkeypatch, locked):
+    libc = Libc()
+    monkeypatch.setattr(realtime, "_libc", libc)
+    monkeypatch.setattr(garbage, "freeze", lambda: None)
+    realtime.settle(Rights((realtime.LOCKED_MEMORY,) * locked, ()))
+    assert libc.asked == [CURRENT, FUTURE | ONFAULT] * locked
 
 
 CHILD = """
