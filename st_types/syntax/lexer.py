@@ -254,10 +254,10 @@ class Tokens:
 
 
 _OUTSIDE = re.compile(
-    rf"""\(\* | //[^\r\n]* | /\*.*?(?:\*/|\Z) | {_STRINGS} | ['"] [^\r\n]*""",
+    rf"""\(\* | /\* | //[^\r\n]* | {_STRINGS} | ['"] [^\r\n]*""",
     re.VERBOSE | re.DOTALL,
 )
-_INSIDE = re.compile(r"\(\*|\*\)")
+_INSIDE = {"(*": re.compile(r"\(\*|\*\)"), "/*": re.compile(r"/\*|\*/")}
 
 
 def unnest_comments(text: str) -> str | None:
@@ -268,11 +268,14 @@ def unnest_comments(text: str) -> str | None:
     """
     inner: list[int] = []
     depth = offset = 0
-    while match := (_INSIDE if depth else _OUTSIDE).search(text, offset):
+    pattern = _OUTSIDE
+    while match := (pattern if depth else _OUTSIDE).search(text, offset):
         offset = match.end()
-        opens = match.group() == "(*"
+        opens = match.group() in _INSIDE
         if depth > (0 if opens else 1):
             inner.append(match.start())
+        if opens and not depth:
+            pattern = _INSIDE[match.group()]
         if opens or depth:
             depth += 1 if opens else -1
     return None if depth or not inner else _blank_marks(text, inner)

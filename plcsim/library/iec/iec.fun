@@ -511,3 +511,95 @@ FUNCTION WSTRING_TO_WCHAR : WORD (*code of the first character, 0 for none*)
 		first : REFERENCE TO WORD;
 	END_VAR
 END_FUNCTION
+
+FUNCTION WLEN : INT (*characters of a WSTRING*)
+	VAR_INPUT
+		IN : WSTRING[32767];
+	END_VAR
+END_FUNCTION
+
+FUNCTION WLEFT : WSTRING[255] (*the first L characters of a WSTRING*)
+	VAR_INPUT
+		IN : WSTRING[32767];
+		L : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WRIGHT : WSTRING[255] (*the last L characters of a WSTRING*)
+	VAR_INPUT
+		IN : WSTRING[32767];
+		L : INT;
+	END_VAR
+	VAR
+		size : INT;
+		count : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WMID : WSTRING[255] (*L characters of a WSTRING from position P, which counts from 1*)
+	VAR_INPUT
+		IN : WSTRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+	VAR
+		size : INT;
+		count : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WCONCAT : WSTRING[255] (*two WSTRINGs, one behind the other*)
+	VAR_INPUT
+		IN1 : WSTRING[32767];
+		IN2 : WSTRING[32767];
+	END_VAR
+	VAR
+		size : INT;
+		place : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WINSERT : WSTRING[255] (*IN2 put into the WSTRING IN1 behind character P*)
+	VAR_INPUT
+		IN1 : WSTRING[32767];
+		IN2 : WSTRING[32767];
+		P : INT;
+	END_VAR
+	VAR
+		place : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WDELETE : WSTRING[255] (*a WSTRING without the L characters from position P*)
+	VAR_INPUT
+		IN : WSTRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WREPLACE : WSTRING[255] (*the WSTRING IN1 with IN2 in place of the L characters from position P*)
+	VAR_INPUT
+		IN1 : WSTRING[32767];
+		IN2 : WSTRING[32767];
+		L : INT;
+		P : INT;
+	END_VAR
+	VAR
+		size : INT;
+		place : INT;
+		rest : INT;
+	END_VAR
+END_FUNCTION
+
+FUNCTION WFIND : INT (*position of the first IN2 in the WSTRING IN1, 0 for none*)
+	VAR_INPUT
+		IN1 : WSTRING[32767];
+		IN2 : WSTRING[32767];
+	END_VAR
+	VAR
+		place : INT;
+		size : INT;
+		found : INT;
+	END_VAR
+END_FUNCTION

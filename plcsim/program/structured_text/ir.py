@@ -539,6 +539,7 @@ RUNTIME: Final[Mapping[str, Signature]] = {
         f"rt.{name}": Signature(("f64",), "f64")
         for name in ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "log10")
     },
+    "rt.atan2": Signature(("f64", "f64"), "f64"),
     "rt.pow": Signature(("f64", "f64"), "f64"),
     "rt.fmod": Signature(("f64", "f64"), "f64"),
 }

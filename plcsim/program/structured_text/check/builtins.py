@@ -180,6 +180,12 @@ def _from_bcd(name: str, arguments: Sequence[Value]) -> Value | None:
     return Builtin(target, "FROM_BCD", arguments)
 
 
+def _is_valid(name: str, arguments: Sequence[Value]) -> Value | None:
+    """IS_VALID of a REAL, IS_VALID_BCD of a bit string."""
+    wanted = TypeKind.REAL if name == "IS_VALID" else TypeKind.INTEGER
+    return Builtin(BOOL, name, arguments) if kind_of(arguments[0].type) is wanted else None
+
+
 _OPERATORS: Final = {
     "ADD": "+",
     "SUB": "-",
@@ -271,6 +277,7 @@ RULES: Final[dict[str, Rule]] = {
     "NOT": Rule(1, 1, _negated, ("IN",)),
     **{name: Rule(2, 2, _shift, ("IN", "N")) for name in ("SHL", "SHR", "ROL", "ROR", "ASR")},
     **{name: Rule(2, 2, _bit, ("IN", "POS")) for name in ("BIT_SET", "BIT_CLR", "BIT_TST")},
+    **{name: Rule(1, 1, _is_valid, ("IN",)) for name in ("IS_VALID", "IS_VALID_BCD")},
     **{name: Rule(1, 1, _truncated, ("IN",)) for name in _truncating()},
     **{f"{name}_TO_BCD": Rule(1, 1, _to_bcd, ("IN",)) for name in _BCD_NUMBERS},
     **{
@@ -298,6 +305,13 @@ PLACE_FUNCTIONS: Final = frozenset(["ADR", "SIZEOF", "REF", "__ISVALIDREF"])
 """Functions whose argument is a place, not a value."""
 
 _CONVERSION = Rule(1, 1, converted, ("IN",))
+_OVERLOADED: Final = frozenset(
+    [
+        *("ABS", *_MATHEMATICS, "EXPT", "MIN", "MAX", "LIMIT", "SEL", "MUX", "MOVE", "NOT"),
+        *("SHL", "SHR", "ROL", "ROR", *_OPERATORS),
+    ]
+)
+"""Functions that the norm knows with the name of a type behind them, too."""
 
 
 def rule_of(name: str) -> Rule | None:
@@ -306,3 +320,12 @@ def rule_of(name: str) -> Rule | None:
     if found is None and conversion_of(name) is not None:
         return _CONVERSION
     return found
+
+
+def typed_rule(name: str) -> Rule | None:
+    """Return ADD for ``ADD_INT`` and the like, None for other names."""
+    function, _, data_type = name.upper().rpartition("_")
+    if function not in _OVERLOADED or data_type not in _CONVERTED:
+        return None
+    rule = RULES[function]
+    return rule._replace(made=lambda _name, arguments: rule.made(function, arguments))

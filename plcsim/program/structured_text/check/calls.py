@@ -19,7 +19,8 @@ from plcsim.program.structured_text.check.kinds import (
 from plcsim.program.structured_text.check.methods import MethodChecker
 from plcsim.program.structured_text.check.names import BY_ADDRESS, NOTHING, keep_address
 from plcsim.program.structured_text.check.open_arrays import parameters
-from plcsim.program.structured_text.check.standard_names import standard_parameter
+from plcsim.program.structured_text.check.standard_names import STRING_FUNCTIONS, standard_parameter
+from plcsim.program.structured_text.check.texts import function_for
 from plcsim.program.structured_text.check.typed import (
     PLACES,
     Address,
@@ -145,7 +146,8 @@ class CallChecker(MethodChecker):
         if upper in builtins.BOUNDS and not self.names.scope.dialect.case_sensitive:
             return self._bound(node, upper)
         rule = builtins.rule_of(name.name)
-        if rule is not None:
+        own = self.names.symbols.own_functions
+        if rule is not None and (not own or self.names.scope.dialect.key(name.name) not in own):
             return self._builtin(node, upper, rule)
         return self._declared(node, name)
 
@@ -309,11 +311,14 @@ class CallChecker(MethodChecker):
         function = None if hit is None else scope.find_function(name.name)
         if function is None or hit is None:
             found = self.names.symbols.open_functions.get(scope.dialect.key(name.name))
-            return self._no_function(node, name) if found is None else self._open(node, found)
+            return self._otherwise_known(node, name) if found is None else self._open(node, found)
         self.names.check_case(name, hit)
+        if function.name in STRING_FUNCTIONS and not scope.dialect.case_sensitive:
+            meant = function_for(function.name, node, self.names)
+            function = scope.find_function(meant) or function
+            if function.name in ("CONCAT", "WCONCAT"):
+                node = _in_pairs(node)
         self.called_bodies.add(function.name)
-        if function.name == "CONCAT" and not scope.dialect.case_sensitive:
-            node = _in_pairs(node)
         arguments = self.arguments_of(node, function)
         result = VOID if function.result is None else plain(function.result)
         if function.node.result is not None and function.result is None:
@@ -375,6 +380,14 @@ class CallChecker(MethodChecker):
             if isinstance(specification, OpenArraySpecification):
                 by_place = unnamed[place] if place < len(unnamed) else None
                 yield each, specification, named.get(key_of(each.name), by_place)
+
+    def _otherwise_known(self, node: syntax.Call, name: syntax.Name) -> Value:
+        """Check ``ADD_INT(a, b)`` and the like, which the norm has beside ``ADD(a, b)``."""
+        is_standard = not self.names.scope.dialect.case_sensitive
+        rule = builtins.typed_rule(name.name) if is_standard else None
+        if rule is None:
+            return self._no_function(node, name)
+        return self._builtin(node, name.name.upper(), rule)
 
     def _no_function(self, node: syntax.Call, name: syntax.Name) -> Value:
         if self.names.value(name) is not None:

@@ -180,10 +180,20 @@ class ExpressionChecker:
         if name[0] == "%":
             return self._part(node, value)
         if kind_of(data_type) is TypeKind.INTEGER:
+            if type(base) is syntax.Name and self._is_enumerator(base, name):
+                return self._type_member(node, base)
             return self._named_bit(node, value)
         message = f"{data_type} has no members"
         self.error(node, FindingCode.NO_MEMBERS, message, _pointer_hint(data_type))
         return NOTHING
+
+    def _is_enumerator(self, base: syntax.Name, name: str) -> bool:
+        """Return whether ``color.red`` is a value of the type COLOR, beside a variable color."""
+        if self.names.scope.dialect.case_sensitive:
+            return False
+        found = self.names.scope.find_type(base.name)
+        enumeration = None if found is None else plain(found)
+        return isinstance(enumeration, EnumerationType) and enumeration.spelling(name) is not None
 
     def _is_no_value(self, node: syntax.Name) -> bool:
         if self.names.value(node) is not None:

@@ -176,8 +176,10 @@ class _ProgramChecker(UnitCollector):
         statements = checker.statements(job.nodes)
         body = typed.CheckedBody(job.name, job.kind, job.file.path, line, statements, owner.block)
         body.result = result
-        if job.kind in ("function", "block", "method"):
+        if job.kind != "action":
             body.parameters, body.locals = self._variables(owner.scope)
+            for symbol in body.locals:
+                symbol.has_address |= bool(owner.actions)  # VAR_TEMP, which they know as well
         into.append(body)
         called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
         job.body, job.calls = body, checker.called_bodies | {action.label for action in called}
@@ -213,6 +215,7 @@ class _ProgramChecker(UnitCollector):
             unit, file = method.unit, method.maker.file
             job = BodyJob(label, "method", unit, unit.body, file, owner, method.function)
             job.maker = method.maker
+            self._jobs.append(job)
             yield job
 
     def _callable(self, owner: BodyOwner) -> Mapping[str, BodyJob]:

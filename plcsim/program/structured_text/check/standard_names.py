@@ -30,9 +30,10 @@ _PARAMETERS: Final[Mapping[str, str]] = {
     "LEN": "L",
     "POS": "P",
 }
-_STRING_FUNCTIONS: Final = frozenset(
+STRING_FUNCTIONS: Final = frozenset(
     ["LEN", "LEFT", "RIGHT", "MID", "CONCAT", "INSERT", "DELETE", "REPLACE", "FIND"]
 )
+"""Of the library standard; those of WSTRINGs in the library iec have a W before their names."""
 
 
 def standard_name(data_type: StructType[Any], name: str) -> str | None:
@@ -45,5 +46,6 @@ def standard_name(data_type: StructType[Any], name: str) -> str | None:
 
 def standard_parameter(function: str, name: str, parameters: Collection[str]) -> str | None:
     """Return the parameter of a string function that CODESYS calls ``name``."""
-    found = _PARAMETERS.get(name.upper()) if function in _STRING_FUNCTIONS else None
+    known = function.removeprefix("W") in STRING_FUNCTIONS
+    found = _PARAMETERS.get(name.upper()) if known else None
     return found if found in parameters else None

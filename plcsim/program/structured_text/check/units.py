@@ -217,6 +217,7 @@ class UnitCollector:
 
     def _function(self, unit: FunctionUnit) -> None:
         name = unit.declaration.name
+        self.symbols.own_functions.add(self._scope.dialect.key(name))
         if takes_any_bounds(unit.declaration):
             if self._is_new(unit, "function", name):
                 key = self._scope.dialect.key(name)

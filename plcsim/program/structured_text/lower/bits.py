@@ -79,6 +79,16 @@ class BitLowering(ScalarLowering):
         make = bcd_of if node.name == "TO_BCD" else number_of
         return after(before, narrowed(make(kept, 2 * min(bits.size, 4)), node.type))
 
+    def _is_bcd(self, node: typed.Builtin) -> ir.Expression:
+        """IS_VALID_BCD: a digit is above nine where its bit 8 is set beside bit 4 or bit 2."""
+        before, kept = self.kept(self.operand(node.arguments[0], "i64"))
+        fours = ir.Binary("i64", "shl", kept, ir.Const("i64", 1))
+        twos = ir.Binary("i64", "shl", kept, ir.Const("i64", 2))
+        wrong = ir.Binary("i64", "and", kept, ir.Binary("i64", "or", fours, twos))
+        eights = ir.Const("i64", 0x8888_8888_8888_8888)
+        zero = ir.Const("i64", 0)
+        return after(before, ir.Compare("i64", "eq", ir.Binary("i64", "and", wrong, eights), zero))
+
     def _bit_function(self, node: typed.Builtin) -> ir.Expression:
         """BIT_SET, BIT_CLR and BIT_TST."""
         data_type = node.arguments[0].type

@@ -64,6 +64,18 @@ class FunctionLowering(BitLowering):
         found = ir.Call("f64", _MATHEMATICS[node.name], (argument,))
         return to_type(found, "f32" if node.type is REAL else "f64", unsigned=False)
 
+    def _arctangent(self, node: typed.Builtin) -> ir.Expression:
+        """ATAN2 of ordinate and abscissa."""
+        arguments = [self.operand(each, "f64") for each in node.arguments]
+        found = ir.Call("f64", "rt.atan2", arguments)
+        return to_type(found, "f32" if node.type is REAL else "f64", unsigned=False)
+
+    def _is_valid(self, node: typed.Builtin) -> ir.Expression:
+        """IS_VALID of a REAL or LREAL: neither infinite nor NaN."""
+        before, kept = self.kept(self.operand(node.arguments[0], "f64"))
+        zero = ir.Binary("f64", "sub", kept, kept)
+        return after(before, ir.Compare("f64", "eq", zero, conversions.zero("f64")))
+
     def _square_root(self, node: typed.Builtin) -> ir.Expression:
         value_type: ir.ValueType = "f32" if node.type is REAL else "f64"
         return ir.Unary(value_type, "sqrt", self.operand(node.arguments[0], value_type))
@@ -253,7 +265,10 @@ def _edge(name: str, x: ir.Expression, memory: ir.Expression) -> ir.Expression:
 _BUILTINS: dict[str, Callable[[FunctionLowering, typed.Builtin], ir.Expression]] = {
     "ABS": FunctionLowering._absolute,
     **dict.fromkeys(_MATHEMATICS, FunctionLowering._mathematics),
+    "ATAN2": FunctionLowering._arctangent,
     "SQRT": FunctionLowering._square_root,
+    "IS_VALID": FunctionLowering._is_valid,
+    "IS_VALID_BCD": FunctionLowering._is_bcd,
     **dict.fromkeys(["MIN", "MAX"], FunctionLowering._extreme),
     "LIMIT": FunctionLowering._limit,
     "SEL": FunctionLowering._select,

@@ -363,6 +363,8 @@ class StatementLowering(FunctionLowering):
         """Step, and end where the next value would pass the limit, even if it does not fit."""
         before, kept = self.kept(following)
         ends = conversions.negated(self._for_condition(node, kept, limit, step))
+        if width_of(node.variable.type) not in ("s8", "s16"):
+            ends = ir.Binary("i32", "or", ends, _has_wrapped(node, kept, step))
         leave = ir.If(node.line, [ir.Arm(node.line, ends, [ir.Break(node.line, loop)])])
         return [*before, self._stored_step(node, kept), leave]
 
@@ -399,6 +401,31 @@ class StatementLowering(FunctionLowering):
 
     def _return(self, node: typed.Return, into: list[ir.Statement]) -> None:
         into.append(ir.Return(node.line, self._result()))
+
+
+def _has_wrapped(node: typed.For, following: ir.Expression, step: ir.Expression) -> ir.Expression:
+    """Return whether a step went past the end of 32 or 64 bits, or below 0.
+
+    Then it has led below the lowest number and the step, or above the highest and a step down.
+    """
+    value_type = following.type
+    assert value_type is not None
+    unsigned = is_unsigned(common_number(node.variable.type, node.variable.type))
+    lowest = 0 if unsigned else -(1 << (31 if value_type == "i32" else 63))
+    highest = -1 if unsigned else -lowest - 1
+    suffix = "u" if unsigned else "s"
+    wide = to_type(step, value_type, unsigned=node.step is not None and is_unsigned_in_c(node.step))
+
+    def beyond(operator: Any, end: int) -> ir.Expression:
+        border = ir.Binary(value_type, "add", ir.Const(value_type, end), wide)
+        return ir.Compare(value_type, operator, following, border)
+
+    up, down = beyond(f"lt_{suffix}", lowest), beyond(f"gt_{suffix}", highest)
+    if isinstance(step, ir.Const):
+        return up if step.value >= 0 else down
+    assert step.type is not None
+    rises = ir.Compare(step.type, "ge_s", step, conversions.zero(step.type))
+    return ir.IfExpression("i32", rises, up, down)
 
 
 def _signed_ranges(low: int, high: int) -> list[tuple[int, int]]:

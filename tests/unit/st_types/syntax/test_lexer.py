@@ -128,6 +128,8 @@ def test_locations_count_from_one() -> None:
         ("(* see (* below *) x", None),
         ("'(* (*' \"(*\" // (* (*", None),
         ("(* x *) y *)", None),
+        ("a /* b /* c */ d */ e", "a /* b    c    d */ e"),
+        ("(* /* *) /* (* */", None),
     ],
 )
 def test_unnesting(text: str, expected: str | None) -> None:
