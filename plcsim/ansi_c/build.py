@@ -51,7 +51,6 @@ _OPTIONS = (
     # kernel of texts in benchmarks/c_kernels takes a tenth longer with it
     "-fno-jump-tables",
     *("-mllvm", "-enable-emscripten-sjlj"),  # setjmp; see plcsim.ansi_c.nonlocal_jumps
-    "-UNDEBUG",  # zig defines it where it optimises
     "-U__EMSCRIPTEN__",  # what the target is called says nothing about the system
 )
 _C_OPTIONS = (
@@ -97,7 +96,7 @@ class BuildOrder:
         folders: where headers are looked for, in order.
         options: further ones of the compiler, such as ``-DX=1``.
         libraries: of which is linked what the sources need.
-        made: folder of headers that always have the same content under its name; None for none.
+        made: folder whose headers always have the same content under their names; None for none.
     """
 
     name: str

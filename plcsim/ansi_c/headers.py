@@ -39,6 +39,9 @@ _SAME: Final = ("plc.h", "globalTYP.h", "globalVAR.h", "Libraries.h")
 
 _FIRST: Final = "#include <bur/plctypes.h>\n"
 
+_IN_ORDER: Final = "PLCSIM_IN_ORDER"
+"""Defined while all libraries are included one by one, so that none looks for those before it."""
+
 _DECLARATION = re.compile(r"^[\w *]+?[ *](\w+)\([^#]*?\)[^;{]*;", re.MULTILINE)
 _TYPE_OF_HEADER = re.compile(r"\b(?!size_t\b|wchar_t\b)(?:\w+_t|va_list|FILE|struct)\b")
 
@@ -50,25 +53,22 @@ _PLAIN_PROTOTYPE = re.compile(
 _PROTOTYPE = re.compile(r"^_BUR_PUBLIC [^(]*?\b(\w+)\(.*$", re.MULTILINE)
 
 
-def library_headers(libraries: Sequence[Scope], known: list[Header]) -> dict[str, str]:
-    """Return a header per library by name.
+def library_headers(libraries: Sequence[Scope]) -> Mapping[str, str]:
+    """Return a header per library by name, which all programs of a project share.
 
     Args:
         libraries: in the order in which they are included.
-        known: takes what the headers declare, for those that rest on them.
     """
-    headers, made = _library_headers(tuple(libraries))
-    known += made
-    return dict(headers)
+    return _library_headers(tuple(libraries))[0]
 
 
 @lru_cache(maxsize=2)
 def _library_headers(libraries: tuple[Scope, ...]) -> tuple[Mapping[str, str], Sequence[Header]]:
-    """Return the same for all programs of a project, which see the same libraries."""
+    """Return the headers by name, and what they declare, for those that rest on them."""
     headers: dict[str, str] = {}
     known: list[Header] = []
     for library in libraries:
-        known.append(_header(library, known))
+        known.append(_header(library, known[-1:]))
         text = _without_standard(c_header(known[-1], library.name))
         if not library.strict:  # a library's own sources need what they declare, and no more
             text += _taking_pointers(text, library.name)
@@ -77,21 +77,23 @@ def _library_headers(libraries: tuple[Scope, ...]) -> tuple[Mapping[str, str], S
 
 
 def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict[str, str]:
-    """Return the headers of one program by name.
+    """Return the headers of one program by name, without those of `library_headers`.
 
     Args:
         scopes: what the program declares, and around it the folders up to the project.
         libraries: in the order in which they are included.
     """
-    known: list[Header] = []
-    headers = library_headers(libraries, known)
+    brought, known = _library_headers(tuple(libraries))
+    known = [*known]
+    headers: dict[str, str] = {}
     local, *around = scopes
     for scope in reversed(around):
-        known.append(_header(scope, known))
+        known.append(_header(scope, known[-1:]))
         headers[f"plcsim_{len(headers)}.h"] = c_header(known[-1], f"plcsim {scope.name}")
-    known.append(_header(local, known))
+    known.append(_header(local, known[-1:]))
     headers["plcsim_program.h"] = c_header(known[-1], "plcsim_program")
-    return _of_files([*around, local]) | headers | _bringing_all(headers)
+    includes = f"#define {_IN_ORDER}\n{_included(brought)}#undef {_IN_ORDER}\n"
+    return _of_files([*around, local]) | headers | _default(f"{includes}{_included(headers)}")
 
 
 def body_headers(
@@ -104,14 +106,14 @@ def body_headers(
         libraries: all, in the order in which they are included.
         needed: those that its own header and `DEFAULT` bring; the others are there.
     """
-    known: list[Header] = []
-    headers = library_headers([each for each in libraries if each is not library], known)
+    others = tuple(each for each in libraries if each is not library)
+    headers, known = _library_headers(others)
     around = [each for each in known if each.scope in needed]
     own = f"{library.name}.h"
     text = c_header(_header(library, around), library.name)  # what others have as well, it declares
-    headers[own] = _including(around, text)
     brought = [f"{each.scope.name}.h" for each in around]
-    return _of_files([library]) | headers | _bringing_all([*brought, own])
+    default = _default(_included([*brought, own]))
+    return {**_of_files([library]), **headers, own: _including(around, text), **default}
 
 
 def _including(known: Iterable[Header], text: str) -> str:
@@ -119,9 +121,8 @@ def _including(known: Iterable[Header], text: str) -> str:
 
     Nothing rests on a library that declares nothing; its own header may hold C++.
     """
-    names = [header.scope.name for header in known if header.scope.files]
-    includes = "".join(f"#include <{name}.h>\n" for name in names)
-    return text.replace(_FIRST, f"{_FIRST}{includes}", 1)
+    includes = _included(f"{each.scope.name}.h" for each in known if each.scope.files)
+    return text.replace(_FIRST, f"{_FIRST}#ifndef {_IN_ORDER}\n{includes}#endif\n", 1)
 
 
 def _taking_pointers(text: str, name: str) -> str:
@@ -163,10 +164,14 @@ def _header(scope: Scope, known: Sequence[Header]) -> Header:
     return Header(scope, known, variables="extern", c_types={**C_TYPES, **_LAYOUT})
 
 
-def _bringing_all(headers: Iterable[str]) -> dict[str, str]:
-    includes = "".join(f"#include <{name}>\n" for name in ("bur/plctypes.h", *headers))
-    default = f"#ifndef _ASDEFAULT_H_\n#define _ASDEFAULT_H_\n{includes}#endif\n"
-    return {DEFAULT: default, **dict.fromkeys(_SAME, f"#include <{DEFAULT}>\n")}
+def _default(includes: str) -> dict[str, str]:
+    guard = "#ifndef _ASDEFAULT_H_\n#define _ASDEFAULT_H_\n"
+    text = f"{guard}#include <bur/plctypes.h>\n{includes}#endif\n"
+    return {DEFAULT: text, **dict.fromkeys(_SAME, f"#include <{DEFAULT}>\n")}
+
+
+def _included(names: Iterable[str]) -> str:
+    return "".join(f"#include <{name}>\n" for name in names)
 
 
 def _without_standard(text: str) -> str:

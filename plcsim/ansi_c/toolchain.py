@@ -26,8 +26,13 @@ MISSING = (
 )
 
 _TARGET = "wasm32-unknown-emscripten"  # for it alone clang 14 makes position-independent code
-_ZIG_TARGET = "wasm32-freestanding"
-_NO_FILL = "-mno-bulk-memory-opt"  # newer clangs write memory.fill without bulk memory
+_ZIG_OPTIONS = (
+    *("clang", "--no-default-config", "--target=wasm32-unknown-unknown", "-mcpu=lime1"),
+    "-mno-bulk-memory-opt",  # newer clangs write memory.fill without bulk memory
+    *("-ffreestanding", "-fbuiltin"),
+)
+"""The compiler itself: `zig cc` keeps each object a second time, and takes longer to start."""
+
 _DYNAMIC = "--unresolved-symbols=import-dynamic"  # what LLD 14 does by itself
 
 
@@ -92,14 +97,15 @@ def zig() -> Toolchain | None:
         number = version("ziglang")
     except PackageNotFoundError:
         number = "unknown"
-    command = str(program)
+    folder = program.parent / "lib"
+    compiler = (str(program), *_ZIG_OPTIONS, "-isystem", str(folder / "include"))
     return Toolchain(
         f"zig {number}",
         f"zig {number}",
-        (command, "cc", "-target", _ZIG_TARGET, _NO_FILL),
-        (command, "c++", "-target", _ZIG_TARGET, _NO_FILL),
-        (command, "wasm-ld", _DYNAMIC),
-        *_cpp_library(program.parent / "lib" / "libcxx"),
+        compiler,
+        compiler,
+        (str(program), "wasm-ld", _DYNAMIC),
+        *_cpp_library(folder / "libcxx"),
     )
 
 

@@ -12,6 +12,7 @@ from plcsim.ansi_c.headers import (
     INCLUDE,
     body_headers,
     identity_of,
+    library_headers,
     program_headers,
     written_headers,
 )
@@ -47,17 +48,18 @@ def compile_program(source: ProgramSource) -> LinkedModule:
     """
     libraries = source.declarations.catalogue.scopes.by_dependency()
     around = [scope for scope in source.scope.chain if scope not in libraries]
+    shared = _headers("libraries", libraries, lambda: library_headers(libraries))
     headers = _headers("program", [*around, *libraries], lambda: program_headers(around, libraries))
     own = source.declarations.own_libraries
     others = [each for each in source.declarations.catalogue.libraries if each not in own]
     brought = [*_with_own_header(own), *_with_headers(others)]
     c_build = source.declarations.layout.c_build
-    folders = [source.folder, *c_build.include_folders, *brought, headers]
+    folders = [source.folder, *c_build.include_folders, *brought, headers, shared]
     static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
     options = compiler_options(c_build)
     libraries_in_c = [*static, UNIT_TEST]
     return _compiled(
-        BuildOrder(source.name, source.files, folders, options, libraries_in_c, headers)
+        BuildOrder(source.name, source.files, folders, options, libraries_in_c, headers.parent)
     )
 
 
@@ -91,7 +93,7 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
     option = f"-D_{library.name.upper()}_EXPORT"
     folders = [library.folder, *library.c_build.include_folders, headers]
     options = [option, *compiler_options(library.c_build)]
-    return _compiled(BuildOrder(library.name, files, folders, options, made=headers))
+    return _compiled(BuildOrder(library.name, files, folders, options, made=headers.parent))
 
 
 def compiler_options(c_build: CBuild) -> list[str]:

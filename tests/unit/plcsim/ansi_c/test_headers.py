@@ -7,6 +7,7 @@ from plcsim.ansi_c.headers import (
     INCLUDE,
     body_headers,
     identity_of,
+    library_headers,
     program_headers,
     written_headers,
 )
@@ -48,11 +49,15 @@ def scope(name, text, *outer):
     return Scope(name, [parse_text(text)], outer)
 
 
+def all_headers(scopes, libraries):
+    return {**library_headers(libraries), **program_headers(scopes, libraries)}
+
+
 @pytest.fixture
 def headers():
     library = scope("Motion", LIBRARY)
     project = scope("cell", "VAR gain : REAL; END_VAR", library)
-    return program_headers([scope("conveyor", PROGRAM, project, library), project], [library])
+    return all_headers([scope("conveyor", PROGRAM, project, library), project], [library])
 
 
 def test_a_program_finds_what_is_declared_around_it(headers, each_toolchain, source, tmp_path):
@@ -94,7 +99,7 @@ def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, sour
     FUNCTION mine : UDINT VAR_INPUT pDest : UDINT; END_VAR END_FUNCTION
     """
     library = scope("asstring", text)
-    headers = program_headers([scope("p", "")], [library])
+    headers = all_headers([scope("p", "")], [library])
     assert "mine(" in headers["asstring.h"]
     assert "UDINT strcpy(" not in headers["asstring.h"]
     folder = written_headers("x", lambda: headers, tmp_path / "include")
@@ -105,7 +110,7 @@ def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, sour
 
 def test_what_c_has_and_a_library_does_not_name_is_free(each_toolchain, source, tmp_path):
     text = "FUNCTION atoi : DINT VAR_INPUT pText : UDINT; END_VAR END_FUNCTION"
-    headers = program_headers([scope("p", "")], [scope("asstring", text)])
+    headers = all_headers([scope("p", "")], [scope("asstring", text)])
     folder = written_headers("x", lambda: headers, tmp_path / "include")
     c = '#include <AsDefault.h>\nsigned short random(void) { return atoi("4"); }\nint rand_r;'
     file = source("main.c", c)
@@ -124,7 +129,7 @@ def test_cpp_passes_pointers_as_numbers(each_toolchain, source, tmp_path):
     text = """
     FUNCTION TMP_alloc : UINT VAR_INPUT size : UDINT; place : UDINT; END_VAR END_FUNCTION
     """
-    headers = program_headers([scope("p", "")], [scope("sys_lib", text)])
+    headers = all_headers([scope("p", "")], [scope("sys_lib", text)])
     folder = written_headers("x", lambda: headers, tmp_path / "include")
     cpp = """extern "C" {
 #include <AsDefault.h>
@@ -145,7 +150,7 @@ def test_a_library_that_declares_nothing_is_brought_by_asdefault_alone():
         scope("Motion", "TYPE A : STRUCT x : INT; END_STRUCT; END_TYPE"),
     )
     last = scope("Last", "TYPE B : STRUCT y : INT; END_STRUCT; END_TYPE")
-    headers = program_headers([scope("p", "")], [empty, other, last])
+    headers = all_headers([scope("p", "")], [empty, other, last])
     assert "Motion.h" in headers["Last.h"]
     assert "UnitTest.h" not in headers["Last.h"]
     assert "UnitTest.h" in headers["AsDefault.h"]
