@@ -211,7 +211,7 @@ class CLibrary:
             raise MachineError(f"the C library has {linked.memory_size} bytes of data")
         machine.memory.open_stack(STACK_SIZE)
         self._host = _Host(machine)
-        self._module = CModule("C library", linked, machine, self._host, LIBRARY_AREA)
+        self._module = CModule("C library", linked, machine, self._host, LIBRARY_AREA).link()
         self._externs: dict[str, Extern] = {}
         self.reset()
 

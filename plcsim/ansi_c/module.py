@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
 from plcsim.ansi_c.line_table import read_line_table
 from plcsim.ansi_c.nonlocal_jumps import NonlocalJumps
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from plcsim.ansi_c.line_table import LineTable
-    from plcsim.machine import Extern, Frame, Machine
+    from plcsim.machine import Extern, Frame, Instance, Machine, MachineCode
     from plcsim.machine.engine import Type
     from plcsim.machine.placement import PlacedModule
     from plcsim.machine.shared_module import SharedModule
@@ -42,7 +42,7 @@ class ModuleSurroundings(Protocol):
 
 
 class CModule:
-    """A module of C that was placed and linked.
+    """A module of C that was placed; `compile` and `link` make it ready.
 
     Args:
         name: in messages, and in the frames of faults; no other module of the machine has it.
@@ -54,10 +54,10 @@ class CModule:
     Attributes:
         name: as above.
         address: of its data.
-        instance: its functions.
+        instance: its functions, after `link`.
 
     Raises:
-        ConfigurationError: something that it uses is nowhere; all of it is told.
+        ConfigurationError: a variable that it uses is nowhere; all of them are told.
     """
 
     def __init__(
@@ -83,13 +83,28 @@ class CModule:
             self._addresses(),
             self._pointers(),
         )
-        self.instance = machine.instantiate(
-            machine.compile_made(self._identity(), lambda: self._placed.wasm), self._functions()
-        )
+        self.instance: Instance
+
+    @cached_property
+    def _code(self) -> MachineCode:
+        return self._machine.compile_made(self._identity(), lambda: self._placed.wasm)
+
+    def compile(self) -> bool:
+        """Compile it to machine code; return whether that was in no cache."""
+        return self._code.is_new
+
+    def link(self) -> Self:
+        """Give its functions what they call, and return the module, ready but for a `reset`.
+
+        Raises:
+            ConfigurationError: a function that it uses is nowhere; all of them are told.
+        """
+        self.instance = self._machine.instantiate(self._code, self._functions())
         for pointer, index in self._placement.pointers.items():
-            machine.set_function(index, self.extern(pointer))
+            self._machine.set_function(index, self.extern(pointer))
         self._relocate = self._optional("__wasm_apply_data_relocs")
         self._construct = self._optional("__wasm_call_ctors")
+        return self
 
     @cached_property
     def _placed(self) -> PlacedModule:

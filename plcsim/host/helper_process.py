@@ -9,21 +9,47 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Final
+
+from plcsim.host import realtime
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+FEWEST_FOR_HELP: Final = 8
+"""Jobs that are worth a second process."""
+
 _NUMBER_BYTES: Final = 4
+
+
+def share(count: int, do: Callable[[int], bool], tell: Callable[[int], None]) -> None:
+    """Do jobs, some of them in a copy of this process where that can be of use.
+
+    Args:
+        count: of the jobs.
+        do: does one by its number, and returns whether that was work that caches did not know.
+        tell: told how many are done or begun, here and there, after each that is done here.
+    """
+    with ExitStack() as stack:
+        numbers = stack.enter_context(SharedNumbers(count))
+        wait = None
+        for number in numbers:
+            is_new = do(number)
+            tell(numbers.taken)
+            if is_new and wait is None and count >= FEWEST_FOR_HELP and can_help():
+                wait = stack.enter_context(helper_process(lambda: [*map(do, numbers)]))
+        if wait is not None:
+            wait()
 
 
 def can_help() -> bool:
     """Whether there is a processor for a second process, and a copy of this one can work.
 
     A copy has one thread: locks that another thread holds here would stay locked there for ever.
+    Beside a process with real-time rights there is no processor for a copy, which has them too.
     """
-    return is_alone() and len(os.sched_getaffinity(0)) > 1
+    return is_alone() and len(os.sched_getaffinity(0)) > 1 and not realtime.is_held()
 
 
 def is_alone() -> bool:

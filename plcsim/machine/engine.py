@@ -65,7 +65,10 @@ class MachineCode:
         engine: that compiled it.
         imports: module and name of each import, in order.
         exports: types by name.
+        is_new: it had to be compiled for who asked for it last.
     """
+
+    is_new = False
 
     def __init__(self, handle: int, engine: Engine) -> None:
         self.handle = handle
@@ -118,9 +121,9 @@ class Engine:
             MachineError: it is no valid module, or needs features that PLC programs do not have.
         """
         key = key_of(identity, self._settings)
-        code = (
-            self._codes.pop(key, None) or self._load(key, cache) or self._made(make(), key, cache)
-        )
+        known = self._codes.pop(key, None) or self._load(key, cache)
+        code = known or self._made(make(), key, cache)
+        code.is_new = known is None
         self._codes[key] = code
         if len(self._codes) > CODES_KEPT:
             self._codes.popitem(last=False)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
     from plcsim.core.task import Task
@@ -47,6 +47,19 @@ class ProgramSource(NamedTuple):
     instance: str = ""
 
 
+class PlacedProgram(NamedTuple):
+    """A program whose variables have their place on a controller.
+
+    Attributes:
+        compile: makes machine code of it, which a cache keeps, and returns whether it was not in
+            the cache; a copy of this process may do that.
+        task: makes its units ready to run; called after all programs were placed.
+    """
+
+    compile: Callable[[], bool]
+    task: Callable[[], Task]
+
+
 class ProgramCode(Protocol):
     """A program that was loaded and checked; may run as several tasks, on several controllers.
 
@@ -58,8 +71,8 @@ class ProgramCode(Protocol):
     def warnings(self) -> Sequence[str]:
         """What was found in its text that is no error."""
 
-    def task(self, name: str, site: Site) -> Task:
-        """Return a new task: its variables allocated, its units ready to run.
+    def place(self, name: str, site: Site) -> PlacedProgram:
+        """Give a new task its variables.
 
         Args:
             name: of the task.

@@ -5,12 +5,12 @@ from __future__ import annotations
 import itertools
 import os
 import time
-from contextlib import ExitStack, suppress
-from functools import cache, cached_property, partial
+from contextlib import suppress
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.core.errors import ConfigurationError, Findings
-from plcsim.host.helper_process import SharedNumbers, can_help, helper_process
+from plcsim.host.helper_process import share
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import files_in
@@ -29,7 +29,7 @@ from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from plcsim.library.executable import BodyLanguage
@@ -63,9 +63,6 @@ NOT_THERE: Final = {
 
 DIALECTS: Final = {"automation-studio": AUTOMATION_STUDIO, "iec": IEC}
 """Dialects of Structured Text by their names in plc.toml."""
-
-FEWEST_FOR_HELP: Final = 8
-"""Programs and libraries that are worth a second process."""
 
 LONGEST_KNOWN_S: Final = 0.05
 """What takes longer to load was not in the cache: more of it is worth a second process."""
@@ -228,33 +225,22 @@ class ProgramLoader:
             self._progress(count, len(names))
         libraries = self.declarations.own_libraries
         jobs: list[Library | str] = [*libraries, *compiled]
-        with ExitStack() as stack:
-            numbers = stack.enter_context(SharedNumbers(len(jobs)))
-            wait = None
-            for number in numbers:
-                start = time.perf_counter()
-                self._do(jobs[number], found)
-                taken = max(0, numbers.taken - len(libraries))  # they come first
-                self._progress(len(others) + taken, len(names))
-                is_slow = time.perf_counter() - start > LONGEST_KNOWN_S
-                if is_slow and wait is None and len(jobs) >= FEWEST_FOR_HELP and can_help():
-                    wait = stack.enter_context(helper_process(partial(self._help, jobs, numbers)))
-            if wait is not None:
-                wait()
+
+        def tell(taken: int) -> None:  # libraries come first
+            self._progress(len(others) + max(0, taken - len(libraries)), len(names))
+
+        share(len(jobs), lambda number: self._do(jobs[number], found), tell)
         return {**found, **{name: self._tried(name) for name in compiled if name not in found}}
 
-    def _help(self, jobs: Sequence[Library | str], numbers: Iterable[int]) -> None:
-        """Do jobs in a copy of this process, for the caches."""
-        for number in numbers:
-            self._do(jobs[number], {})
-
-    def _do(self, job: Library | str, found: dict[str, ProgramCode | tuple[str, ...]]) -> None:
-        """Load a program by its name, or the bodies of a library."""
+    def _do(self, job: Library | str, found: dict[str, ProgramCode | tuple[str, ...]]) -> bool:
+        """Load a program by its name, or the bodies of a library; return whether it took long."""
+        start = time.perf_counter()
         if isinstance(job, str):
             found[job] = self._tried(job)
-            return
-        with suppress(ConfigurationError):  # `_check_bodies` tells it
-            self.declarations.catalogue.bodies(job)
+        else:
+            with suppress(ConfigurationError):  # `_check_bodies` tells it
+                self.declarations.catalogue.bodies(job)
+        return time.perf_counter() - start > LONGEST_KNOWN_S
 
     def _compiled(self, names: Sequence[str]) -> list[str]:
         """Return the programs whose code a cache keeps, the longest first."""

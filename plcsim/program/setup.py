@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from plcsim.core.context import Context
@@ -10,12 +11,13 @@ from plcsim.core.controller import Controller
 from plcsim.core.memory import DEFAULT_SIZE, Memory
 from plcsim.core.tag import CHANNELS, Tag
 from plcsim.core.task import Policy, TaskClass
+from plcsim.host.helper_process import share
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.site import Site
 from st_types.types.views import view_class
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from plcsim.core.clock import Clock
     from plcsim.core.controller import Heartbeat
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from plcsim.library.catalogue import Catalogue
     from plcsim.machine import Frame
     from plcsim.network import Network
-    from plcsim.program.language import ProgramCode
+    from plcsim.program.language import PlacedProgram, ProgramCode
     from plcsim.program.variables import DeclaredVariables
     from st_types.types.derived import StructType
 
@@ -109,13 +111,18 @@ def make_controller(
         counts_instructions=clock is not None and clock.is_virtual,
         watch=watch,
     )
-    classes = [_task_class(c, site) for c in sorted(setup.classes, key=lambda c: c.number)]
-    exception = setup.exception_program
+    exception = [setup.exception_program] if setup.exception_program else []
+    ordered = sorted(setup.classes, key=lambda c: c.number)
+    programs = [*(program for each in ordered for program in each.programs), *exception]
+    placed = [program.code.place(program.name, site) for program in programs]
+    _compile(placed)
+    tasks = iter([each.task() for each in placed])
+    classes = [_task_class(each, tasks) for each in ordered]
     return Controller(
         classes,
         context,
         shared=[*shared, *_channels(setup, context)],
-        exception_task=_task(exception, site) if exception else None,
+        exception_task=next(tasks, None),
         clock=clock,
         start_date_ns=setup.start_date_ns,
         heartbeat=heartbeat,
@@ -141,17 +148,18 @@ def _channels(setup: Setup, context: Context) -> list[Tag]:
     return [Tag(CHANNELS, kind, context.memory.allocate(kind.size, kind.alignment))]
 
 
-def _task_class(setup: TaskClassSetup, site: Site) -> TaskClass:
+def _compile(placed: Sequence[PlacedProgram]) -> None:
+    """Compile programs, in two processes where there is much that no cache knows."""
+    share(len(placed), lambda number: placed[number].compile(), lambda _done: None)
+
+
+def _task_class(setup: TaskClassSetup, tasks: Iterator[Task]) -> TaskClass:
     return TaskClass(
         setup.number,
         setup.cycle_ns,
         setup.tolerance_ns,
-        [_task(program, site) for program in setup.programs],
+        [*islice(tasks, len(setup.programs))],
         first_release_ns=setup.first_release_ns,
         policy=setup.policy,
         host_policy=setup.host_policy,
     )
-
-
-def _task(setup: ProgramSetup, site: Site) -> Task:
-    return setup.code.task(setup.name, site)

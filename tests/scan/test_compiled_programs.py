@@ -9,6 +9,7 @@ from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
 from plcsim.machine import CodeCache, Machine
 from plcsim.program.compiled import fault_of
+from plcsim.program.language import PlacedProgram
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.generate import generate
@@ -44,20 +45,21 @@ class Counter:
         units = unit("INIT", init), unit("CYCLIC", step, *more), unit("EXIT")
         self.code = generate(ir.Module("counter", units, {}, (PROGRAM,), ("Counter.st",)))
 
-    def task(self, name, site):
+    def place(self, name, site):
         view = site.memory.new(Variables)
         linker = Linker(Machine(site.memory, cache=CodeCache(None)))
         tag = Tag(name, type_of(Variables), address_of(view))
         instance = linker.link(self.code, {"program": tag.address}, lambda _: None)
         lines = {"counter": locator(self.code.lines)}.get
         units = {one: instance.function(one.value) for one in Unit}
-        return Task(
+        task = Task(
             name,
             tag,
             units,
             fault_of=lambda error: fault_of(error, lines),
             interrupt=lambda reason: None,  # the machine ends it by its budget
         )
+        return PlacedProgram(lambda: False, lambda: task)
 
 
 @pytest.fixture

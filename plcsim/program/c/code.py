@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.ansi_c.module import CModule
@@ -12,6 +13,7 @@ from plcsim.core.task import Task, Unit
 from plcsim.program.c.sources import compile_program
 from plcsim.program.c.surroundings import ProgramSurroundings, heap_size_of
 from plcsim.program.compiled import CallSite, CompiledPrograms
+from plcsim.program.language import PlacedProgram
 from plcsim.program.variables import variables_of
 from st_types.types.derived import StructType
 
@@ -65,13 +67,27 @@ class CCode:
         self._variables = variables
         self.warnings = compiled.warnings
 
-    def task(self, name: str, site: Site) -> Task:
-        """Return a task with variables, data and a heap of its own."""
+    def place(self, name: str, site: Site) -> PlacedProgram:
+        """Give a task variables, data and a heap of its own."""
         variables, constants = self._variables.allocate(site.memory, name)
         own = [variables] if constants is None else [variables, constants]
         size = heap_size_of(self._module, self._default_heap)
         surroundings = ProgramSurroundings(name, site, self._scope, own, size)
         module = CModule(name, self._module, site.machine, surroundings)
+        placed = partial(self._task, name, site, own, surroundings, module)
+        return PlacedProgram(module.compile, placed)
+
+    def _task(
+        self,
+        name: str,
+        site: Site,
+        own: Sequence[Tag],
+        surroundings: ProgramSurroundings,
+        module: CModule,
+    ) -> Task:
+        """Link a module, and return its task."""
+        module.link()
+        variables, *constants = own
         compiled = CompiledPrograms.of(site)
         compiled.locate_by(name, locator(module))
         names = [each.name for tag in (*own, *site.shared) for each in _members(tag)]
@@ -86,7 +102,7 @@ class CCode:
             name,
             variables,
             units,
-            constants=constants,
+            constants=constants[0] if constants else None,
             more=more,
             fault_of=compiled.fault_of,
             interrupt=_interrupt,

@@ -98,7 +98,7 @@ class CLibraryCode:
         scope = self._library.scope
         size = heap_size_of(self.module, self._library.c_build.heap_size)
         surroundings = ProgramSurroundings(name, site, scope, (), size)
-        module = CModule(name, self.module, site.machine, surroundings)
+        module = CModule(name, self.module, site.machine, surroundings).link()
         CompiledPrograms.of(site).locate_by(name, locator(module))
 
         def reset() -> None:

@@ -15,6 +15,7 @@ from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Task, Unit
 from plcsim.program.fault import fault_of
+from plcsim.program.language import PlacedProgram
 from plcsim.program.python.blocks import give_views
 from plcsim.program.python.check import check_program
 from plcsim.program.python.modules import add_package, load_module, own_names
@@ -57,15 +58,16 @@ class PythonCode:
             program._plc_type, constants or StructType("CONSTANT", ())
         )
 
-    def task(self, name: str, site: Site) -> Task:
-        """Return a task that runs the methods of a new view of the class."""
+    def place(self, name: str, site: Site) -> PlacedProgram:
+        """Make a task that runs the methods of a new view of the class."""
         variables, constants = self._variables.allocate(site.memory, name)
         site.prepare(variables.data_type)
         view = site.memory.access(self.program, variables.address, site.context)
         units = {Unit.INIT: view.init, Unit.CYCLIC: view.cyclic, Unit.EXIT: view.exit}
-        return Task(
+        task = Task(
             name, variables, units, constants=constants, fault_of=fault_of, interrupt=_interrupt
         )
+        return PlacedProgram(lambda: False, lambda: task)
 
 
 def _interrupt(reason: str) -> NoReturn:

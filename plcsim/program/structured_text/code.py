@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.suggestion import did_you_mean
 from plcsim.core.task import Task, Unit
+from plcsim.program.language import PlacedProgram
 from plcsim.program.structured_text.check.declared import unit_scope
 from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.check.programs import ALL_PROGRAMS, MeantProgram
@@ -27,6 +29,7 @@ from st_types.errors import DiagnosticSeverity
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from plcsim.core.tag import Tag
     from plcsim.library.catalogue import Catalogue
     from plcsim.machine import Instance, Machine
     from plcsim.program.language import ProgramSource
@@ -200,22 +203,28 @@ class StructuredTextCode:
         """Yield the lines of its WebAssembly as text; addresses are told by their segments."""
         return text_of(self._code)
 
-    def task(self, name: str, site: Site) -> Task:
-        """Return a task with variables of its own."""
+    def place(self, name: str, site: Site) -> PlacedProgram:
+        """Give a task variables of its own."""
         variables, constants = self._variables.allocate(site.memory, name)
         linkage = Linkage.of(site)
         own = addresses(OWN, (variables, constants))
-        instance = linkage.link(self._code, self._scope, own, name)
-        units = {unit: _unit(instance, unit, site.machine) for unit in Unit}
-        return Task(
-            name,
-            variables,
-            units,
-            constants=constants,
-            fault_of=linkage.fault_of,
-            interrupt=_interrupt,
-            instructions=site.machine.meter,
-        )
+        placed = linkage.place(self._code, self._scope, own, name)
+
+        task = partial(_task, name, site, variables, constants)
+        return PlacedProgram(placed.compile, lambda: task(placed.link()))
+
+
+def _task(name: str, site: Site, variables: Tag, constants: Tag | None, instance: Instance) -> Task:
+    units = {unit: _unit(instance, unit, site.machine) for unit in Unit}
+    return Task(
+        name,
+        variables,
+        units,
+        constants=constants,
+        fault_of=Linkage.of(site).fault_of,
+        interrupt=_interrupt,
+        instructions=site.machine.meter,
+    )
 
 
 def _unit(instance: Instance, unit: Unit, machine: Machine) -> Callable[[], None]:

@@ -99,7 +99,9 @@ class CompiledLibrary:
     def on(self, site: Site) -> Instance | None:
         """Return the module on a controller; None while it is being linked."""
         linkage = Linkage.of(site)
-        return linkage.library(self, lambda: linkage.link(self._code(site), self._scope, {}))
+        return linkage.library(
+            self, lambda: linkage.place(self._code(site), self._scope, {}).link()
+        )
 
     def _code(self, site: Site) -> ObjectCode:
         """Return the code for the global variables of a controller."""

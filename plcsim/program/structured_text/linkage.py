@@ -21,12 +21,43 @@ if TYPE_CHECKING:
     from plcsim.core.errors import Fault
     from plcsim.library.catalogue import Catalogue
     from plcsim.library.executable import Executable
-    from plcsim.machine import Extern, Instance
+    from plcsim.machine import Extern, Instance, MachineCode
     from plcsim.program.site import Site
     from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
     from st_types.resolve.scope import Scope
     from st_types.types.derived import DataBlockType
+
+
+class PlacedModule:
+    """A module whose variables have their places on a controller.
+
+    Args:
+        make: returns its machine code.
+        link: gives machine code what it calls.
+    """
+
+    def __init__(
+        self, make: Callable[[], MachineCode], link: Callable[[MachineCode], Instance]
+    ) -> None:
+        self._make = make
+        self._link = link
+
+    @cached_property
+    def _code(self) -> MachineCode:
+        return self._make()
+
+    def compile(self) -> bool:
+        """Compile it to machine code; return whether that was in no cache."""
+        return self._code.is_new
+
+    def link(self) -> Instance:
+        """Return the module, ready to run.
+
+        Raises:
+            ConfigurationError: something that it calls has no body.
+        """
+        return self._link(self._code)
 
 
 class Linkage:
@@ -53,10 +84,10 @@ class Linkage:
             site.context.give_settings(found)
         return found
 
-    def link(
+    def place(
         self, code: ObjectCode, scope: Scope, own: Mapping[str, int], task: str = ""
-    ) -> Instance:
-        """Return a module that is ready to run.
+    ) -> PlacedModule:
+        """Return a module whose variables have their places.
 
         Args:
             code: the module.
@@ -65,7 +96,7 @@ class Linkage:
             task: whose module it is, "" for that of a library.
 
         Raises:
-            ConfigurationError: the memory is full, or something that it calls has no body.
+            ConfigurationError: the memory is full.
         """
         places = {**self._shared, **own}
         for segment in code.segments:
@@ -73,8 +104,13 @@ class Linkage:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
             elif segment.name == DIRECT:
                 places[DIRECT] = self._direct
+        return PlacedModule(
+            partial(self._linker.compiled, code, places), partial(self._link, code, scope, task)
+        )
+
+    def _link(self, code: ObjectCode, scope: Scope, task: str, compiled: MachineCode) -> Instance:
         self._compiled.locate_by(code.name, locator(code.lines))
-        instance = self._linker.link(code, places, partial(self._provide, scope))
+        instance = self._linker.link_compiled(code, compiled, partial(self._provide, scope))
         if code.profile is not None:
             module = CountedModule(task, code.profile, instance)
             self.counted.append(module)

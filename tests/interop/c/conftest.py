@@ -58,7 +58,7 @@ def unit_results(request, tmp_path):
         memory = Memory(64 * PAGE)
         machine = Machine(memory)
         area = memory.allocate(4 * count, 4)
-        module = CModule("unit", read_shared(built.wasm), machine, _CLibraryAlone(machine))
+        module = CModule("unit", read_shared(built.wasm), machine, _CLibraryAlone(machine)).link()
         module.reset()
         module.function("fill")(area)
         data = memory.read(area, 4 * count)

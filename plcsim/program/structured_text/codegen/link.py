@@ -10,7 +10,7 @@ from plcsim.program.structured_text.codegen.runtime import MATHEMATICS
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from plcsim.machine import Extern, Instance, Machine
+    from plcsim.machine import Extern, Instance, Machine, MachineCode
     from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.codegen.lines import ModuleLines
     from plcsim.program.structured_text.codegen.object_code import ObjectCode
@@ -48,9 +48,22 @@ class Linker:
         Raises:
             ValueError: another module has its name.
         """
+        return self.link_compiled(code, self.compiled(code, addresses), provide)
+
+    def compiled(self, code: ObjectCode, addresses: Mapping[str, int]) -> MachineCode:
+        """Return the machine code of a module for addresses of its segments, by name."""
+        return self._machine.compile(code.place(addresses))
+
+    def link_compiled(
+        self, code: ObjectCode, compiled: MachineCode, provide: Callable[[ir.Import], Extern]
+    ) -> Instance:
+        """Return a module of which `compiled` has made machine code, as `link` does.
+
+        Raises:
+            ValueError: another module has its name.
+        """
         if self._lines.setdefault(code.name, code.lines) is not code.lines:
             raise ValueError(f"two modules are called {code.name}")
-        compiled = self._machine.compile(code.place(addresses))
         imports: dict[tuple[str, str], Extern | int] = {}
         for wanted in code.imports:
             imports[wanted.space, wanted.name] = provide(wanted)

@@ -66,7 +66,7 @@ def load(world, built):
     """``load(text)``: a module in the world, its data initialised."""
 
     def load(text=TEXT, name="conveyor"):
-        module = CModule(name, read_shared(built(text).wasm), world.machine, world)
+        module = CModule(name, read_shared(built(text).wasm), world.machine, world).link()
         module.reset()
         return module
 
@@ -152,7 +152,7 @@ def test_static_construction_of_cpp_runs_at_each_reset(world, built):
     extern "C" int numbers(void) { return made * 100 + first.number * 10 + second.number; }
     extern "C" void spoil(void) { made = 50; first.number = 0; }
     """
-    module = CModule("p", read_shared(built(text, "main.cpp").wasm), world.machine, world)
+    module = CModule("p", read_shared(built(text, "main.cpp").wasm), world.machine, world).link()
     for _ in range(2):
         module.reset()
         assert module.function("numbers")() == 212

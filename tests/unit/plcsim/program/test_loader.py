@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.core.errors import ConfigurationError
+from plcsim.host import helper_process as helper_module
 from plcsim.program import loader as loader_module
 from plcsim.program.layout import folder_layout
 from plcsim.program.loader import ProgramLoader
@@ -96,7 +97,7 @@ def test_a_helper_process_compiles_some_of_many_programs(project, monkeypatch):
                 raise ConfigurationError("p3 is wrong")
             return OtherCode(source)
 
-    monkeypatch.setattr(loader_module, "can_help", lambda: True)
+    monkeypatch.setattr(helper_module, "can_help", lambda: True)
     monkeypatch.setattr(loader_module, "LONGEST_KNOWN_S", -1.0)
     names = [f"p{number}" for number in range(8)]
     folder = project({f"{name}/a.other": name * 9 for name in names})
@@ -115,9 +116,9 @@ def test_what_a_cache_has_needs_no_helper_process(project, monkeypatch):
     class Compiled(Other):
         is_compiled = True
 
-    monkeypatch.setattr(loader_module, "can_help", lambda: True)
+    monkeypatch.setattr(helper_module, "can_help", lambda: True)
     monkeypatch.setattr(loader_module, "LONGEST_KNOWN_S", 3600.0)
-    monkeypatch.setattr(loader_module, "helper_process", lambda _work: pytest.fail("a helper"))
+    monkeypatch.setattr(helper_module, "helper_process", lambda _work: pytest.fail("a helper"))
     told = []
     names = [f"p{number}" for number in range(8)]
     folder = project({f"{name}/a.other": name for name in names})

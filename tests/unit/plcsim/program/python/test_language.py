@@ -205,7 +205,7 @@ def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
 
     memory = Memory(4 * PAGE)
     site = Site(Context(memory, network=None), installed_catalogue())
-    first, second = (PythonCode(Counter).task(name, site) for name in ("a", "b"))
+    first, second = (PythonCode(Counter).place(name, site).task() for name in ("a", "b"))
     assert first.units.keys() == set(Unit)
     first.cyclic()
     first.units[Unit.INIT]()
@@ -218,6 +218,6 @@ def test_a_task_runs_the_units_of_its_program_on_its_own_variables():
 
 def test_a_task_is_ended_by_an_exception_that_programs_do_not_catch():
     context = Context(Memory(4 * PAGE), network=None)
-    task = PythonCode(Program).task("p", Site(context, installed_catalogue()))
+    task = PythonCode(Program).place("p", Site(context, installed_catalogue())).task()
     with pytest.raises(CycleTimeViolation, match="it did not return"):
         task.interrupt("it did not return")
