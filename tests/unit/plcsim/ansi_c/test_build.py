@@ -65,6 +65,7 @@ def test_two_definitions_of_a_function_are_told_with_their_files(each_toolchain,
         "int f(void) { return undeclared_function(3); }",
         "long *g(short *a) { return a; }",
         "static inline int h(void) { return 1; } int i(void) { return h(); }",
+        "const char *built(void) { return __DATE__ __TIME__; }",
     ],
 )
 def test_what_the_controller_s_compiler_takes_is_taken(each_toolchain, source, text):
