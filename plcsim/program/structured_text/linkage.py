@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from st_types.types.derived import DataBlockType
 
 
-class PlacedModule:
+class PlacedCode:
     """A module whose variables have their places on a controller.
 
     Args:
@@ -86,7 +86,7 @@ class Linkage:
 
     def place(
         self, code: ObjectCode, scope: Scope, own: Mapping[str, int], task: str = ""
-    ) -> PlacedModule:
+    ) -> PlacedCode:
         """Return a module whose variables have their places.
 
         Args:
@@ -104,7 +104,7 @@ class Linkage:
                 places[segment.name] = self._site.memory.keep(segment.data, 8)
             elif segment.name == DIRECT:
                 places[DIRECT] = self._direct
-        return PlacedModule(
+        return PlacedCode(
             partial(self._linker.compiled, code, places), partial(self._link, code, scope, task)
         )
 
