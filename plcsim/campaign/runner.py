@@ -25,6 +25,10 @@ from plcsim.host.realtime import die_with_parent
 if TYPE_CHECKING:
     from plcsim.campaign.definition import Campaign
 
+HELD_BACK = (signal.SIGINT,)
+"""The parent starts this process with these signals blocked: Ctrl-C goes to all of its group, and
+would end it while Python still imports."""
+
 
 def main() -> None:
     """Do what is ordered until the parent goes."""
@@ -32,6 +36,7 @@ def main() -> None:
     descriptor, parent = int(sys.argv[2]), int(sys.argv[3])
     die_with_parent(signal.SIGKILL, parent)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
     silent = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silent, 1)
     os.dup2(silent, 2)  # what a program prints in ten thousand runs has no reader

@@ -21,6 +21,7 @@ from distributed import WorkerPlugin, get_worker
 
 from plcsim.campaign.errors import CampaignError
 from plcsim.campaign.result import Result, RunOutcome
+from plcsim.campaign.runner import HELD_BACK
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,12 +49,16 @@ class Runner:
     def __init__(self, file: Path, folder: Path) -> None:
         self._connection, child = Pipe()
         arguments = [str(file), str(child.fileno()), str(os.getpid())]
-        self._process = subprocess.Popen(  # noqa: S603  # our own module
-            [sys.executable, "-P", "-m", "plcsim.campaign.runner", *arguments],
-            pass_fds=(child.fileno(),),
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-        )
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
+        try:
+            self._process = subprocess.Popen(  # noqa: S603  # our own module
+                [sys.executable, "-P", "-m", "plcsim.campaign.runner", *arguments],
+                pass_fds=(child.fileno(),),
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+            )
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         child.close()
         self._await_start()
 

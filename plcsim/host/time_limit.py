@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from plcsim.core.duration import format_duration
 from plcsim.core.errors import CycleTimeViolation
+from plcsim.host.thread_timer import ThreadTimer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -32,12 +33,6 @@ the loop, is not caught; with so many, one soon is."""
 SOON_S = 0.001
 """An alarm of somebody else that was due meanwhile comes after this time."""
 
-_NOBODYS = (signal.SIG_DFL, signal.SIG_IGN)
-
-
-def _late(_number: int, _frame: FrameType | None) -> None:
-    """Take an alarm of ours that another thread was handed, which runs after the block's end."""
-
 
 def can_be_limited() -> bool:
     """Whether this is the main thread, which can be interrupted, and no debugger traces it."""
@@ -53,33 +48,38 @@ def time_limit(limit_ns: int) -> Iterator[None]:
 
     Args:
         limit_ns: time of the host, not of its processor: what waits for ever counts too.
+
+    Raises:
+        OSError: the host has no timer left.
     """
     if not can_be_limited():
         yield
         return
 
     tries = 0
-    is_open = True
+    is_open = False
 
     def end(_number: int, frame: FrameType | None) -> None:
         nonlocal tries
         if not is_open or (frame is not None and frame.f_code.co_filename in _OWN_FILES):
-            return  # the block has ended meanwhile, and what puts things back calls others
+            return  # it begins or ends, and what prepares it and puts things back calls others
         tries += 1
         if tries == TRIES:
-            signal.setitimer(signal.ITIMER_REAL, HAIL_S, HAIL_S)
+            timer.set(HAIL_S, HAIL_S)
         raise CycleTimeViolation(f"did not return within {format_duration(limit_ns)}")
 
     due_s, interval_s = signal.setitimer(signal.ITIMER_REAL, 0)
-    handler = signal.signal(signal.SIGALRM, end)
     start = time.monotonic()
-    signal.setitimer(signal.ITIMER_REAL, limit_ns / 1e9, AGAIN_S)
+    timer = ThreadTimer(signal.SIGALRM)
+    handler = signal.signal(signal.SIGALRM, end)
     try:
+        timer.set(limit_ns / 1e9, AGAIN_S)
+        is_open = True
         yield
     finally:
         is_open = False
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, _late if tries and handler in _NOBODYS else handler)
+        timer.close()
+        signal.signal(signal.SIGALRM, handler)  # looks for what has come before
         if due_s:
             left_s = due_s - (time.monotonic() - start)
             signal.setitimer(signal.ITIMER_REAL, max(SOON_S, left_s), interval_s)

@@ -35,8 +35,10 @@ PROGRAM = """
 """
 CAMPAIGN = """
     import time
+    from pathlib import Path
     from plcsim.campaign import *
 
+    SLOW = Path("FOLDER") / "slow"
     campaign = Campaign(
         variables={
             "ramp.step": Uniform(0, 10), "ramp.trouble": Choice(*TROUBLE), "pause": Choice(PAUSE)
@@ -49,7 +51,8 @@ CAMPAIGN = """
 
     @campaign.scenario
     def run(plc, values):
-        time.sleep(values["pause"])
+        if SLOW.exists():
+            time.sleep(values["pause"])
         plc.faults.noise("ramp.value", 0.5)
         plc.run("1s")
 """
@@ -68,7 +71,8 @@ def write(
     folder: Path, runs: int, pause: float = 0, trouble: str = "0,", limit: str = "100s"
 ) -> None:
     text = textwrap.dedent(CAMPAIGN).replace("RUNS", str(runs)).replace("PAUSE", str(pause))
-    text = text.replace("LIMIT", limit)
+    text = text.replace("LIMIT", limit).replace("FOLDER", str(folder))
+    (folder / "slow").touch()
     (folder / "ramps.py").write_text(text.replace("TROUBLE", f"({trouble})"))
 
 
@@ -123,7 +127,7 @@ def test_runs_that_crash_or_hang_cost_nothing_but_themselves(folder: Path) -> No
 
 
 def test_an_interrupted_campaign_goes_on_where_it_was(folder: Path) -> None:
-    write(folder, 40, pause=0.1)
+    write(folder, 150, pause=0.2)
     running = subprocess.Popen(
         command("ramps.py"), cwd=folder, stdout=subprocess.PIPE, text=True, start_new_session=True
     )
@@ -131,10 +135,11 @@ def test_an_interrupted_campaign_goes_on_where_it_was(folder: Path) -> None:
     os.killpg(running.pid, signal.SIGINT)
     assert "the same command goes on from here" in running.communicate(timeout=200)[0]
     assert running.returncode == 130
+    (folder / "slow").unlink()
     done = plcsim(folder, "ramps.py")
     assert "runs are done already" in done.stdout
     rows = table(folder)
-    assert [row["number"] for row in rows] == list(range(40))
+    assert [row["number"] for row in rows] == list(range(150))
     whole = plcsim(folder, "ramps.py", "-o", "whole")
     assert "done already" not in whole.stdout
     assert table(folder, "whole") == rows

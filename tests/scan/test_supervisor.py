@@ -49,30 +49,34 @@ def program(project_of):
 PATIENT_NS = 100_000 * MS
 
 
+def is_in_a_program(supervised):
+    """Whether a program is active."""
+    return supervised.page.active is not None
+
+
 def is_at_work(supervised):
     """Whether a program is active, or the cycles have begun."""
-    return supervised.page.active is not None or supervised.page.state is State.RUN
+    return is_in_a_program(supervised) or supervised.page.state is State.RUN
 
 
 @pytest.fixture
 def supervise(monkeypatch):
     """``supervise(folder, cycles=1)``: the result of a run, killed after little patience.
 
-    As soon as a program is active, which takes its time on a busy machine, INIT and EXIT have only
-    600 ms, and so has a scan outside a program. What is to be interrupted and not to be killed is
-    given a large ``patience_ns``: on a busy machine the interruption takes its time as well.
+    Only while ``is_there``, which on a busy machine takes its time, INIT and EXIT have 600 ms, and
+    so has a scan outside a program. What is to be interrupted and not to be killed is given a large
+    ``patience_ns``: on a busy machine the interruption takes its time as well.
     """
 
     def supervise(
-        folder, look=lambda _: None, is_there=is_at_work, patience_ns=400 * MS, **options
+        folder, look=lambda _: None, is_there=is_in_a_program, patience_ns=400 * MS, **options
     ):
         monkeypatch.setattr(watchdog, "PATIENCE_NS", patience_ns)
         project = read_project(folder)
         quick = replace(project, plc=replace(project.plc, init_timeout_ns=600 * MS))
 
         def look_and_shorten(supervised):
-            if is_there(supervised):
-                supervised._project = quick
+            supervised._project = quick if is_there(supervised) else project
             look(supervised)
 
         with Supervisor(project, **options) as supervised:
@@ -273,7 +277,10 @@ def test_a_scan_that_was_stopped_in_its_sleep_is_ended(program, supervise, monke
             if is_over:
                 supervised._for_ns = 1  # the scan has more, or it might have ended by itself
 
-    fault = supervise(program(cyclic="pass"), look, for_ns=100_000 * MS)["fault"]
+    result = supervise(
+        program(cyclic="pass"), look, is_there=lambda _: stopped, for_ns=100_000 * MS
+    )
+    fault = result["fault"]
     assert (fault["program"], fault["unit"]) == ("scan", "")
     limit = "400 ms" if is_over else "610 ms"
     assert fault["text"] == f"the scan did not go on for {limit}; no program was active"
@@ -281,7 +288,7 @@ def test_a_scan_that_was_stopped_in_its_sleep_is_ended(program, supervise, monke
 
 def test_a_scan_that_hangs_in_latch_is_ended_with_its_place(program, supervise):
     folder = program(before=HANGING_LATCH, cyclic="pass")
-    fault = supervise(folder)["fault"]
+    fault = supervise(folder, is_there=is_at_work)["fault"]
     assert fault["text"] == "the scan did not go on for 610 ms; no program was active"
     assert fault["location"] == line_of(folder, "while True: pass")
 

@@ -119,7 +119,7 @@ def node_red_flow(tank: Any) -> list[dict[str, Any]]:
     holding = {"dataType": "HoldingRegister", "adr": "4", "quantity": "1", "unitid": "1"}
     inject = {"id": "inject1", "type": "inject", "z": tab, "props": [{"p": "payload"}],
               "payload": "55", "payloadType": "num", "once": True, "onceDelay": 2,
-              "wires": [["write1"]]}  # fmt: skip
+              "repeat": "5", "wires": [["write1"]]}  # fmt: skip
     write = {"id": "write1", "type": "modbus-write", "z": tab, "server": server, **holding}
     return [*nodes, inject, write]
 

@@ -75,7 +75,7 @@ def test_our_client_drives_a_rospy_server(ros: Ros) -> None:
     assert goal.result is not None
     assert (goal.state, goal.text, goal.result.result) == (GoalState.SUCCEEDED, "twice", 42)
     assert goal.feedback is not None
-    stopped = client.send(goal=1)
+    stopped = client.send(goal=5_000)
     ros.until(lambda: stopped.state is GoalState.ACTIVE)
     client.cancel(stopped)
     ros.until(lambda: stopped.is_over)

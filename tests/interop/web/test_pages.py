@@ -359,7 +359,7 @@ def test_everything_is_reached_by_keys(page, press):
     page.get_by_role("button", name="Value of line.setpoint", exact=True).focus()
     page.keyboard.press("Enter")
     page.get_by_label("New value").wait_for()
-    assert page.evaluate("document.activeElement.id") == "new-value"
+    eventually(page, lambda: page.evaluate("document.activeElement.id") == "new-value")
     page.keyboard.press("Control+a")
     page.keyboard.type("3.75")
     page.keyboard.press("Tab")

@@ -2,7 +2,7 @@
 
     action_peer.py client FULL_TEXT_FILE NAME [JOINTS [TARGETS]] | server NAME
 
-A target with ! behind it is cancelled after 0.3 s.
+A target with ! behind it has much time, and is cancelled once feedback has come.
 
 The types are made of their full text, for Debian has no control_msgs.
 """
@@ -33,13 +33,15 @@ def client(text_file, name, joints="a,b", targets="0.5,50.0!,1.0"):
         target, stop = float(word.rstrip("!")), word.endswith("!")
         goal = goal_type()
         goal.trajectory.joint_names = names
+        time_s = 100 if stop else 1
         goal.trajectory.points = [
-            point_type(positions=[target] * len(names), time_from_start=rospy.Duration(1))
+            point_type(positions=[target] * len(names), time_from_start=rospy.Duration(time_s))
         ]
         heard = []
         made.send_goal(goal, feedback_cb=heard.append)
         if stop:
-            made.wait_for_result(rospy.Duration(0.3))
+            while not heard:
+                rospy.sleep(0.01)
             made.cancel_goal()
         made.wait_for_result(rospy.Duration(60))
         result = made.get_result()
@@ -49,9 +51,9 @@ def client(text_file, name, joints="a,b", targets="0.5,50.0!,1.0"):
 
 def server(name):
     def execute(goal):
-        for number in range(3):
+        for number in range(goal.goal):
             made.publish_feedback(TestFeedback(number))
-            rospy.sleep(0.05)
+            rospy.sleep(0.02)
             if made.is_preempt_requested():
                 made.set_preempted(TestResult(-1))
                 return

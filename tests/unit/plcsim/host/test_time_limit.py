@@ -3,6 +3,7 @@
 import signal
 import sys
 import threading
+import time
 
 import pytest
 
@@ -76,7 +77,7 @@ def test_what_catches_everything_in_a_loop_is_ended(act, monkeypatch):
 
 
 def test_what_returns_is_left_alone(alarms):
-    with time_limit(SHORT_NS):
+    with time_limit(10**12):
         pass
     assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
     signal.raise_signal(signal.SIGALRM)
@@ -87,14 +88,15 @@ def test_an_alarm_that_comes_after_its_block_is_no_fault(alarms):
     signal.signal(signal.SIGALRM, signal.SIG_DFL)
     with pytest.raises(CycleTimeViolation), time_limit(SHORT_NS):
         spin()
-    assert callable(signal.getsignal(signal.SIGALRM))  # the default would end the process
-    signal.raise_signal(signal.SIGALRM)  # as one does that another thread was handed
+    assert signal.getsignal(signal.SIGALRM) is signal.SIG_DFL  # and the process has not ended by it
     assert not alarms
 
 
-def test_an_alarm_that_comes_while_things_are_put_back_is_no_fault(alarms, monkeypatch):
+def test_an_alarm_that_comes_while_it_begins_or_things_are_put_back_is_no_fault(
+    alarms, monkeypatch
+):
     class Late:
-        """Signals, of which one was handed to another thread that is slow."""
+        """Signals, of which some come between two steps."""
 
         SIGALRM = signal.SIGALRM
         ITIMER_REAL = signal.ITIMER_REAL
@@ -104,7 +106,10 @@ def test_an_alarm_that_comes_while_things_are_put_back_is_no_fault(alarms, monke
         @staticmethod
         def signal(number, handler):
             signal.raise_signal(number)
-            return signal.signal(number, handler)
+            found = signal.signal(number, handler)
+            if handler is not before:
+                signal.raise_signal(number)
+            return found
 
     before = signal.getsignal(signal.SIGALRM)
     monkeypatch.setattr(time_limit_module, "signal", Late)
@@ -116,14 +121,15 @@ def test_an_alarm_that_comes_while_things_are_put_back_is_no_fault(alarms, monke
 
 def test_an_alarm_of_somebody_else_is_on_again(alarms):
     signal.setitimer(signal.ITIMER_REAL, 1000, 5)
-    with time_limit(SHORT_NS):
+    with time_limit(10**12):
         pass
     left_s, interval_s = signal.getitimer(signal.ITIMER_REAL)
     assert 900 < left_s <= 1000
     assert interval_s == pytest.approx(5)
     signal.setitimer(signal.ITIMER_REAL, 1e-6)
     with time_limit(10**12):
-        while signal.getitimer(signal.ITIMER_REAL)[0] > 999.99:
+        over_s = time.monotonic() + 0.01
+        while time.monotonic() < over_s:
             pass  # until the other one is overdue
     while not alarms:
         pass
