@@ -38,7 +38,7 @@ CAMPAIGN = """
     from pathlib import Path
     from plcsim.campaign import *
 
-    SLOW = Path("FOLDER") / "slow"
+    SLOW = Path("SLOW_FILE")
     campaign = Campaign(
         variables={
             "ramp.step": Uniform(0, 10), "ramp.trouble": Choice(*TROUBLE), "pause": Choice(PAUSE)
@@ -67,12 +67,17 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def slow_file(folder: Path) -> Path:
+    """Return the file while which is there runs pause; it is no part of the project."""
+    return folder.with_name(f"{folder.name}-slow")
+
+
 def write(
     folder: Path, runs: int, pause: float = 0, trouble: str = "0,", limit: str = "100s"
 ) -> None:
     text = textwrap.dedent(CAMPAIGN).replace("RUNS", str(runs)).replace("PAUSE", str(pause))
-    text = text.replace("LIMIT", limit).replace("FOLDER", str(folder))
-    (folder / "slow").touch()
+    text = text.replace("LIMIT", limit).replace("SLOW_FILE", str(slow_file(folder)))
+    slow_file(folder).touch()
     (folder / "ramps.py").write_text(text.replace("TROUBLE", f"({trouble})"))
 
 
@@ -135,7 +140,7 @@ def test_an_interrupted_campaign_goes_on_where_it_was(folder: Path) -> None:
     os.killpg(running.pid, signal.SIGINT)
     assert "the same command goes on from here" in running.communicate(timeout=200)[0]
     assert running.returncode == 130
-    (folder / "slow").unlink()
+    slow_file(folder).unlink()
     done = plcsim(folder, "ramps.py")
     assert "runs are done already" in done.stdout
     rows = table(folder)
