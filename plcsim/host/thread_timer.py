@@ -15,6 +15,8 @@ import time
 _SIGEV_THREAD_ID = 4
 
 _libc = ctypes.CDLL(None, use_errno=True)
+if not hasattr(_libc, "timer_create"):
+    _libc = ctypes.CDLL("librt.so.1", use_errno=True)  # before glibc 2.34
 
 
 class _Event(ctypes.Structure):
