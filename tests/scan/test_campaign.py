@@ -119,16 +119,17 @@ def test_a_campaign_from_first_to_last(folder: Path) -> None:
 
 
 def test_runs_that_crash_or_hang_cost_nothing_but_themselves(folder: Path) -> None:
-    write(folder, 12, trouble="0, 1, 2", limit="5s")
+    write(folder, 12, trouble="2, 0, 1, 0, 1", limit="20s")
     done = plcsim(folder, "ramps.py", "--no-shrink")
     rows = table(folder)
     assert len(rows) == 12, done.stderr
+    # what does not hang has the time that a process on a busy host takes for its first run
     outcomes = {0: {"passed", "failed"}, 1: {"crashed"}, 2: {"hung"}}
     assert {row["value ramp.trouble"] for row in rows} == {0, 1, 2}
     for row in rows:
         assert row["outcome"] in outcomes[int(str(row["value ramp.trouble"]))]
     assert "its process ended: exit code 7" in done.stdout
-    assert "took longer than 5 s" in done.stdout
+    assert "took longer than 20 s" in done.stdout
 
 
 def test_an_interrupted_campaign_goes_on_where_it_was(folder: Path) -> None:

@@ -69,7 +69,7 @@ def ask(script, tmp_path):
             "fish": ["fish", "--no-config", "-c", ASK_FISH, file, " ".join(words)],
         }[shell]
         found = subprocess.run(
-            command, capture_output=True, text=True, check=True, cwd=tmp_path / "here", timeout=30
+            command, capture_output=True, text=True, check=True, cwd=tmp_path / "here", timeout=100
         )
         assert found.stderr == ""
         offered = {line.partition("\t")[0] for line in found.stdout.splitlines()} - {""}
