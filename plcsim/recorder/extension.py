@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import asdict
-from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
@@ -16,7 +15,6 @@ from plcsim.recorder.journal.network import RecordedNetwork
 from plcsim.recorder.journal.record import record_of
 from plcsim.recorder.journal.tape import Tape
 from plcsim.recorder.settings import RecordProject, read_settings
-from plcsim.shared_image.events import EventKind
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -33,8 +31,6 @@ if TYPE_CHECKING:
 
 SOURCES: Final = frozenset((".py", ".st", ".c", ".h", ".typ", ".var", ".fun", ".toml"))
 """Files that a run depends on, by their ending."""
-
-_RECORD: Final = EventKind.RECORD.value
 
 
 class RecordExtension(Extension):
@@ -97,12 +93,10 @@ class RecordExtension(Extension):
         }
 
         def connect(stream: StreamWriter) -> None:
-            # no function of Python: one more would cost each cycle some microseconds
-            send = partial(stream.write, _RECORD)
             if in_scan is not None:
-                in_scan.show = send
+                in_scan.show = stream.write
             else:
-                tape.write = send
+                tape.write = stream.write  # as it is: one function more would cost each cycle
 
         return Attachment(given, (), settings.settings.buffer, connect)
 
@@ -147,7 +141,7 @@ def sources_of(folder: Path) -> dict[str, str]:
     return found
 
 
-def _nowhere(_time_ns: int, _record: bytes) -> None:
+def _nowhere(_kind: int, _time_ns: int, _record: bytes) -> None:
     """Take a record while nobody is there to send it to."""
 
 
@@ -167,11 +161,11 @@ class _InScan:
         limits = settings.settings.limits
         self._writing: Writing | None = Writing(settings.file, head, limits)
         self._number = 0
-        self.show: Callable[[int, bytes], None] = _nowhere
+        self.show: Callable[[int, int, bytes], None] = _nowhere
         self._controller = controller
         controller.logbook.follow(self._log)
 
-    def write(self, time_ns: int, data: bytes) -> None:
+    def write(self, kind: int, time_ns: int, data: bytes) -> None:
         """Write a record, then show it; behind the last one the bag is closed."""
         if self._writing is not None:
             record = record_of(data)
@@ -183,7 +177,7 @@ class _InScan:
             except OSError as err:
                 self._give_up(err)
             self._number += 1
-        self.show(time_ns, data)
+        self.show(kind, time_ns, data)
 
     def _log(self, entry: Entry) -> None:
         if self._writing is not None:

@@ -104,17 +104,20 @@ class StreamWriter:
         count = len(data)
         size = count + _HEAD_AND_PADDING & -8
         start = self._start
-        if start + size > self._room_end:
+        end = start + size
+        if end > self._room_end:
             if 2 * size > self._size:
                 self._cells[self._at_too_long] += 1
                 return
             start = self._make_room(size)
-        ring, cells, begin = self._ring, self._cells, start + _HEAD_SIZE
-        padding = size - count - _HEAD_SIZE
-        _pack_head(ring, start, size, padding << _KIND_BITS | kind, self._records, time_ns)
-        ring[begin : begin + count] = data
-        self._start = start + size
-        self._records = cells[self._at_records] = self._records + 1
+            end = start + size
+        ring, cells, records = self._ring, self._cells, self._records
+        begin = start + _HEAD_SIZE
+        behind = begin + count
+        _pack_head(ring, start, size, end - behind << _KIND_BITS | kind, records, time_ns)
+        ring[begin:behind] = data
+        self._start = end
+        self._records = cells[self._at_records] = records + 1
         self._head = cells[self._at_head] = self._head + size
 
     def _make_room(self, size: int) -> int:

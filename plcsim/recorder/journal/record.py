@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 CYCLE: Final = 0
 """`JournalRecord.step` of a cycle; any other is a `plcsim.core.control.Step` that comes next."""
 
+NO_CLASS: Final = 0
+"""`JournalRecord.task_class` of a step."""
+
 LIMITS: Final = struct.Struct("<qq")
 """``variables`` of the step RUN: its end on the clock and its cycles, 0 for none."""
 
@@ -51,7 +54,7 @@ class JournalRecord(NamedTuple):
 
     Attributes:
         step: `CYCLE`, or the value of the step that follows.
-        task_class: number of the class whose cycle ends, 0 where none does.
+        task_class: number of the class whose cycle ends, `NO_CLASS` where none does.
         cycle: of that class, from 1.
         time_ns: release of the cycle on the controller's clock; of a step, the time.
         clock: answers of the clock, in nanoseconds and counts, in order: 64-bit numbers, see
@@ -79,13 +82,18 @@ class JournalRecord(NamedTuple):
 
 
 def record_of(data: bytes) -> JournalRecord:
-    """Return the record of `plcsim.recorder.journal.journal.Journal.take`."""
-    values = marshal.loads(data)  # noqa: S302  # from the scan, through its own memory
-    step, task_class, cycle, time_ns, *gathered = values
-    clock, network, writes, topics, messages, variables, timings = gathered
+    """Return the record of `plcsim.recorder.journal.tape.Tape`."""
+    number, *told, topics, gathered = marshal.loads(data)  # noqa: S302  # from the scan, through its own memory
+    clock, network, writes, messages, variables = gathered
+    if number == NO_CLASS:
+        step, time_ns, given, timings = told
+        cycle, variables = 0, [given]
+    else:
+        cycle, time_ns, *figures = told
+        step, timings = CYCLE, [(number, cycle, cycle - 1, *figures)]
     return JournalRecord(
         step,
-        task_class,
+        number,
         cycle,
         time_ns,
         struct.pack(f"<{len(clock)}q", *clock),

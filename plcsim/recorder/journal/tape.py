@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.control import Step
 from plcsim.core.system import State
 from plcsim.core.task import HIGHEST_CLASS
-from plcsim.recorder.journal.record import CYCLE, LIMITS
+from plcsim.recorder.journal.record import LIMITS, NO_CLASS
+from plcsim.shared_image.events import EventKind
 from plcsim.shared_image.force_list import encode_forces
 
 if TYPE_CHECKING:
@@ -19,7 +20,9 @@ if TYPE_CHECKING:
     from plcsim.recorder.journal.journal import Journal
 
 TOPICS_EVERY: Final = 1000
-"""Records after which all topics are described again."""
+"""Cycles of a class after which all topics are described again."""
+
+_RECORD: Final = EventKind.RECORD.value
 
 _FORMAT: Final = 2
 """Of marshal; later ones look for what is the same twice."""
@@ -36,26 +39,30 @@ class Tape:
     Args:
         controller: that is recorded; its clock and network write into the journal.
         journal: what they write into.
-        write: takes the time and the bytes of each record (`record_of`).
+        write: takes each record (`record_of`) as `StreamWriter.write` does: kind, time, bytes.
 
     Attributes:
         write: as above; may be replaced.
     """
 
     __slots__ = (
+        "_clear_clock",
+        "_clear_latches",
+        "_clear_messages",
+        "_clear_network",
+        "_clear_writes",
         "_controller",
         "_described",
+        "_gathered",
         "_journal",
-        "_left",
         "_scan",
         "_topics",
-        "_views",
         "_violations",
         "write",
     )
 
     def __init__(
-        self, controller: Controller, journal: Journal, write: Callable[[int, bytes], object]
+        self, controller: Controller, journal: Journal, write: Callable[[int, int, bytes], object]
     ) -> None:
         self._controller = controller
         self._journal = journal
@@ -63,9 +70,16 @@ class Tape:
         self._scan = controller.scan
         self._violations = [0] * (HIGHEST_CLASS + 1)  # by number: to add up causes takes longer
         memory = controller.memory
-        self._views = [memory.view(a.address, a.data_type.size) for a in controller.areas]
-        if sum(map(len, self._views)) > MOST_VARIABLES:
-            self._views = []
+        views = [memory.view(a.address, a.data_type.size) for a in controller.areas]
+        if sum(map(len, views)) > MOST_VARIABLES:
+            views = []
+        # Always the same objects, so that they are named and looked up once and not in each cycle.
+        self._gathered = journal.clock, journal.network, journal.writes, journal.messages, views
+        self._clear_clock = journal.clock.clear
+        self._clear_network = journal.network.clear
+        self._clear_writes = journal.writes.clear
+        self._clear_messages = journal.messages.clear
+        self._clear_latches = journal.latches.clear
         controller.image.inputs.insert(0, journal.latches.append)
         controller.image.watchers.insert(0, self.take)  # as in a replay, whoever else is there
         controller.image.followers.append(journal.wrote)
@@ -76,7 +90,6 @@ class Tape:
         traffic = controller.context.traffic
         self._topics = traffic.topics
         self._described = 0
-        self._left = TOPICS_EVERY
         traffic.followers.append(journal.messages.append)
         traffic.hand_in_followers.append(journal.handed_in)
 
@@ -86,91 +99,83 @@ class Tape:
     def _violated(self, violation: Violation) -> None:
         self._violations[violation.task_class] += 1
 
-    def take(
-        self,
-        task_class: TaskClass | None,
-        step: int = CYCLE,
-        time_ns: int = 0,
-        variables: Sequence[bytes | memoryview] = _NONE,
-        timings: Sequence[tuple[int, ...]] = _NONE,
-    ) -> None:
-        """Make a record of what was gathered, and begin the next.
+    def take(self, task_class: TaskClass) -> None:
+        """Make a record of a cycle in its PUBLISH, and begin the next.
 
         It is one function, and marshal is one call, for after each sleep the caches are cold: a
         function more costs every cycle some microseconds.
-
-        Args:
-            task_class: whose cycle ends; the others are then what they are. None for a step.
-            step: as of `plcsim.recorder.journal.record.JournalRecord`; the others too.
-            time_ns: see there.
-            variables: see there, in pieces.
-            timings: see there, each a plain tuple.
         """
-        number = cycles = 0
-        if task_class is not None:
-            number, cycles, time_ns = task_class.number, task_class.cycles, task_class.release_ns
-            variables = self._views
-            timing = (  # as of `_timing`
-                number,
-                cycles,
-                cycles - 1,
-                task_class.missed,
-                self._violations[number],
-                task_class.lateness.last_ns,
-                task_class.execution.last_ns,
-                self._scan.halted,
-            )
-            timings = (timing,)
+        number, cycles, time_ns = task_class.number, task_class.cycles, task_class.release_ns
         topics: Sequence[object] = _NONE
-        self._left -= 1
-        if not self._left or len(self._topics) != self._described:
-            topics = self._descriptions()
-        journal = self._journal
-        clock, network, messages = journal.clock, journal.network, journal.messages
-        writes, latches = journal.writes, journal.latches
-        head = step, number, cycles, time_ns
-        record: Any = *head, clock, network, writes, topics, messages, variables, timings
-        data = dumps(record, _FORMAT)
-        clock.clear()  # the lists stay the same: clock and network hold on to them
-        network.clear()
-        writes.clear()
-        messages.clear()
-        latches.clear()
-        self.write(time_ns, data)
-
-    def _descriptions(self) -> list[tuple[int, tuple[object, ...]]]:
-        """Return the topics that are new; now and then all, for a recorder that came later."""
-        first = self._described if self._left else 0
-        self._left = self._left or TOPICS_EVERY
-        self._described = len(self._topics)
-        return [(n, tuple(topic)) for n, topic in enumerate(self._topics)][first:]
-
-    def _timing(self, task_class: TaskClass, executed: int, *, is_service: bool) -> tuple[int, ...]:
-        """Return a `plcsim.recorder.journal.record.ClassTiming` as marshal takes it."""
-        number = task_class.number
-        return (
+        if len(self._topics) != self._described or not cycles % TOPICS_EVERY:
+            topics = self._descriptions(all_of_them=not cycles % TOPICS_EVERY)
+        record: Any = (
             number,
-            task_class.cycles,
-            executed,
+            cycles,
+            time_ns,
             task_class.missed,
             self._violations[number],
             task_class.lateness.last_ns,
             task_class.execution.last_ns,
-            is_service,
+            self._scan.halted,
+            topics,
+            self._gathered,
         )
+        data = dumps(record, _FORMAT)
+        self._clear_clock()  # the lists stay the same: clock and network hold on to them
+        self._clear_network()
+        self._clear_writes()
+        self._clear_messages()
+        self._clear_latches()
+        self.write(_RECORD, time_ns, data)
+
+    def take_step(
+        self, step: int, time_ns: int, given: bytes = b"", timings: Sequence[tuple[int, ...]] = ()
+    ) -> None:
+        """Make a record of what was gathered before a step, and begin the next.
+
+        Args:
+            step: as of `plcsim.recorder.journal.record.JournalRecord`; the others too.
+            time_ns: see there.
+            given: the variables.
+            timings: see there, each a plain tuple.
+        """
+        topics = self._descriptions(all_of_them=False)
+        record: Any = NO_CLASS, step, time_ns, given, timings, topics, self._gathered
+        data = dumps(record, _FORMAT)
+        for gathered in (*self._gathered[:-1], self._journal.latches):
+            gathered.clear()
+        self.write(_RECORD, time_ns, data)
+
+    def _descriptions(self, *, all_of_them: bool) -> list[tuple[int, tuple[object, ...]]]:
+        """Return the topics that are new; now and then all, for a recorder that came later."""
+        first = 0 if all_of_them else self._described
+        self._described = len(self._topics)
+        return [(n, tuple(topic)) for n, topic in enumerate(self._topics)][first:]
 
     def _timings(self) -> list[tuple[int, ...]]:
-        """Return the timing of all classes that have run."""
+        """Return a `plcsim.recorder.journal.record.ClassTiming` of each class that has run."""
         is_service = self._controller.state is State.SERVICE
-        ran = [each for each in self._controller.classes if each.cycles]
-        return [self._timing(each, each.cycles, is_service=is_service) for each in ran]
+        return [
+            (
+                each.number,
+                each.cycles,
+                each.cycles,
+                each.missed,
+                self._violations[each.number],
+                each.lateness.last_ns,
+                each.execution.last_ns,
+                is_service,
+            )
+            for each in self._controller.classes
+            if each.cycles
+        ]
 
     def _stepped(self, step: Step, until_ns: int, cycles: int) -> None:
-        time_ns = self._controller.clock.stamp_ns()
         given = b""
         if step is Step.RUN:
             given = LIMITS.pack(until_ns, cycles)
         elif step is Step.BOOT:
             given = self._controller.retained.to_bytes()
         timings = self._timings() if step in (Step.BOOT, Step.CLOSE) else ()
-        self.take(None, step.value, time_ns, (given,), timings)
+        self.take_step(step.value, self._controller.clock.stamp_ns(), given, timings)

@@ -40,7 +40,7 @@ class RecorderFixture:
         self._records: list[bytes] = []
         Tape(plc.controller, Journal(), self._keep)
 
-    def _keep(self, _time_ns: int, record: bytes) -> None:
+    def _keep(self, _kind: int, _time_ns: int, record: bytes) -> None:
         if self._plc.winding.is_winding and record_of(record).step == Step.BOOT.value:
             self._records.clear()
         self._records.append(record)

@@ -14,5 +14,6 @@ def taken(journal: Journal) -> JournalRecord:
     net = VirtualNetwork(clock.now_ns).host("192.168.0.10")
     controller = make_controller(application_of(Fast).setup, network=net, clock=clock)
     data: list[bytes] = []
-    Tape(controller, journal, lambda _time_ns, record: data.append(record)).take(None)
+    tape = Tape(controller, journal, lambda _kind, _time_ns, record: data.append(record))
+    tape.take(controller.classes[0])
     return record_of(*data)

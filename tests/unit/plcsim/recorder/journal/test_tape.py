@@ -32,7 +32,7 @@ class Taped:
         self.journal = Journal()
         Tape(self.controller, self.journal, self._keep)
 
-    def _keep(self, _time_ns: int, data: bytes) -> None:
+    def _keep(self, _kind: int, _time_ns: int, data: bytes) -> None:
         self.records.append(record_of(data))
 
     def run(self, cycles: int) -> None:
@@ -87,10 +87,10 @@ def test_topics_are_described_once_and_now_and_then() -> None:
     assert traffic.number_of(OTHER) == 1
     taped.run(TOPICS_EVERY)
 
-    described = {n: each.topics for n, each in enumerate(taped.records, 1) if each.topics}
+    described = {n: each.topics for n, each in enumerate(taped.records) if each.topics}
 
     (first, second, third) = described
     assert described[first] == [(0, CHATTER)]
     assert described[second] == [(1, OTHER)]
     assert described[third] == [(0, CHATTER), (1, OTHER)]
-    assert third == TOPICS_EVERY
+    assert taped.records[third].cycle == TOPICS_EVERY
