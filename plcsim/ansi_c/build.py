@@ -40,6 +40,7 @@ _OPTIONS = (
     # or a malloc that nobody uses is left out and cannot fail
     *("-fno-builtin-printf", "-fno-builtin-fprintf", "-fno-builtin-sprintf"),  # or iprintf ...
     *("-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-realloc", "-fno-builtin-free"),
+    *("-fno-builtin-aligned_alloc", "-fno-builtin-reallocarray"),
     *("-fno-math-errno", "-ffp-contract=off", "-fgnuc-version=11.3.0"),
     # long double is double: the one of 128 bits that WebAssembly has would be computed in software
     *("-Xclang", "-mlong-double-64"),
@@ -69,9 +70,9 @@ _CPP_OPTIONS = (
 )
 _TO_BITCODE = ("-Xclang", "-emit-llvm-bc")
 _SECOND = (
-    # Two rounds for one jump back, and one poll, in small loops whose rounds nobody knows. In the
-    # first run the same option would keep loops of fixed rounds from being written out.
-    *("-mllvm", "-unroll-count=2"),
+    # Several rounds for one jump back, and one poll, in small loops whose rounds nobody knows (how
+    # many, `Toolchain.rounds` says). In the first run the same option would keep loops of fixed
+    # rounds from being written out.
     *("-mllvm", "-unroll-threshold=60", "-mllvm", "-pragma-unroll-threshold=60"),
     "-Wno-unused-command-line-argument",
 )
@@ -232,8 +233,9 @@ class _Object:
             *(part for folder in order.folders[-1:] for part in ("-I", str(folder))),
             str(source),
         ]
-        self._second_command = [*toolchain.c, *_OPTIONS, *order.options, *_SECOND]
-        self._manifest = _key("manifest", toolchain.identity, *self.command, *_SECOND)
+        second = [*_SECOND, "-mllvm", f"-unroll-count={toolchain.rounds}"]
+        self._second_command = [*toolchain.c, *_OPTIONS, *order.options, *second]
+        self._manifest = _key("manifest", toolchain.identity, *self.command, *second)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""

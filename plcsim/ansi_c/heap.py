@@ -26,6 +26,8 @@ _FUNCTIONS: Final = {
     "malloc": ("plc_malloc", 1, 1),
     "calloc": ("plc_calloc", 2, 1),
     "realloc": ("plc_realloc", 2, 1),
+    "reallocarray": ("plc_reallocarray", 3, 1),
+    "aligned_alloc": ("plc_aligned_alloc", 2, 1),
     "free": ("plc_free", 1, 0),
     "strdup": ("plc_strdup", 1, 1),
     "strndup": ("plc_strndup", 2, 1),

@@ -25,9 +25,19 @@ _IS_NESTED = (
     "function, and hand it what it uses of that"
 )
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
+_THREADS = "a controller has no threads: a program's units run in its task class"
+_PROCESSES = "a controller has one process, and no system around it"
 _ELSEWHERE = {
-    **dict.fromkeys(("sys/ioctl.h", "sys/un.h", "net/if.h", "sys/epoll.h"), _SOCKETS),
-    "pthread.h": "a controller has no threads: a program's units run in its task class",
+    **dict.fromkeys(("sys/un.h", "net/if.h", "sys/epoll.h", "sys/uio.h", "ifaddrs.h"), _SOCKETS),
+    **dict.fromkeys(("threads.h", "semaphore.h"), _THREADS),
+    **dict.fromkeys(("sys/wait.h", "sys/mman.h", "sys/resource.h", "spawn.h"), _PROCESSES),
+    **dict.fromkeys(("pwd.h", "grp.h", "sys/utsname.h", "execinfo.h"), _PROCESSES),
+    "dlfcn.h": "libraries are linked when a program is built",
+    "termios.h": "a controller has no terminal; serial interfaces are the library DVFrame",
+    "syslog.h": "the logbook is the library ArEventLog",
+    **dict.fromkeys(
+        ("regex.h", "glob.h", "fnmatch.h", "iconv.h"), "this is none of the C library here"
+    ),
 }
 
 

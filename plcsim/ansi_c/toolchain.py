@@ -56,6 +56,7 @@ class Toolchain(NamedTuple):
         linker: command that links, with what its version needs.
         cpp_options: by which C++ finds the headers of its library, where the toolchain has it.
         libraries: what these headers need is linked from here.
+        rounds: of a small loop for one jump back: what was fastest (docs/decisions/0034).
     """
 
     name: str
@@ -65,6 +66,7 @@ class Toolchain(NamedTuple):
     linker: tuple[str, ...]
     cpp_options: tuple[str, ...] = ()
     libraries: tuple[StaticLibrary, ...] = ()
+    rounds: int = 2
 
     def environment(self) -> dict[str, str]:
         """Return the environment to run it in: nothing of the user's C setup takes part."""
@@ -141,6 +143,7 @@ def system_clang() -> Toolchain | None:
                 (clang, f"--target={_TARGET}"),
                 (cpp, f"--target={_TARGET}"),
                 (linker, _DYNAMIC) if found > OLDEST else (linker,),
+                rounds=4 if found == OLDEST else 2,
             )
     return None
 

@@ -6,9 +6,9 @@
 #define assert(condition) ((void)0)
 #else
 #ifdef __cplusplus
-extern "C" void plc_assert(const char *text) __attribute__((noreturn));
+extern "C" void plc_assert(const char *text) __attribute__((__noreturn__));
 #else
-void plc_assert(const char *text) __attribute__((noreturn));
+void plc_assert(const char *text) __attribute__((__noreturn__));
 #define static_assert _Static_assert
 #endif
 #define assert(condition) \

@@ -22,6 +22,9 @@ int isxdigit(int c);
 int tolower(int c);
 int toupper(int c);
 
+#define isascii(c) (((c) & ~0x7f) == 0)
+#define toascii(c) ((c) & 0x7f)
+
 #ifdef __cplusplus
 }
 #endif

@@ -15,7 +15,7 @@ typedef struct {
 typedef jmp_buf sigjmp_buf;
 
 int setjmp(jmp_buf target) __attribute__((returns_twice));
-void longjmp(jmp_buf target, int value) __attribute__((noreturn));
+void longjmp(jmp_buf target, int value) __attribute__((__noreturn__));
 
 #define setjmp(target) setjmp(target)
 #define _setjmp(target) setjmp(target)

@@ -22,6 +22,10 @@ void *malloc(size_t size);
 void *calloc(size_t count, size_t size);
 void *realloc(void *area, size_t size);
 void free(void *area);
+void *aligned_alloc(size_t alignment, size_t size);
+void *reallocarray(void *area, size_t count, size_t size);
+#define posix_memalign(area, alignment, size) \
+	((*(area) = aligned_alloc(alignment, size)) ? 0 : 12 /* ENOMEM */)
 
 int atoi(const char *text);
 long atol(const char *text);
@@ -51,10 +55,10 @@ void *bsearch(const void *key, const void *area, size_t count, size_t size,
               int (*compare)(const void *, const void *));
 
 /* Both end the controller's run, as a fault. */
-void abort(void) __attribute__((noreturn));
-void exit(int status) __attribute__((noreturn));
+void abort(void) __attribute__((__noreturn__));
+void exit(int status) __attribute__((__noreturn__));
 
-void _Exit(int status) __attribute__((noreturn));
+void _Exit(int status) __attribute__((__noreturn__));
 int atexit(void (*function)(void)); /* never called: a program does not exit */
 
 char *getenv(const char *name); /* NULL */

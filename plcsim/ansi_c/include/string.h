@@ -41,6 +41,8 @@ char *stpncpy(char *target, const char *source, size_t count);
 void *mempcpy(void *target, const void *source, size_t count);
 void *memccpy(void *target, const void *source, int last, size_t count);
 void *memmem(const void *area, size_t size, const void *part, size_t length);
+char *strchrnul(const char *text, int character); /* where the text ends, if it is not there */
+void *rawmemchr(const void *area, int value); /* which is there */
 void *memrchr(const void *area, int value, size_t count);
 char *strerror(int number);
 int strerror_r(int number, char *text, size_t size);

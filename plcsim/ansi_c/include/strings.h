@@ -11,4 +11,16 @@
 #define index(text, character) strchr(text, character)
 #define rindex(text, character) strrchr(text, character)
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+int ffs(int value); /* number of the lowest bit that is set, from 1; 0 for none */
+int ffsl(long value);
+int ffsll(long long value);
+
+#ifdef __cplusplus
+}
+#endif
+
 #endif

@@ -40,6 +40,11 @@ int isatty(int file);
 int gethostname(char *name, size_t size);
 char *getcwd(char *path, size_t size); /* "", the first device */
 
+/* Options of an argument vector, short ones (POSIX). */
+extern char *optarg;
+extern int optind, opterr, optopt;
+int getopt(int count, char *const arguments[], const char *options);
+
 unsigned alarm(unsigned seconds); /* 0: there are no signals */
 long sysconf(int name); /* -1 */
 
@@ -53,7 +58,7 @@ long sysconf(int name); /* -1 */
 /* 0 of them is no waiting. More are faults: what waits is written as states that go on in the next cycle. */
 unsigned sleep(unsigned seconds);
 int usleep(useconds_t microseconds);
-void _exit(int status) __attribute__((noreturn));
+void _exit(int status) __attribute__((__noreturn__));
 
 #ifdef __cplusplus
 }

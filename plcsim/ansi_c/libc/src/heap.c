@@ -8,6 +8,7 @@
 
 #include "heap.h"
 
+#include <errno.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -255,6 +256,43 @@ void *plc_realloc(struct plc_heap *heap, void *area, size_t size)
 		plc_free(heap, area);
 	}
 	return moved;
+}
+
+/* Takes an area that is larger, makes two of it where the second is aligned, and frees the first. */
+void *plc_aligned_alloc(struct plc_heap *heap, size_t alignment, size_t size)
+{
+	if (!alignment || alignment & (alignment - 1)) {
+		errno = EINVAL;
+		return 0;
+	}
+	if (alignment <= UNIT)
+		return plc_malloc(heap, size);
+	size_t more = alignment + sizeof(block);
+	if (alignment >= heap->size || size >= heap->size)
+		more = heap->size; /* which is refused */
+	char *area = plc_malloc(heap, size < heap->size ? rounded(size) + more : size);
+	if (!area || !((uintptr_t)area & (alignment - 1)))
+		return area ? plc_realloc(heap, area, size) : 0;
+	char *aligned = (char *)(((uintptr_t)area + sizeof(block) + alignment - 1) & ~(alignment - 1));
+	block *b = block_of(area), *second = block_of(aligned), *after = behind(b);
+	second->size = size_of(b) - (size_t)(aligned - area);
+	second->before = b;
+	b->size = (size_t)((char *)second - area);
+	after->before = second;
+	heap->count++;
+	count_use(heap, HEAD, 0);
+	plc_free(heap, area);
+	return plc_realloc(heap, aligned, size);
+}
+
+void *plc_reallocarray(struct plc_heap *heap, void *area, size_t count, size_t size)
+{
+	size_t all;
+	if (__builtin_mul_overflow(count, size, &all)) {
+		errno = ENOMEM;
+		return 0;
+	}
+	return plc_realloc(heap, area, all);
 }
 
 void *plc_calloc(struct plc_heap *heap, size_t count, size_t size)

@@ -32,6 +32,8 @@ void *plc_malloc(struct plc_heap *heap, size_t size);
 void *plc_calloc(struct plc_heap *heap, size_t count, size_t size);
 void *plc_realloc(struct plc_heap *heap, void *area, size_t size);
 void plc_free(struct plc_heap *heap, void *area);
+void *plc_aligned_alloc(struct plc_heap *heap, size_t alignment, size_t size);
+void *plc_reallocarray(struct plc_heap *heap, void *area, size_t count, size_t size);
 char *plc_strdup(struct plc_heap *heap, const char *text);
 char *plc_strndup(struct plc_heap *heap, const char *text, size_t most);
 

@@ -6,10 +6,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/ioctl.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include "host.h"
+
+int ffs(int value) { return value ? __builtin_ctz((unsigned)value) + 1 : 0; }
+int ffsl(long value) { return ffs((int)value); }
+int ffsll(long long value) { return value ? __builtin_ctzll((unsigned long long)value) + 1 : 0; }
 
 int access(const char *path, int mode)
 {
@@ -46,6 +52,7 @@ int setenv(const char *name, const char *value, int replace)
 {
 	return (void)name, (void)value, (void)replace, not_there();
 }
+int ioctl(int file, unsigned long request, ...) { return (void)file, (void)request, not_there(); }
 int isatty(int file) { return (void)file, 0; }
 
 int gethostname(char *name, size_t size)

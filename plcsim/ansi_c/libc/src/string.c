@@ -210,3 +210,11 @@ char *stpncpy(char *target, const char *source, size_t count)
 	strncpy(target, source, count);
 	return target + strnlen(source, count);
 }
+
+char *strchrnul(const char *text, int character)
+{
+	char *found = strchr(text, character);
+	return found ? found : (char *)text + strlen(text);
+}
+
+void *rawmemchr(const void *area, int value) { return memchr(area, value, (size_t)-1 >> 1); }

@@ -17,7 +17,8 @@ def folder(tmp_path):
         ("Inner.h", "deep/include/Inner.h: name its folder in [c] include of plc.toml"),
         ("strng.h", "did you mean string.h?"),
         ("sys/un.h", "TCP is the library AsTCP (AsTCP.h)"),
-        ("pthread.h", "a controller has no threads"),
+        ("threads.h", "a controller has no threads"),
+        ("sys/mman.h", "a controller has one process"),
     ],
 )
 def test_a_header_that_is_not_there_is_told_with_what_may_help(folder, header, hint):

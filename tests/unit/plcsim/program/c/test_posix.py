@@ -19,9 +19,11 @@ programs = ["main"]
 "F:" = "messages"
 """
 HEADERS = """
-assert ctype errno fcntl float inttypes limits locale math setjmp signal stdarg stdbool stddef
-stdint stdio stdlib string time wchar dirent libgen poll strings unistd malloc alloca endian netdb
-sys/param sys/select sys/socket sys/stat sys/time sys/types netinet/in netinet/tcp arpa/inet
+stdnoreturn pthread sched getopt byteswap features sys/cdefs sys/errno sys/fcntl sys/ioctl
+sys/poll sys/signal assert ctype errno fcntl float inttypes limits locale math setjmp signal
+stdarg stdbool stddef stdint stdio stdlib string time wchar dirent libgen poll strings unistd
+malloc alloca endian netdb sys/param sys/select sys/socket sys/stat sys/time sys/types
+netinet/in netinet/tcp arpa/inet
 """
 NODE = r"""
 #include <bur/plctypes.h>
@@ -254,6 +256,66 @@ static void network(void)
 	CHECK(be32toh(0x01020304) == 0x04030201 && MAX(2, 3) == 3);
 }
 
+static int started;
+static void start(void) { started++; }
+
+static void threads(void)
+{
+	static pthread_once_t done = PTHREAD_ONCE_INIT;
+	pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER, again;
+	pthread_mutexattr_t kind = 1;
+	CHECK(!pthread_mutex_lock(&mutex) && pthread_mutex_trylock(&mutex) == EBUSY);
+	CHECK(!pthread_mutex_unlock(&mutex) && pthread_mutex_unlock(&mutex) == EPERM);
+	CHECK(!pthread_mutexattr_init(&kind) && !kind);
+	CHECK(!pthread_mutexattr_settype(&kind, PTHREAD_MUTEX_RECURSIVE));
+	CHECK(!pthread_mutex_init(&again, &kind) && !pthread_mutex_lock(&again));
+	CHECK(!pthread_mutex_lock(&again));
+	CHECK(pthread_mutex_destroy(&again) == EBUSY);
+	CHECK(!pthread_once(&done, start) && !pthread_once(&done, start) && started == 1);
+	CHECK(pthread_equal(pthread_self(), pthread_self()) && !sched_yield());
+}
+
+static void options(void)
+{
+	char *given[] = {"p", "-a", "-bval", "-xc", "-b", "next", "--", "file"};
+	optind = 1, opterr = 0;
+	CHECK(getopt(8, given, "ab:c") == 'a' && !optarg);
+	CHECK(getopt(8, given, "ab:c") == 'b' && !strcmp(optarg, "val"));
+	CHECK(getopt(8, given, "ab:c") == '?' && optopt == 'x' && getopt(8, given, "ab:c") == 'c');
+	CHECK(getopt(8, given, "ab:c") == 'b' && !strcmp(optarg, "next"));
+	CHECK(getopt(8, given, "ab:c") == -1 && optind == 7);
+	optind = 4;
+	CHECK(getopt(5, given, ":b:") == ':' && optopt == 'b');
+}
+
+static void areas(void)
+{
+	void *area[60];
+	unsigned seed = 7;
+	for (unsigned i = 0; i < 60; i++) {
+		size_t alignment = 1u << rand_r(&seed) % 11, size = rand_r(&seed) % 500u + 1;
+		area[i] = aligned_alloc(alignment, size);
+		CHECK(area[i] && !((uintptr_t)area[i] % alignment));
+		memset(area[i], 0xA5, size);
+		if (i % 3 == 1) {
+			free(area[i - 1]);
+			area[i - 1] = NULL;
+		}
+		if (i % 5 == 2)
+			area[i] = realloc(area[i], 700);
+	}
+	for (unsigned i = 0; i < 60; i++)
+		free(area[i]);
+	CHECK(!aligned_alloc(3, 4) && !aligned_alloc(16, (size_t)-9));
+	CHECK(!aligned_alloc(0x80000000, 1));
+	CHECK(!posix_memalign(area, 64, 100) && !((uintptr_t)area[0] % 64));
+	free(area[0]);
+	CHECK(!reallocarray(NULL, 0x10000, 0x10001));
+	CHECK(ffs(0) == 0 && ffs(8) == 4 && ffsl(1) == 1 && ffsll(1ll << 40) == 41);
+	CHECK(!*strchrnul("abc", 'z') && *strchrnul("abc", 'b') == 'b');
+	CHECK(isascii('a') && !isascii(0x80) && toascii(0xE1) == 'a' && bswap_16(0x1234) == 0x3412);
+}
+
 void _CYCLIC run(void)
 {
 	DynBuffer buffer = {NULL, 0, 0, 0};
@@ -271,6 +333,9 @@ void _CYCLIC run(void)
 	system_calls();
 	files();
 	network();
+	threads();
+	options();
+	areas();
 	LOG(INFO, "node %s has %lu of %zu, %.1f %%", "/talker", 3ul, (size_t)5, 60.0);
 }
 """

@@ -1,0 +1,3 @@
+/* An older name of errno.h. */
+
+#include <errno.h>

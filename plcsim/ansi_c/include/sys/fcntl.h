@@ -1,0 +1,3 @@
+/* An older name of fcntl.h. */
+
+#include <fcntl.h>

@@ -1,0 +1,3 @@
+/* An older name of poll.h. */
+
+#include <poll.h>

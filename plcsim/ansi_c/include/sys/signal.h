@@ -1,0 +1,3 @@
+/* An older name of signal.h. */
+
+#include <signal.h>
