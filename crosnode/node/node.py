@@ -407,7 +407,7 @@ class CrosNode:
         self._resolver.step()
         core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)
-        if self.pace.end(now_ns, is_short=budget.is_short) and self.pace.is_behind:
+        if self.pace.end(now_ns, budget) and self.pace.is_behind:
             core.tell(StatusKind.BEHIND, self.name, "peers send more than steps can take")
         for publisher in self.publishers.values():
             publisher.tick(now_ns)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from crosnode.transport.budget import StepBudget, StepLimits
+from crosnode.transport.budget import LARGE_SHARE, STREAM_SHARE, StepBudget, StepLimits
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,6 +23,9 @@ LONGER: Final = 16
 WINDOW_NS: Final = 1_000_000_000
 FEWEST_STEPS: Final = 5
 """Of a window that tells something."""
+
+STREAM_STEPS: Final = 16
+"""As many more steps with large messages than without make a stream of them."""
 
 
 class Pace:
@@ -47,13 +50,15 @@ class Pace:
         self._shortest_longer_ns = 0
         self._since_ns: int | None = None
         self._steps = self._short = 0
+        self._streaming = 0
 
     def begin(self, now_ns: int) -> StepBudget:
         """Return the budget of a step at this release."""
         if self._before_ns is not None:
             self._learn(now_ns - self._before_ns)
         self._before_ns = now_ns
-        return StepBudget(self.limits)
+        is_stream = self._streaming >= STREAM_STEPS
+        return StepBudget(self.limits, STREAM_SHARE if is_stream else LARGE_SHARE)
 
     def _learn(self, cycle_ns: int) -> None:
         if cycle_ns == self._cycle_ns or cycle_ns <= 0:
@@ -73,12 +78,15 @@ class Pace:
         scaled = {name: units * bound for name, bound in StepLimits()._asdict().items()}
         self.limits = StepLimits(**scaled | dict(self._given))
 
-    def end(self, now_ns: int, *, is_short: bool) -> bool:
-        """Note how a step went; return whether ``is_behind`` is another by it."""
+    def end(self, now_ns: int, budget: StepBudget) -> bool:
+        """Note what is left of a step's budget; return whether ``is_behind`` is another by it."""
+        is_half_full = 2 * budget.large >= LARGE_SHARE * self.limits.work
+        streaming = self._streaming + (1 if is_half_full else -1)
+        self._streaming = min(max(0, streaming), 2 * STREAM_STEPS)
         if self._since_ns is None:
             self._since_ns = now_ns
         self._steps += 1
-        self._short += is_short
+        self._short += budget.is_short
         if now_ns - self._since_ns < WINDOW_NS or self._steps < FEWEST_STEPS:
             return False
         was_behind, self.is_behind = self.is_behind, 10 * self._short >= 9 * self._steps

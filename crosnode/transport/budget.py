@@ -12,9 +12,14 @@ from typing import Final, NamedTuple
 POLL_WORK: Final = 1_024
 """Price of looking at a connection."""
 
-LARGE_SHARE: Final = 4
+LARGE_SHARE: Final = 2
 """Bytes of a large message, which go between the socket and their place without a copy in pieces
-of up to a mebibyte, that cost as much as one byte of others."""
+of up to a mebibyte, that cost as much as one byte of others. Mostly five do; but how fast memory is
+moves with what else the host does, and a message now and then may as well take two steps more."""
+
+STREAM_SHARE: Final = 5
+"""The same in a node that large messages reach or leave without a pause: there each step takes what
+it can, so that all of them get through."""
 
 LARGE_WORK: Final = 49_152
 """Price of a large message that was not expected: its length is read apart, and it gets room."""
@@ -74,12 +79,14 @@ class StepBudget:
 
     Args:
         limits: of the step.
+        large_share: bytes of a large message for the price of one byte of others.
 
     Attributes:
         is_short: whether something had to wait for the next step.
+        large: bytes of large messages that were moved.
     """
 
-    __slots__ = (*StepLimits._fields, "_half", "is_short")
+    __slots__ = (*StepLimits._fields, "_half", "is_short", "large", "large_share")
 
     bytes_in: int
     bytes_out: int
@@ -90,11 +97,13 @@ class StepBudget:
     polls: int
     work: int
 
-    def __init__(self, limits: StepLimits) -> None:
+    def __init__(self, limits: StepLimits, large_share: int = LARGE_SHARE) -> None:
         (self.bytes_in, self.bytes_out, self.bytes_parsed, self.messages, self.accepts,
          self.calls, self.polls, self.work) = limits  # fmt: skip
         self._half = limits.work // 2
         self.is_short = False
+        self.large = 0
+        self.large_share = large_share
 
     def affords(self, price: int) -> bool:
         """Whether work of a price may begin: it fits, or half of all work is left.
@@ -112,7 +121,12 @@ class StepBudget:
 
     def at_most_large(self, size: int) -> int:
         """Return how many of ``size`` bytes of a large message may be moved."""
-        return self._allowed(min(size, self.work * LARGE_SHARE))
+        return self._allowed(min(size, self.work * self.large_share))
+
+    def take_large(self, size: int) -> None:
+        """Take the price of so many bytes of a large message, moved at once."""
+        self.large += size
+        self.work -= TRANSFER_WORK + size // self.large_share
 
     def _allowed(self, allowed: int) -> int:
         if allowed <= 0:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Final, Protocol
 from crosnode.graph.uri import make_authority
 from crosnode.transport.budget import (
     CONNECTION_WORK,
-    LARGE_SHARE,
     LARGE_WORK,
     POLL_WORK,
     TRANSFER_WORK,
@@ -276,7 +275,7 @@ class PeerLink:
         if state is _DONE:
             self.bytes_in += received
             budget.bytes_in -= received
-            budget.work -= TRANSFER_WORK + received // LARGE_SHARE
+            budget.take_large(received)
             self.connection.filled(received)
             self._take_events(now_ns, budget)
         else:
@@ -334,18 +333,20 @@ class PeerLink:
                 self._outbox.push_back(piece)
 
     def _write(self, now_ns: int, budget: StepBudget) -> None:
-        if self._is_parsed:  # in the price of the call
-            size, share = budget.bytes_out, 0
-        elif self._outbox.has_large_piece(LARGE_PIECE):
-            size, share = budget.at_most_large(budget.bytes_out), 1
-        else:
-            size, share = budget.at_most(budget.bytes_out), LARGE_SHARE
+        is_large = not self._is_parsed and self._outbox.has_large_piece(LARGE_PIECE)
+        if is_large:
+            size = budget.at_most_large(budget.bytes_out)
+        else:  # what is parsed is in the price of the call
+            size = budget.bytes_out if self._is_parsed else budget.at_most(budget.bytes_out)
         if size <= 0:
             return
         state, written = self.socket.write_buffer_ex(self._outbox, size)
         self.bytes_out += written
         budget.bytes_out -= written
-        budget.work -= TRANSFER_WORK + written * share // LARGE_SHARE
+        if is_large:
+            budget.take_large(written)
+        else:
+            budget.work -= TRANSFER_WORK + (0 if self._is_parsed else written)
         if state not in (_DONE, _IN_PROGRESS):
             self.abort(f"{self.peer} is gone", now_ns)
 

@@ -130,6 +130,13 @@ def _request(host: str, size: int) -> h11.Request:
     return h11.Request(method="POST", target="/RPC2", headers=headers)
 
 
+@lru_cache(maxsize=64)
+def _response(status: int, size: int, headers: tuple[tuple[str, str], ...]) -> h11.Response:
+    """Return the head of an answer with a document of ``size`` bytes; it is kept as well."""
+    length = ("Content-Length", str(size))
+    return h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
+
+
 class LastUse:
     """When documents were last read, by any of the connections that share it."""
 
@@ -373,8 +380,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
         self._is_idle = True
 
     def _send_document(self, document: bytes, status: int, *headers: tuple[str, str]) -> None:
-        length = ("Content-Length", str(len(document)))
-        response = h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
+        response = _response(status, len(document), headers)
         self._send(response, h11.Data(data=document), h11.EndOfMessage())
 
     def _head(self, http_event: object) -> None:

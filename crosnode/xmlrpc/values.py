@@ -154,19 +154,19 @@ class ValueParser:
         self._target.end_dispatch(tag, text)
 
 
-_SCALARS: Final = "int i4 i8 boolean double string dateTime.iso8601 base64"
-_CHILDREN: Final = {
-    "": "methodCall methodResponse",
-    "methodCall": "methodName params",
-    "methodResponse": "params fault",
-    "params": "param",
-    "param": "value",
-    "fault": "value",
-    "value": f"{_SCALARS} array struct",
-    "array": "data",
-    "data": "value",
-    "struct": "member",
-    "member": "name value",
+_SCALARS: Final = ("int", "i4", "i8", "boolean", "double", "string", "dateTime.iso8601", "base64")
+_CHILDREN: Final[dict[str, tuple[str, ...]]] = {
+    "": ("methodCall", "methodResponse"),
+    "methodCall": ("methodName", "params"),
+    "methodResponse": ("params", "fault"),
+    "params": ("param",),
+    "param": ("value",),
+    "fault": ("value",),
+    "value": (*_SCALARS, "array", "struct"),
+    "array": ("data",),
+    "data": ("value",),
+    "struct": ("member",),
+    "member": ("name", "value"),
 }
 """Elements that may stand in each other; the unmarshaller itself takes them in any order."""
 
@@ -184,11 +184,11 @@ class _Element:
 
     def add(self, tag: str) -> None:
         """Count a child, where it may stand here."""
-        allowed = _CHILDREN.get(self.tag, "").split()
+        allowed = _CHILDREN.get(self.tag, ())
         if self.tag in ("methodCall", "member"):
             allowed = allowed[self.count : self.count + 1]
         elif self.count and self.tag not in _MANY:
-            allowed = []
+            allowed = ()
         if tag not in allowed:
             raise XmlRpcError(f"element {tag[:100]!r} in {self.tag!r}")
         self.count += 1

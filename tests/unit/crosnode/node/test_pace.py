@@ -2,7 +2,7 @@
 
 from crosnode.node import StatusKind
 from crosnode.node.pace import Pace
-from crosnode.transport.budget import StepLimits
+from crosnode.transport.budget import LARGE_SHARE, STREAM_SHARE, StepLimits
 from crosnode.transport.tcpip_socket import AREA_SIZE, TcpipSocketState, Transfer
 
 from .world import MS, OTHER_IP, PLC_IP, SECOND, World, drain, news
@@ -41,6 +41,30 @@ def test_what_is_given_holds_as_it_is() -> None:
     limits = after([10 * MS] * 20, {"messages": 7})
     assert limits.messages == 7
     assert limits.bytes_in == 10 * StepLimits().bytes_in
+
+
+def shares(large: list[int]) -> list[int]:
+    """Return what each step gives for the price of a byte, where so many large ones are moved."""
+    pace, found = Pace({}), []
+    for now_ns, moved in enumerate(large):
+        budget = pace.begin(now_ns * MS)
+        found.append(budget.large_share)
+        budget.take_large(moved)
+        pace.end(now_ns * MS, budget)
+    return found
+
+
+def test_a_large_message_now_and_then_is_spread_over_steps() -> None:
+    message = [260_000] * 4 + [0] * 16
+    assert set(shares(20 * message)) == {LARGE_SHARE}
+
+
+def test_a_stream_of_large_messages_gets_more_of_a_step_until_it_ends() -> None:
+    found = shares([260_000] * 100 + [0] * 100)
+    assert found[:16] == [LARGE_SHARE] * 16
+    assert set(found[16:100]) == {STREAM_SHARE}
+    assert found[100:117] == [STREAM_SHARE] * 17
+    assert set(found[117:]) == {LARGE_SHARE}
 
 
 def test_a_step_reads_on_while_its_budget_lasts() -> None:
