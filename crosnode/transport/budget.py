@@ -42,6 +42,10 @@ CALL_WORK: Final = 32_768
 XMLRPC_WORK: Final = 98_304
 """Price of an XML-RPC call that is taken and answered, or of an answer."""
 
+ALONE_WORK: Final = 131_072
+"""Price of work that has a millisecond of cycle to itself: part of an XML-RPC call whose like was
+long ago, for which the processor has to read all its code from memory."""
+
 
 class StepLimits(NamedTuple):
     """Bounds of one step; what does not fit waits for the next, in turn.
@@ -64,7 +68,7 @@ class StepLimits(NamedTuple):
     accepts: int = 4
     calls: int = 4
     polls: int = 32
-    work: int = 131_072
+    work: int = ALONE_WORK
 
 
 UNPACED = StepLimits(
@@ -86,7 +90,7 @@ class StepBudget:
         large: bytes of large messages that were moved.
     """
 
-    __slots__ = (*StepLimits._fields, "_half", "is_short", "large", "large_share")
+    __slots__ = (*StepLimits._fields, "_half", "_untouched", "is_short", "large", "large_share")
 
     bytes_in: int
     bytes_out: int
@@ -101,6 +105,7 @@ class StepBudget:
         (self.bytes_in, self.bytes_out, self.bytes_parsed, self.messages, self.accepts,
          self.calls, self.polls, self.work) = limits  # fmt: skip
         self._half = limits.work // 2
+        self._untouched = limits.work - POLL_WORK * limits.polls
         self.is_short = False
         self.large = 0
         self.large_share = large_share
@@ -108,9 +113,14 @@ class StepBudget:
     def affords(self, price: int) -> bool:
         """Whether work of a price may begin: it fits, or half of all work is left.
 
-        So even the dearest work has its turn in a step that begins with it.
+        So even the dearest work has its turn in a step that begins with it. What is to be alone
+        begins where nothing but looks was done before.
         """
-        if self.work >= price or self.work > self._half:
+        if price >= ALONE_WORK:
+            may_begin = self.work - POLL_WORK * self.polls >= self._untouched
+        else:
+            may_begin = self.work > self._half
+        if may_begin or self.work >= price:
             return True
         self.is_short = True
         return False

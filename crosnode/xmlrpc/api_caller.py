@@ -7,7 +7,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import HostPendingError, InvalidNameError, MessageValueError
-from crosnode.transport.budget import CALL_WORK
+from crosnode.transport.budget import ALONE_WORK, CALL_WORK
 from crosnode.transport.connection import ConnectionState
 from crosnode.xmlrpc import (
     FaultReceived,
@@ -120,6 +120,7 @@ class ApiCaller:
         self._hosts = hosts
         self._limits = limits
         self._last_use = LastUse()
+        self._last_call = LastUse()
         self._channels: dict[str, _Channel] = {}
         self._is_first = False
         self._turn = 0
@@ -136,7 +137,7 @@ class ApiCaller:
 
     def start(self, call: ApiCall, *, keep: bool = False) -> ApiCall:
         """Queue a call; ``keep`` leaves the connection open for the next one."""
-        channel = self._channels.setdefault(call.uri, _Channel())
+        channel = self._channels.setdefault(call.uri, _Channel(self._last_call))
         channel.keep = channel.keep or keep
         channel.calls.append(call)
         if len(channel.calls) > MAX_WAITING:
@@ -182,9 +183,14 @@ class ApiCaller:
 
 
 class _Channel:
-    """The calls to one node; the first one may be running. Owner of the link to it."""
+    """The calls to one node; the first one may be running. Owner of the link to it.
 
-    def __init__(self) -> None:
+    Args:
+        last_call: when the node called any other one last.
+    """
+
+    def __init__(self, last_call: LastUse) -> None:
+        self._last_call = last_call
         self.calls: deque[ApiCall] = deque()
         self.link: PeerLink | None = None
         self.connection: XmlRpcClientConnection | None = None
@@ -200,9 +206,11 @@ class _Channel:
                 self.link.close()
                 self.link = self.connection = None  # a later call makes another
             return
-        if not budget.affords(CALL_WORK):
+        price = ALONE_WORK if self._last_call.is_long_ago(now_ns) else CALL_WORK
+        if not budget.affords(price):
             return
-        budget.work -= CALL_WORK
+        self._last_call.note(now_ns)
+        budget.work -= price
         try:
             connection.call(self.calls[0].method, self.calls[0].params, now_ns)
         except MessageValueError as error:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 import h11
 
 from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
-from crosnode.transport.budget import XMLRPC_WORK
+from crosnode.transport.budget import ALONE_WORK, XMLRPC_WORK
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -138,18 +138,22 @@ def _response(status: int, size: int, headers: tuple[tuple[str, str], ...]) -> h
 
 
 class LastUse:
-    """When documents were last read, by any of the connections that share it."""
+    """When documents were last read, or written, by any of the connections that share it."""
 
     def __init__(self) -> None:
         self._at_ns: int | None = None
 
-    def note(self, now_ns: int) -> bool:
-        """Note a use; return whether the one before is too long ago for warm caches.
+    def is_long_ago(self, now_ns: int) -> bool:
+        """Return whether the last use is too long ago for warm caches.
 
-        The first of all is not: what a node does at its start shall not take longer.
+        Before the first it is not: what a node does at its start shall not take longer.
         """
-        before_ns, self._at_ns = self._at_ns, now_ns
-        return before_ns is not None and now_ns - before_ns > WARM_NS
+        return self._at_ns is not None and now_ns - self._at_ns > WARM_NS
+
+    def note(self, now_ns: int) -> bool:
+        """Note a use; return whether the one before is too long ago."""
+        is_long_ago, self._at_ns = self.is_long_ago(now_ns), now_ns
+        return is_long_ago
 
 
 class XmlRpcConnection(ProtocolConnection):
@@ -184,7 +188,7 @@ class XmlRpcConnection(ProtocolConnection):
     @property
     def event_price(self) -> int:
         """A call that is taken and answered, an answer, or a part of either."""
-        return XMLRPC_WORK
+        return ALONE_WORK if self._is_in_parts else XMLRPC_WORK
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""

@@ -122,6 +122,26 @@ def test_five_thousand_messages_a_second_come_in_at_ten_milliseconds() -> None:
     assert taken >= 5_000 - 100
 
 
+def test_the_check_of_the_master_shares_no_step_with_messages() -> None:
+    world = World()
+    node, other = world.node("n"), world.node("o", OTHER_IP)
+    subscriber = node.register_subscriber("/x", BYTES, queue_size=10_000)
+    publisher = other.register_publisher("/x", BYTES, queue_size=1000)
+    world.until(lambda: publisher.subscribers)
+    world.run(1_500)
+    received_beside = []
+    for _ in range(3_000):
+        publisher.send_raw(bytes(20))
+        before = subscriber.queue.pushed
+        world.run(1)
+        if node.core.budget.work <= 0:
+            received_beside.append(subscriber.queue.pushed - before)
+    assert len(received_beside) >= 3 * 4
+    assert set(received_beside) == {0}
+    world.run(10)
+    assert subscriber.queue.pushed == 3_000
+
+
 def test_a_node_that_falls_behind_says_so_once() -> None:
     world = World()
     node, other = world.node("n", step=StepLimits(work=9_000)), world.node("o", OTHER_IP)

@@ -2,9 +2,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.transport.budget import (
+    ALONE_WORK,
     CALL_WORK,
     CONNECTION_WORK,
     MESSAGE_WORK,
+    POLL_WORK,
     REQUEST_WORK,
     UNPACED,
     XMLRPC_WORK,
@@ -12,7 +14,7 @@ from crosnode.transport.budget import (
     StepLimits,
 )
 
-PRICES = (MESSAGE_WORK, REQUEST_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK)
+PRICES = (MESSAGE_WORK, REQUEST_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK, ALONE_WORK)
 
 
 def test_a_budget_starts_with_all_limits() -> None:
@@ -39,6 +41,20 @@ def test_any_work_may_begin_a_step_and_at_most_one_piece_goes_beyond(
     assert sum(spent[:-1]) <= work
     assert sum(spent) - work <= max(PRICES)
     assert budget.is_short == (len(spent) < len(prices))
+
+
+def test_what_is_to_be_alone_begins_where_nothing_but_looks_was_done() -> None:
+    budget = StepBudget(StepLimits())
+    for _ in range(5):
+        budget.polls -= 1
+        budget.work -= POLL_WORK
+    assert budget.affords(ALONE_WORK)
+    budget.work -= MESSAGE_WORK
+    assert not budget.affords(ALONE_WORK)
+    assert budget.is_short
+    of_ten_milliseconds = StepBudget(StepLimits(work=10 * ALONE_WORK))
+    of_ten_milliseconds.work -= MESSAGE_WORK
+    assert of_ten_milliseconds.affords(ALONE_WORK)
 
 
 def test_bytes_stop_where_the_work_ends() -> None:
