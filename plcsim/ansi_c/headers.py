@@ -59,21 +59,31 @@ def library_headers(libraries: Sequence[Scope]) -> Mapping[str, str]:
     Args:
         libraries: in the order in which they are included.
     """
-    return _library_headers(tuple(libraries))[0]
+    return _library_headers(libraries)[0]
 
 
-@lru_cache(maxsize=2)
-def _library_headers(libraries: tuple[Scope, ...]) -> tuple[Mapping[str, str], Sequence[Header]]:
+def _library_headers(libraries: Iterable[Scope]) -> tuple[dict[str, str], list[Header]]:
     """Return the headers by name, and what they declare, for those that rest on them."""
     headers: dict[str, str] = {}
     known: list[Header] = []
+    before: tuple[Scope, ...] = ()
     for library in libraries:
-        known.append(_header(library, known[-1:]))
-        text = _without_standard(c_header(known[-1], library.name))
-        if not library.strict:  # a library's own sources need what they declare, and no more
-            text += _taking_pointers(text, library.name)
-        headers[f"{library.name}.h"] = _including(known[:-1], text)
+        before = (*before, library)
+        header, text = _last_header(before)
+        headers[f"{library.name}.h"] = _including(known, text)
+        known.append(header)
     return headers, known
+
+
+@lru_cache(maxsize=256)
+def _last_header(libraries: tuple[Scope, ...]) -> tuple[Header, str]:
+    """Return the header of the last of libraries, and its text without what it includes."""
+    *before, library = libraries
+    header = _header(library, [_last_header(tuple(before))[0]] if before else ())
+    text = _without_standard(c_header(header, library.name))
+    if not library.strict:  # a library's own sources need what they declare, and no more
+        text += _taking_pointers(text, library.name)
+    return header, text
 
 
 def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict[str, str]:
@@ -83,8 +93,7 @@ def program_headers(scopes: Iterable[Scope], libraries: Sequence[Scope]) -> dict
         scopes: what the program declares, and around it the folders up to the project.
         libraries: in the order in which they are included.
     """
-    brought, known = _library_headers(tuple(libraries))
-    known = [*known]
+    brought, known = _library_headers(libraries)
     headers: dict[str, str] = {}
     local, *around = scopes
     for scope in reversed(around):
@@ -106,8 +115,7 @@ def body_headers(
         libraries: all, in the order in which they are included.
         needed: those that its own header and `DEFAULT` bring; the others are there.
     """
-    others = tuple(each for each in libraries if each is not library)
-    headers, known = _library_headers(others)
+    headers, known = _library_headers(each for each in libraries if each is not library)
     around = [each for each in known if each.scope in needed]
     own = f"{library.name}.h"
     text = c_header(_header(library, around), library.name)  # what others have as well, it declares
