@@ -376,7 +376,8 @@ class Header:
     def _parameter(self, variable: DeclaredVariable) -> str:
         """Return a parameter as Automation Studio's headers have it.
 
-        What is no scalar goes by its address, and so does the REFERENCE TO a STRUCT or a STRING.
+        What is no scalar goes by its address, and so does the REFERENCE TO a STRUCT or a STRING,
+        but not to another name of one.
         """
         name = variable.name + "_" if variable.name in _RESERVED else variable.name
         declared = variable.data_type
@@ -393,6 +394,8 @@ class Header:
                 inner = resolve_alias(target)
                 if isinstance(inner, ArrayType):
                     return self._pointer(_of_addresses(inner), name)
+                if isinstance(target, AliasType):
+                    return self._declarator(target, f"*{name}")
                 is_address = isinstance(inner, StructType | StringType | WStringType)
                 return self._pointer(data_type if is_address else inner, name)
         is_scalar = isinstance(data_type, _SCALARS)

@@ -204,6 +204,13 @@ def test_parameters_are_those_of_automation_studios_headers() -> None:
     ]
 
 
+def test_a_reference_to_another_name_of_a_type_is_one_pointer(folder: Path) -> None:
+    text = "TYPE S : STRUCT x : INT; END_STRUCT; Same : S; Name : STRING[9]; END_TYPE FUNCTION F : "
+    text += "BOOL VAR_INPUT a : REFERENCE TO Same; b : REFERENCE TO Name; END_VAR END_FUNCTION"
+    header = c_header(Header(checked([parse_text(text)])), "Check")
+    assert compile_m32(folder, header + "plcbit F(Same* a, Name* b) { return a->x == **b; }\n") == ""
+
+
 def test_words_that_only_cpp_does_not_allow(folder: Path) -> None:
     text = "FUNCTION F VAR_INPUT new : INT; END_VAR END_FUNCTION TYPE S : STRUCT xor : BOOL; "
     text += "class : ARRAY[0..2] OF INT; END_STRUCT; END_TYPE"
