@@ -144,7 +144,7 @@ def _taking_pointers(text: str, name: str) -> str:
     """
     overloads = []
     for result, function, given in _PLAIN_PROTOTYPE.findall(text):
-        kinds = [each.strip().rpartition(" ")[0] for each in given.split(",")]
+        kinds = _types_of(given)
         if "unsigned long" in kinds:
             types = ", ".join(f"class T{n}" for n in range(len(kinds)))
             taken = ", ".join(f"T{n} a{n}" for n in range(len(kinds)))
@@ -191,8 +191,33 @@ def _without_standard(text: str) -> str:
     found = {m[1] for m in _PROTOTYPE.finditer(text)} & standard.keys()
     if not found:
         return text
+    others = _of_other_length(text, {name: standard[name].declaration for name in found})
     text = _PROTOTYPE.sub(lambda m: f"/* {m[1]}: of C */" if m[1] in found else m[0], text)
+    text = text.replace(_FIRST, f"{_FIRST}{others}", 1)
     return text.replace(_FIRST, f"{_FIRST}{_of_c([standard[name] for name in sorted(found)])}", 1)
+
+
+def _of_other_length(text: str, declarations: Mapping[str, str]) -> str:
+    """Return declarations of functions that take fewer numbers than those of C with their names.
+
+    That is asstring's itoa, which is called with two where C's takes three: clang tells them apart.
+
+    Args:
+        text: of a library's header.
+        declarations: of C's functions, by name.
+    """
+    lines = []
+    for result, name, given in _PLAIN_PROTOTYPE.findall(text):
+        if name in declarations and given.count(",") != declarations[name].count(","):
+            for last in ("unsigned long", "void *"):
+                types = ", ".join([*_types_of(given)[:-1], last])
+                head = f"__attribute__((overloadable)) {result} {name}"
+                lines.append(f'{head}({types}) __asm__("{name}");\n')
+    return f"#ifndef __cplusplus\n{''.join(lines)}#endif\n" if lines else ""
+
+
+def _types_of(parameters: str) -> list[str]:
+    return [each.strip().rpartition(" ")[0] for each in parameters.split(",")]
 
 
 class StandardFunction(NamedTuple):

@@ -12,6 +12,7 @@ from plcsim.ansi_c.headers import (
     written_headers,
 )
 from plcsim.machine import CodeCache
+from plcsim.machine.shared_module import read_shared
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_text
 
@@ -106,6 +107,20 @@ def test_what_c_has_itself_a_library_does_not_declare_again(each_toolchain, sour
     file = source("main.c", "#include <AsDefault.h>\nchar *f(char *a) { return strcpy(a, a); }")
     built = build(BuildOrder("p", [file], [folder, INCLUDE]), each_toolchain, CodeCache(None))
     assert built.warnings == []
+
+
+@pytest.mark.parametrize("more", ["", "#include <stdlib.h>\n"])
+def test_itoa_is_that_of_asstring_or_that_of_c(each_toolchain, source, tmp_path, more):
+    text = "FUNCTION itoa : UINT VAR_INPUT value : DINT; pDest : UDINT; END_VAR END_FUNCTION"
+    headers = all_headers([scope("p", "")], [scope("asstring", text)])
+    folder = written_headers("x", lambda: headers, tmp_path / "include")
+    calls = {"f": "itoa(a, (UDINT)b)", "g": "itoa(a, b)", "h": "itoa(a, b, 10)[0]"}
+    for name, call in calls.items():
+        c = f"{more}#include <AsDefault.h>\nint {name}(int a, char *b) {{ return {call}; }}"
+        order = BuildOrder("p", [source(f"{name}.c", c)], [folder, INCLUDE])
+        built = build(order, each_toolchain, CodeCache(None))
+        called = read_shared(built.wasm).called["itoa"]
+        assert (built.warnings, len(called.params)) == ([], 3 if name == "h" else 2)
 
 
 def test_what_c_has_and_a_library_does_not_name_is_free(each_toolchain, source, tmp_path):
