@@ -208,7 +208,8 @@ def test_a_reference_to_another_name_of_a_type_is_one_pointer(folder: Path) -> N
     text = "TYPE S : STRUCT x : INT; END_STRUCT; Same : S; Name : STRING[9]; END_TYPE FUNCTION F : "
     text += "BOOL VAR_INPUT a : REFERENCE TO Same; b : REFERENCE TO Name; END_VAR END_FUNCTION"
     header = c_header(Header(checked([parse_text(text)])), "Check")
-    assert compile_m32(folder, header + "plcbit F(Same* a, Name* b) { return a->x == **b; }\n") == ""
+    body = "plcbit F(Same* a, Name* b) { return a->x == **b; }\n"
+    assert compile_m32(folder, header + body) == ""
 
 
 def test_words_that_only_cpp_does_not_allow(folder: Path) -> None:
