@@ -217,7 +217,8 @@ class FileResolver(ConstantResolver):
         return self._made(node, lambda: ArrayType(element, known))
 
     def _open_array(self, node: OpenArraySpecification, _name: str) -> None:
-        self.error(node, "ARRAY[*] is known as a parameter of a FUNCTION or a METHOD only")
+        message = "ARRAY[*] is known as a parameter of a FUNCTION or a METHOD, and as a VAR_IN_OUT"
+        self.error(node, f"{message} of a FUNCTION_BLOCK without actions and methods")
 
     def _enter(self, node: Node) -> bool:
         """Count one level of nesting; False, after an error, if it is one too many."""

@@ -13,7 +13,7 @@ from plcsim.program.structured_text.check.kinds import (
     TypeKind,
     kind_of,
 )
-from plcsim.program.structured_text.check.names import NOTHING, root_of
+from plcsim.program.structured_text.check.names import NOTHING, keep_address, root_of
 from plcsim.program.structured_text.check.recursion import block_label
 from plcsim.program.structured_text.check.typed import (
     PLACES,
@@ -31,8 +31,6 @@ from st_types.syntax import expressions as syntax
 from st_types.types.derived import DataBlockType, ReferenceType, Section
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from plcsim.program.structured_text.check.kinds import Type
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
@@ -48,28 +46,43 @@ class BlockChecker(CallChecker):
         instance = self._instance(node.function)
         if instance is None:
             return None
+        meant = self._for_bounds_given(node, instance)
+        if meant is None:
+            return CallBlock(line, instance, instance.type.name, (), ())
+        instance, name = meant
         block = instance.type
         assert isinstance(block, DataBlockType)
         before: list[Statement] = []
         after: list[Statement] = []
         inputs = iter([member for member in block.members if member.section is Section.INPUT])
         for argument in node.arguments:
-            name = argument.name
-            if not name:
+            parameter = argument.name
+            if not parameter:
                 member = next(inputs, None)
                 if member is None:
                     message = f"{block} takes fewer arguments without a name"
                     self.error(argument, FindingCode.WRONG_ARGUMENTS, message)
                     continue
-                name = member.name
-            self._block_argument(argument, name, instance, before, after, line)
-        return self._block_called(line, instance, before, after)
+                parameter = member.name
+            self._block_argument(argument, parameter, instance, before, after, line)
+        self.called_bodies.add(block_label(name))
+        return CallBlock(line, instance, name, before, after)
 
-    def _block_called(
-        self, line: int, instance: Value, before: Sequence[Statement], after: Sequence[Statement]
-    ) -> CallBlock:
-        self.called_bodies.add(block_label(instance.type.name))
-        return CallBlock(line, instance, instance.type.name, before, after)
+    def _for_bounds_given(self, node: syntax.Call, instance: Value) -> tuple[Value, str] | None:
+        """Return an instance as the function block for the arrays that it is given, and its name.
+
+        That has the same data block, with an address of arrays of such bounds. None after an error.
+        """
+        found = self.names.symbols.open_blocks.get(instance.type)
+        if found is None:
+            return instance, instance.type.name
+        arrays = self.arrays_given(node, found)
+        made = None if arrays is None else found.block_for(arrays)
+        if made is None or made.data_type is None:
+            return None
+        self.called_open[made.name] = (found, made)
+        keep_address(instance)
+        return Target(made.data_type, Address(UDINT, instance)), made.name
 
     def _instance(self, node: Expression) -> Value | None:
         if self.method_of(node) is not None:
@@ -86,7 +99,7 @@ class BlockChecker(CallChecker):
         instance = self._instance(node)
         if instance is None:
             return None
-        return self._block_called(line, instance, (), ())
+        return self.block_call(syntax.Call(node.at, node, ()), line)
 
     def _block_argument(
         self,

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Value
-    from st_types.resolve.declared import DeclaredFunction
+    from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
     from st_types.syntax.expressions import Expression
     from st_types.syntax.tree import Declaration
 
@@ -105,15 +105,16 @@ class CallChecker(MethodChecker):
 
     Attributes:
         edges: how many edge functions were met in the function block, for its zzEdge members.
-        called_open: functions that take arrays of any bounds, by the names of what was made of them
-            for their calls.
+        called_open: functions and function blocks that take arrays of any bounds, by the names of
+            what was made of them for their calls.
     """
 
     edges = 0
 
     def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         super().__init__(names, findings)
-        self.called_open: dict[str, tuple[OpenFunction, DeclaredFunction]] = {}
+        self.called_open: dict[str, tuple[OpenFunction, DeclaredFunction | DeclaredFunctionBlock]]
+        self.called_open = {}
 
     def _call(self, node: syntax.Call) -> Value:
         found = self.called(node)
@@ -331,7 +332,7 @@ class CallChecker(MethodChecker):
         for number, method in found.methods.items():
             made: ClassMethod | None = method
             if method.open is not None:
-                arrays = self._arrays_given(node, method.open)
+                arrays = self.arrays_given(node, method.open)
                 made = None if arrays is None else method.made_for(arrays)
             if made is None:
                 return None
@@ -340,7 +341,7 @@ class CallChecker(MethodChecker):
 
     def _open(self, node: syntax.Call, open_function: OpenFunction) -> Value:
         """Check the call of a function that takes arrays of any bounds."""
-        arrays = self._arrays_given(node, open_function)
+        arrays = self.arrays_given(node, open_function)
         function = None if arrays is None else open_function.made_for(arrays)
         if function is None:
             return NOTHING  # what is wrong was told
@@ -350,7 +351,7 @@ class CallChecker(MethodChecker):
         result = VOID if function.result is None else plain(function.result)
         return Call(result, function, arguments)
 
-    def _arrays_given(
+    def arrays_given(
         self, node: syntax.Call, open_function: OpenFunction
     ) -> dict[str, ArrayType[object]] | None:
         """Return what a call gives for parameters ARRAY[*], by their names; None after an error."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from plcsim.program.structured_text.check.classes import interface_type
-from plcsim.program.structured_text.check.open_arrays import takes_any_bounds
+from plcsim.program.structured_text.check.open_arrays import takes_any_bounds, with_any_bounds
 from plcsim.program.structured_text.check.programs import as_block, instance_of, is_shared
 from plcsim.program.structured_text.program_uses import NO_USES
 from plcsim.program.structured_text.syntax.tree import (
@@ -42,6 +42,8 @@ def declarations_of(file: StructuredTextFile, uses: ProgramUses = NO_USES) -> De
     for unit in file.units:
         if isinstance(unit, TypeBlock | VariableBlock):
             items.append(unit)
+        elif isinstance(unit, FunctionBlockUnit) and is_open_block(unit):
+            items.append(with_any_bounds(unit.declaration))
         elif isinstance(unit, FunctionUnit | FunctionBlockUnit) and _is_declared(unit):
             items.append(unit.declaration)
         elif isinstance(unit, ProgramUnit) and is_shared(unit, uses):
@@ -62,6 +64,12 @@ def unit_scope(
         return None
     declared = DeclarationFile(unit.blocks, "", file.tokens, file.diagnostics)
     return Scope(unit.name, [declared], (outer,), dialect=outer.dialect, strict=outer.strict)
+
+
+def is_open_block(unit: FunctionBlockUnit) -> bool:
+    """Return whether a function block, one without methods and actions, takes ARRAY[*]."""
+    is_plain = not (unit.bases or unit.words or unit.parts)
+    return is_plain and takes_any_bounds(unit.declaration)
 
 
 def _is_declared(unit: FunctionUnit | FunctionBlockUnit) -> bool:

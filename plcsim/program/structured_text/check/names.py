@@ -63,6 +63,7 @@ class Symbols:
         self.classes: Classes = {}
         self.interfaces: dict[Type, ClassInterface] = {}
         self.open_functions: dict[str, OpenFunction] = {}
+        self.open_blocks: dict[Type, OpenFunction] = {}
         self.own_functions: set[str] = set()
         self.namespaces: set[str] = set()
         self._symbols: dict[VariableEntry, Symbol] = {}

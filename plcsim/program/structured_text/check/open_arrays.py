@@ -16,6 +16,7 @@ from st_types.syntax.tree import (
     ArraySpecification,
     Declaration,
     DeclarationFile,
+    FunctionDeclaration,
     OpenArraySpecification,
 )
 
@@ -23,32 +24,55 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from plcsim.program.structured_text.syntax.tree import (
+        FunctionBlockUnit,
         FunctionUnit,
         MethodUnit,
         StructuredTextFile,
     )
-    from st_types.resolve.declared import DeclaredFunction
-    from st_types.syntax.tree import FunctionDeclaration
+    from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
+    from st_types.syntax.tree import FunctionBlockDeclaration
     from st_types.types.derived import ArrayType
 
 _PARAMETERS = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
+_BY_ADDRESS = frozenset(["VAR_IN_OUT"])
 
 
-def takes_any_bounds(node: FunctionDeclaration) -> bool:
-    """Return whether a function has a parameter that is an ARRAY[*]."""
+def takes_any_bounds(node: FunctionDeclaration | FunctionBlockDeclaration) -> bool:
+    """Return whether a parameter of a function, a VAR_IN_OUT of a block, is an ARRAY[*]."""
     return any(type(each.specification) is OpenArraySpecification for each in parameters(node))
 
 
-def parameters(node: FunctionDeclaration) -> Iterator[Declaration]:
-    """Yield the declarations of the parameters of a function."""
+def parameters(node: FunctionDeclaration | FunctionBlockDeclaration) -> Iterator[Declaration]:
+    """Yield the declarations of what may take arrays of any bounds, and of those beside it."""
+    sections = _PARAMETERS if isinstance(node, FunctionDeclaration) else _BY_ADDRESS
     for block in node.blocks:
-        if block.section in _PARAMETERS:
+        if block.section in sections:
             yield from block.declarations
+
+
+def with_any_bounds(node: FunctionBlockDeclaration) -> FunctionBlockDeclaration:
+    """Return a function block as its instances know it: an array of any bounds is an address."""
+    blocks = [
+        replace(block, declarations=[_of_one_element(each) for each in block.declarations])
+        if block.section in _BY_ADDRESS
+        else block
+        for block in node.blocks
+    ]
+    return replace(node, blocks=blocks)
+
+
+def _of_one_element(node: Declaration) -> Declaration:
+    specification = node.specification
+    if type(specification) is not OpenArraySpecification:
+        return node
+    at = specification.at
+    bounds = [(_number(at, 0), _number(at, 0))] * specification.dimensions
+    return replace(node, specification=ArraySpecification(at, bounds, specification.element))
 
 
 @dataclass(slots=True, eq=False)
 class OpenFunction:
-    """A function or a method that takes arrays of any bounds.
+    """A function, a method or a function block that takes arrays of any bounds.
 
     Attributes:
         unit: its text.
@@ -56,10 +80,11 @@ class OpenFunction:
         scope: around it.
     """
 
-    unit: FunctionUnit | MethodUnit
+    unit: FunctionUnit | MethodUnit | FunctionBlockUnit
     file: StructuredTextFile
     scope: Scope
     _made: dict[str, DeclaredFunction | None] = field(default_factory=dict)
+    _made_blocks: dict[str, DeclaredFunctionBlock | None] = field(default_factory=dict)
 
     def made_for(self, arrays: Mapping[str, ArrayType[object]]) -> DeclaredFunction | None:
         """Return the function for arrays; its name tells their bounds. None after an error.
@@ -67,18 +92,28 @@ class OpenFunction:
         Args:
             arrays: what is given, by the names of the parameters as declared.
         """
-        node = self.unit.declaration
+        label = self._label(arrays)
+        if label not in self._made:
+            found = self._around(arrays).find_function(self.unit.declaration.name)
+            self._made[label] = None if found is None else found._replace(name=label)
+        return self._made[label]
+
+    def block_for(self, arrays: Mapping[str, ArrayType[object]]) -> DeclaredFunctionBlock | None:
+        """Return the function block for arrays, likewise; its data block is laid out as any."""
+        label = self._label(arrays)
+        if label not in self._made_blocks:
+            found = self._around(arrays).find_function_block(self.unit.declaration.name)
+            self._made_blocks[label] = None if found is None else found._replace(name=label)
+        return self._made_blocks[label]
+
+    def _label(self, arrays: Mapping[str, ArrayType[object]]) -> str:
         bounds = "; ".join(
             ", ".join(f"{low}..{high}" for low, high in array.bounds) for array in arrays.values()
         )
-        label = f"{node.name}[{bounds}]"
-        if label not in self._made:
-            self._made[label] = self._declared(label, arrays)
-        return self._made[label]
+        return f"{self.unit.declaration.name}[{bounds}]"
 
-    def _declared(
-        self, label: str, arrays: Mapping[str, ArrayType[object]]
-    ) -> DeclaredFunction | None:
+    def _around(self, arrays: Mapping[str, ArrayType[object]]) -> Scope:
+        """Return a scope that declares it for some arrays."""
         node = self.unit.declaration
         blocks = [
             replace(block, declarations=[_closed(each, arrays) for each in block.declarations])
@@ -89,8 +124,7 @@ class OpenFunction:
         dialect, strict = self.scope.dialect, self.scope.strict
         around = Scope(node.name, [file], (self.scope,), dialect=dialect, strict=strict)
         around.check()
-        found = around.find_function(node.name)
-        return None if found is None else found._replace(name=label)
+        return around
 
 
 def _closed(node: Declaration, arrays: Mapping[str, ArrayType[object]]) -> Declaration:

@@ -17,6 +17,7 @@ from plcsim.program.structured_text.check.surroundings import Surroundings
 from plcsim.program.structured_text.check.units import BodyJob, BodyOwner, UnitCollector
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.program_uses import program_uses
+from st_types.resolve.declared import DeclaredFunction
 from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.open_arrays import OpenFunction
     from plcsim.program.structured_text.check.typed import Storage
     from plcsim.program.structured_text.syntax.tree import StructuredTextFile
-    from st_types.resolve.declared import DeclaredFunction
+    from st_types.resolve.declared import DeclaredFunctionBlock
     from st_types.resolve.scope import Scope
 
 QUIET: Final = frozenset([FindingCode.UNUSED_VARIABLE, FindingCode.NARROWED])
@@ -190,15 +191,21 @@ class _ProgramChecker(UnitCollector):
         return [*found, *self._called_methods(checker.called_methods)]
 
     def _called_open(
-        self, functions: Mapping[str, tuple[OpenFunction, DeclaredFunction]]
+        self, called: Mapping[str, tuple[OpenFunction, DeclaredFunction | DeclaredFunctionBlock]]
     ) -> Iterator[BodyJob]:
-        """Yield the functions that are called for the first time with arrays of such bounds."""
-        for label, (made_of, function) in functions.items():
+        """Yield what is called for the first time with arrays of such bounds."""
+        for label, (made_of, made) in called.items():
             if label not in self._methods:
                 self._methods.add(label)
-                self.symbols.storages[function.scope] = "frame"
-                owner, unit = BodyOwner(function.scope), made_of.unit
-                job = BodyJob(label, "function", unit, unit.body, made_of.file, owner, function)
+                unit, file = made_of.unit, made_of.file
+                if isinstance(made, DeclaredFunction):
+                    self.symbols.storages[made.scope] = "frame"
+                    owner = BodyOwner(made.scope)
+                    job = BodyJob(label, "function", unit, unit.body, file, owner, made)
+                else:
+                    self.symbols.storages[made.scope] = "instance"
+                    owner = BodyOwner(made.scope, made.data_type)
+                    job = BodyJob(label, "block", unit, unit.body, file, owner)
                 self._jobs.append(job)
                 yield job
 

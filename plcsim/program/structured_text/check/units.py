@@ -16,7 +16,7 @@ from plcsim.program.structured_text.check.classes import (
     body_as_method,
     key_of_method,
 )
-from plcsim.program.structured_text.check.declared import unit_scope
+from plcsim.program.structured_text.check.declared import is_open_block, unit_scope
 from plcsim.program.structured_text.check.findings import FileFindings
 from plcsim.program.structured_text.check.names import Symbols
 from plcsim.program.structured_text.check.open_arrays import OpenFunction, takes_any_bounds
@@ -239,8 +239,12 @@ class UnitCollector:
         if block is None or block.data_type is None:
             self._undeclared(unit, "FUNCTION_BLOCK", name)
         elif self._is_new(unit, "block", name):
-            self.symbols.storages[block.scope] = "instance"
             self._refuse_sections(unit.declaration.blocks)
+            if is_open_block(unit):
+                found = OpenFunction(unit, self._file, self._scope)
+                self.symbols.open_blocks[block.data_type] = found
+                return
+            self.symbols.storages[block.scope] = "instance"
             own = self._class(unit, block, block.data_type)
             self._owner = owner = BodyOwner(block.scope, block.data_type, this=own)
             self._owners[own] = owner

@@ -132,6 +132,14 @@ END_PROGRAM
 """
 
 
+OPEN_BLOCK = """
+FUNCTION_BLOCK S VAR_IN_OUT m : ARRAY[*] OF INT; END_VAR m[0] := 1; END_FUNCTION_BLOCK
+PROGRAM p VAR s : S; r : ARRAY[0..1] OF REAL; i : ARRAY[0..1] OF INT; END_VAR
+{};
+END_PROGRAM
+"""
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -141,6 +149,10 @@ END_PROGRAM
         (OPEN.format("LOWER_BOUND(m, 3)"), "4:17: error ST3014: ARRAY[1..2, 1..2] OF INT has no"),
         (OPEN.format("UPPER_BOUND(m)"), "error ST3003: UPPER_BOUND takes an array and the number"),
         ("PROGRAM p VAR a : ARRAY[*] OF INT; END_VAR END_PROGRAM", "error ST1002: ARRAY[*] is"),
+        (OPEN_BLOCK.format("s(m := r)"), "4:8: error ST3001: ARRAY[0..1] OF REAL does not go into"),
+        (OPEN_BLOCK.format("s()"), "4:2: error ST3003: m takes an array of 1 dimension"),
+        (OPEN_BLOCK.format("s"), "4:1: error ST3003: m takes an array of 1 dimension"),
+        (OPEN_BLOCK.format("s(m := i)").replace("m[0]", "m[5]"), "index 5 is outside 0..1"),
         ("PROGRAM p VAR a : ARRAY[*,2] OF INT; END_VAR END_PROGRAM", "error ST1001: expected '*'"),
     ],
 )
