@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from plcsim.recorder.bag.changes import changed
 from plcsim.recorder.bag.head import head_from
-from plcsim.recorder.bag.names import active
+from plcsim.recorder.bag.names import ACTIVE, active
 from plcsim.recorder.bag.types import CYCLES, HEAD, cycle_from, typestore
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE, JournalRecord
@@ -202,8 +202,11 @@ def _told(path: Path) -> Iterator[None]:
     try:
         yield
     except (ReaderError, Reader2Error) as err:
-        text = str(err)
-        hint = f": plcsim bag reindex {path} makes it readable" if "reindex" in text else ""
-        raise RecordingError(f"{path}: {text}{hint}") from None
+        text, *_ = str(err).split(": (")  # behind it an exception as Python shows it
+        if "index" not in text:
+            raise RecordingError(f"{path}: is damaged or no bag: {text}") from None
+        output = "" if path.suffix == ACTIVE else f" --output {path.stem}_reindexed.bag"
+        hint = f"plcsim bag reindex {path}{output} makes readable what is there"
+        raise RecordingError(f"{path}: {text.removesuffix('.')}: {hint}") from None
     except (OSError, AssertionError, KeyError, ValueError, struct.error, IndexError) as err:
         raise RecordingError(f"{path}: is damaged or no bag: {err}") from None

@@ -3,6 +3,7 @@ from pathlib import Path
 import pytest
 
 from plcsim.recorder.bag.reading import open_bag
+from plcsim.recorder.bag.reindex import reindex
 from plcsim.recorder.errors import RecordingError
 
 from ..conftest import Fast, Recordings, application_of
@@ -28,6 +29,19 @@ def test_a_truncated_bag_is_told(tmp_path: Path, name: str, part: int) -> None:
 
     with pytest.raises(RecordingError, match=name), open_bag(tmp_path / name) as bag:
         list(bag.messages())
+
+
+def test_a_bag_without_an_index_is_told_with_what_makes_it_readable(tmp_path: Path) -> None:
+    bag = tmp_path / "a.bag"
+    write(bag, count=100)
+    bag.write_bytes(bag.read_bytes()[:-10])
+
+    hint = rf"{bag}: Bag index looks damaged: plcsim bag reindex {bag} --output a_reindexed\.bag"
+    with pytest.raises(RecordingError, match=hint), open_bag(bag):
+        pass
+    reindex(bag, tmp_path / "a_reindexed.bag")
+    with open_bag(tmp_path / "a_reindexed.bag") as found:
+        assert len(list(found.messages())) == 100
 
 
 @pytest.mark.parametrize("name", ["a.bag", "a.mcap", "a.db3"])
