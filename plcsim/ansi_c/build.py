@@ -231,6 +231,7 @@ class _Object:
             *(part for folder in order.folders[:-1] for part in ("-I", str(folder))),
             *(() if is_c else toolchain.cpp_options),
             *(part for folder in order.folders[-1:] for part in ("-I", str(folder))),
+            *("-x", "c" if is_c else "c++"),  # clang would take MAIN.C for C++
             str(source),
         ]
         second = [*_SECOND, "-mllvm", f"-unroll-count={toolchain.rounds}"]

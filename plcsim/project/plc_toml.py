@@ -269,7 +269,8 @@ class _Parts:
             others = ", ".join(name for name in found.configurations)
             raise ConfigurationError(
                 f"{found.configuration.software_file}: no task runs in the configuration "
-                f"{found.configuration.name}; there are {others}"
+                f"{found.configuration.name}; there are {others}",
+                *map(str, found.findings),
             )
         stubs = self._folders.stub
         names = frozenset([ALL_VENDORS] if stubs is None else (name.lower() for name in stubs))

@@ -6,6 +6,8 @@ too deep.
 
 from __future__ import annotations
 
+import codecs
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 from xml.parsers import expat
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
 MAX_BYTES: Final = 32 << 20
 """Bytes of a file that are read; real ones stay below 4 MiB."""
+
+_DECLARED: Final = re.compile(rb"\s*<\?xml[^>]*encoding\s*=\s*[\"'](?!utf-?8)", re.IGNORECASE)
+"""The head of a text that declares another encoding than UTF-8."""
 
 MAX_DEPTH: Final = 100
 """Elements one inside the other; real ones stay below 20."""
@@ -95,7 +100,7 @@ def parse(data: bytes) -> XmlElement:
     Raises:
         DocumentError: it is no such XML.
     """
-    builder = _Builder()
+    builder = _Builder(_encoding(data))
     try:
         builder.parser.Parse(data, True)  # noqa: FBT003  # expat takes no names
     except expat.ExpatError as err:
@@ -107,13 +112,28 @@ def parse(data: bytes) -> XmlElement:
     return builder.root
 
 
+def _encoding(data: bytes) -> str | None:
+    """Return the encoding of a text that is not as it declares itself, None for what it declares.
+
+    Scripts and old versions have left files in UTF-16 and in that of Windows behind, as UTF-8.
+    """
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "UTF-16"
+    if _DECLARED.match(data) is None:
+        try:
+            data.decode("utf-8")
+        except UnicodeDecodeError:
+            return "ISO-8859-1"  # of those that expat knows the nearest
+    return None
+
+
 class _Builder:
     """Makes elements of what the parser finds."""
 
-    def __init__(self) -> None:
+    def __init__(self, encoding: str | None) -> None:
         self.root: XmlElement | None = None
         self._open: list[XmlElement] = []
-        self.parser = expat.ParserCreate()
+        self.parser = expat.ParserCreate(encoding)
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end

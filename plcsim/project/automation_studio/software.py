@@ -71,7 +71,8 @@ def read_software(file: Path) -> tuple[Software, list[Finding]]:
                 disabled.append(task.get("Name"))
             else:
                 tasks.append(_task(task, int(number[1])))
-    return Software(tuple(tasks), tuple(disabled)), findings + _same_names(file, tasks)
+    named, doubled = _named_once(file, tasks)
+    return Software(named, tuple(disabled)), findings + doubled
 
 
 def _task(element: XmlElement, number: int) -> TaskLine:
@@ -82,7 +83,8 @@ def _task(element: XmlElement, number: int) -> TaskLine:
     return TaskLine(name, tuple(path.split(".")), number, element.line, options)
 
 
-def _same_names(file: Path, tasks: list[TaskLine]) -> list[Finding]:
+def _named_once(file: Path, tasks: list[TaskLine]) -> tuple[tuple[TaskLine, ...], list[Finding]]:
+    """Return the tasks without those whose name another one has, and what is to be told of these."""
     seen: dict[str, TaskLine] = {}
     findings = []
     for task in tasks:
@@ -90,4 +92,4 @@ def _same_names(file: Path, tasks: list[TaskLine]) -> list[Finding]:
         if other is not task:
             message = f"a task is called {task.name} in line {other.line} already"
             findings.append(Finding(file, task.line, message))
-    return findings
+    return tuple(seen.values()), findings

@@ -30,7 +30,7 @@ def test_elements_know_their_lines_attributes_and_texts():
         (b'<?xml version="1.0" encoding="nonsense"?><a/>', "it is no XML: ", 1),
         (b'\n<!DOCTYPE a [<!ENTITY b "c">]>\n<a>&b;</a>', "a document type (a) has no place", 2),
         (b"<a>\n" * 200 + b"</a>" * 200, "elements are nested deeper than 100", 101),
-        (b"<a>\xff</a>", "it is no XML: not well-formed", 1),
+        (b"<a>\xff\0</a>", "it is no XML: not well-formed", 1),
     ],
 )
 def test_what_is_no_such_document(data, message, line):
@@ -38,6 +38,19 @@ def test_what_is_no_such_document(data, message, line):
         parse(data)
     assert str(raised.value).startswith(message)
     assert raised.value.line == line
+
+
+@pytest.mark.parametrize(
+    ("declared", "encoding"),
+    [
+        *(("utf-16", "utf-16"), ("utf-8", "utf-16"), ("windows-1252", "cp1252")),
+        *(("utf-8", "cp1252"), ("utf-8", "utf-8"), ("utf-8", "utf-8-sig"), ("", "cp1252")),
+    ],
+)
+def test_texts_are_read_in_the_encoding_that_they_have(declared, encoding):
+    head = f'<?xml version="1.0" encoding="{declared}"?>\n' if declared else "\n"
+    root = parse(f"{head}<a Name='F\xfcller'>gro\xdf</a>".encode(encoding))
+    assert (root.get("Name"), root.text, root.line) == ("F\xfcller", "gro\xdf", 2)
 
 
 def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
