@@ -84,7 +84,7 @@ def _task(element: XmlElement, number: int) -> TaskLine:
 
 
 def _named_once(file: Path, tasks: list[TaskLine]) -> tuple[tuple[TaskLine, ...], list[Finding]]:
-    """Return the tasks without those whose name another one has, and what is to be told of these."""
+    """Return tasks without those whose name another has, and what is to be told of these."""
     seen: dict[str, TaskLine] = {}
     findings = []
     for task in tasks:
