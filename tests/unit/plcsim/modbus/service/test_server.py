@@ -17,6 +17,7 @@ from plcsim.modbus.service.connection import ModbusConnection
 from plcsim.modbus.service.server import Server
 from plcsim.modbus.settings import ModbusSettings
 from plcsim.shared_image import reader
+from tests.ports import free_port
 
 from ..site import World, frame, frames
 
@@ -212,12 +213,12 @@ def test_an_idle_connection_is_closed_half_a_request_does_not_keep_it(world: Wor
         await reader.readexactly(len(ANSWER))
         for byte in READ[:-1]:
             writer.write(bytes([byte]))
-            await asyncio.sleep(0.02)
+            await asyncio.sleep(0.05)
         with pytest.raises((asyncio.IncompleteReadError, ConnectionError)):
             await reader.readexactly(1)
         writer.close()
 
-    serve(world, client, replace(SETTINGS, idle_ns=100_000_000))
+    serve(world, client, replace(SETTINGS, idle_ns=400_000_000))
 
 
 def test_a_peer_that_does_not_read_is_not_served_without_bound(world: World) -> None:
@@ -259,7 +260,7 @@ def test_stopping_closes_the_connections_and_the_port_is_free_again(world: World
         assert await reader.read() == b""
         writer.close()
 
-    serve(world, client)
+    serve(world, client, replace(SETTINGS, port=free_port()))
 
     async def again(server: Server) -> None:
         assert await exchange(server, READ, len(ANSWER)) == ANSWER

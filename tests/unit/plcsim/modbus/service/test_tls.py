@@ -189,7 +189,7 @@ def test_no_certificate_has_no_role_and_unknown_roles_no_rights() -> None:
 def test_a_handshake_that_never_ends_takes_a_place_for_a_while_only(
     authority: Authority, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listener, "HANDSHAKE_S", 0.5)
+    monkeypatch.setattr(listener, "HANDSHAKE_S", 2)
     world, own = World(), authority.issue("client")
     modbus = ModbusSettings(port=0, tls=settings_of(authority, {}), connections=3)
 

@@ -17,7 +17,10 @@ class Viewer:
     def __init__(self, port: int) -> None:
         self._open = ExitStack()
         connection = import_module("websockets.sync.client").connect(
-            f"ws://127.0.0.1:{port}", subprotocols=["foxglove.sdk.v1"], proxy=None
+            f"ws://127.0.0.1:{port}",
+            subprotocols=["foxglove.sdk.v1"],
+            proxy=None,
+            open_timeout=100,
         )
         self._socket = self._open.enter_context(connection)
 
