@@ -49,7 +49,7 @@ def test_the_floor_skips_what_it_missed(floor):
     grid = LoopOrder(cycle_ns=1, cycles=5, realtime=False)  # no host wakes within a nanosecond
     figures = CLoop(floor).run(grid)
     assert figures.missed >= grid.cycles
-    assert figures.lateness.maximum_ns < 1_000_000_000
+    assert figures.lateness.maximum_ns < 100_000_000_000
 
 
 @pytest.mark.parametrize("realtime", [False, True])
