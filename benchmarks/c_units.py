@@ -87,7 +87,7 @@ def kernels(name: str, folder: Path, machine: Machine) -> dict[str, Callable[[in
     command = [gcc, "-O2", "-fPIC", "-shared", "-o", str(native), str(source)]
     subprocess.run(command, check=True)  # a compiler
     built = build(BuildOrder(name, [source], [INCLUDE]), find_toolchain(), CodeCache(None))
-    module = CModule(name, read_shared(built.wasm), machine, Nothing())
+    module = CModule(name, read_shared(built.wasm), machine, Nothing()).link()
     module.reset()
     return {"gcc -O2": ctypes.CDLL(str(native)).run, "unit": module.function("run")}
 
