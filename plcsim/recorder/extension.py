@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import sys
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Final
 
@@ -187,10 +188,12 @@ class _InScan:
                 self._give_up(err)
 
     def _give_up(self, err: OSError) -> None:
-        if self._writing is not None:
-            self._writing.abandon()
+        if self._writing is None:
+            return
+        told = self._writing.abandon(err)
         self._writing = None
-        self._controller.log(Severity.ERROR, "record", f"the recording ends: {err}")
+        self._controller.log(Severity.ERROR, "record", f"the recording ends: {told}")
+        sys.stderr.write(f"record: {told}\n")  # whoever looks at no logbook waits for the bag
 
 
 EXTENSION = RecordExtension()

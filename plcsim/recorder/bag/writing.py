@@ -216,9 +216,12 @@ class Writing:
         """End the file that is being written."""
         self._bag.close()
 
-    def abandon(self) -> None:
-        """End where nothing can be written any more."""
+    def abandon(self, err: OSError) -> str:
+        """End where nothing can be written any more; return what to tell of it."""
         self._bag.abandon()
+        left = active(self.files[-1])
+        hint = f"; plcsim bag reindex {left} makes readable what is there" if left.is_file() else ""
+        return f"{self._path}: cannot be written: {err}{hint}"
 
 
 def tag_messages(head: Head) -> list[TagMessages]:

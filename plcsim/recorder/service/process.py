@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.control import Step
 from plcsim.recorder.bag.head import head_from
-from plcsim.recorder.bag.names import active
 from plcsim.recorder.bag.writing import Limits, Writing
 from plcsim.recorder.errors import RecordingError
 from plcsim.recorder.journal.record import CYCLE, record_of
@@ -48,10 +47,7 @@ def serve(service: Service) -> None:
     try:
         Recorder(service, writing, live).run()
     except OSError as err:
-        writing.abandon()
-        left = active(writing.files[-1])
-        hint = f"; plcsim bag reindex {left} makes readable what is there" if left.is_file() else ""
-        raise RecordingError(f"{file}: cannot be written: {err}{hint}") from None
+        raise RecordingError(writing.abandon(err)) from None
 
 
 class Recorder:

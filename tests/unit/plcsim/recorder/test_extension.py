@@ -1,3 +1,4 @@
+import re
 from pathlib import Path
 
 import pytest
@@ -69,7 +70,7 @@ def test_the_head_names_the_sources_of_the_project(recordings: Recordings) -> No
 
 
 def test_a_full_disk_ends_the_recording_and_not_the_controller(
-    recordings: Recordings, monkeypatch: pytest.MonkeyPatch
+    recordings: Recordings, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
@@ -85,4 +86,9 @@ def test_a_full_disk_ends_the_recording_and_not_the_controller(
     (controller,) = seen
     assert controller.classes[0].cycles == 40
     errors = [entry.text for entry in controller.logbook if entry.severity is Severity.ERROR]
-    assert errors == ["the recording ends: [Errno 28] No space left on device"]
+    told = capsys.readouterr().err.removeprefix("record: ").rstrip()  # with --quiet as well
+    assert errors == [f"the recording ends: {told}"]
+    assert re.search(r"a\.bag: cannot be written: \[Errno 28\] No space left on device", told)
+    left = re.search(r"; plcsim bag reindex (\S+) makes readable what is there", told)
+    assert left
+    assert Path(left[1]).is_file()
