@@ -6,6 +6,7 @@ lost. Where the work shall be of use, it fills a cache that is asked here afterw
 
 from __future__ import annotations
 
+import fcntl
 import os
 import signal
 import sys
@@ -74,8 +75,16 @@ class SharedNumbers:
 
     def __iter__(self) -> Iterator[int]:
         """Take numbers until there are no more."""
-        while taken := os.read(self._fd, _NUMBER_BYTES):  # the kernel gives each to one process
+        while taken := self._take():
             yield int.from_bytes(taken, "little")
+
+    def _take(self) -> bytes:
+        """Read the next; under a lock, for reads of such a file do not wait for each other."""
+        fcntl.lockf(self._fd, fcntl.LOCK_EX)  # goes with its process, should that be killed
+        try:
+            return os.read(self._fd, _NUMBER_BYTES)
+        finally:
+            fcntl.lockf(self._fd, fcntl.LOCK_UN)
 
     @property
     def taken(self) -> int:

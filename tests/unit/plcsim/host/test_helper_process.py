@@ -74,15 +74,15 @@ def test_one_processor_or_several_threads_have_no_helper(monkeypatch):
 
 
 def test_copies_take_each_number_once(tmp_path):
-    with SharedNumbers(300) as numbers:
+    with SharedNumbers(3000) as numbers:
         with helper_process(
             lambda: (tmp_path / "there").write_text(" ".join(map(str, numbers)))
         ) as wait:
             here = [*numbers]
             wait()
         there = [int(number) for number in (tmp_path / "there").read_text().split()]
-        assert numbers.taken == 300
-    assert sorted(here + there) == [*range(300)]
+        assert numbers.taken == 3000
+    assert sorted(here + there) == [*range(3000)]
     assert here == sorted(here)
     assert there == sorted(there)
 
