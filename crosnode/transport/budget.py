@@ -12,10 +12,10 @@ from typing import Final, NamedTuple
 POLL_WORK: Final = 1_024
 """Price of looking at a connection."""
 
-LARGE_SHARE: Final = 2
+LARGE_SHARE: Final = 1
 """Bytes of a large message, which go between the socket and their place without a copy in pieces
 of up to a mebibyte, that cost as much as one byte of others. Mostly five do; but how fast memory is
-moves with what else the host does, and a message now and then may as well take two steps more."""
+moves with what else the host does, and a message now and then may as well take more steps."""
 
 STREAM_SHARE: Final = 5
 """The same in a node that large messages reach or leave without a pause: there each step takes what

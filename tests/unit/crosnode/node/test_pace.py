@@ -55,7 +55,7 @@ def shares(large: list[int]) -> list[int]:
 
 
 def test_a_large_message_now_and_then_is_spread_over_steps() -> None:
-    message = [260_000] * 4 + [0] * 16
+    message = [130_000] * 8 + [0] * 12
     assert set(shares(20 * message)) == {LARGE_SHARE}
 
 
