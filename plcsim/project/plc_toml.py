@@ -266,10 +266,11 @@ class _Parts:
         hardware = found.configuration.hardware
         classes = task_classes(tasks, hardware, tables)
         if not classes:
+            where = f"{found.configuration.software_file}: no task runs"
             others = ", ".join(name for name in found.configurations)
+            chosen = f" in the configuration {found.configuration.name}; there are {others}"
             raise ConfigurationError(
-                f"{found.configuration.software_file}: no task runs in the configuration "
-                f"{found.configuration.name}; there are {others}",
+                where + chosen if others else f"{where}: the logical view has no program",
                 *map(str, found.findings),
             )
         stubs = self._folders.stub

@@ -84,6 +84,17 @@ def test_everything_that_is_wrong_is_told(read):
         read("[as]\nskip = []", "")
 
 
+def test_a_project_without_programs_says_what_is_wrong_in_its_files(tmp_path):
+    (tmp_path / "Logical").mkdir()
+    (tmp_path / "Line.apj").write_text("<Project/>")
+    (tmp_path / "Logical" / "Package.pkg").write_text("<Package>\n<Obj")
+    with pytest.raises(ConfigurationError) as raised:
+        read_project(tmp_path)
+    first, second, *_ = raised.value.findings
+    assert first.endswith("no task runs: the logical view has no program")
+    assert second.endswith("Package.pkg:2: error: it is no XML: unclosed token")
+
+
 def test_a_configuration_without_tasks_names_the_others(read):
     skip = '["Clock", "FillStatio", "ValveA", "ValveB", "Boiler", "Count"]'
     with pytest.raises(ConfigurationError, match="no task runs in the configuration Machine"):

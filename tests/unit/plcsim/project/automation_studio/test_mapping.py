@@ -36,6 +36,14 @@ def test_channels_with_their_variables_modules_and_lines(write):
     assert [each.pv.tag for each in found[:2]] == ["gStart", "Valve.io[2].open"]
 
 
+@pytest.mark.parametrize("encoding", ["utf-16", "cp1252", "utf-8-sig"])
+def test_maps_are_read_in_the_encoding_that_they_have(tmp_path, encoding):
+    file = tmp_path / "IoMap.iom"
+    file.write_bytes(f"(* F\xfcller *) {CHANNELS}".encode(encoding))
+    found, findings = read_channels(file)
+    assert (len(found), findings) == (5, [])
+
+
 def test_copies_and_permanent_variables(write):
     folder = write(
         {
