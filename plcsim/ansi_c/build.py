@@ -69,14 +69,17 @@ _CPP_OPTIONS = (
     *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
 )
 _TO_BITCODE = ("-Xclang", "-emit-llvm-bc")
-_SECOND = (
+_ROUNDS = (
     # Several rounds for one jump back, and one poll, in small loops whose rounds nobody knows (how
     # many, `Toolchain.rounds` says). In the first run the same option would keep loops of fixed
     # rounds from being written out.
     *("-mllvm", "-unroll-threshold=60", "-mllvm", "-pragma-unroll-threshold=60"),
-    "-Wno-unused-command-line-argument",
 )
 """A file goes through the compiler twice: to bitcode, and with these from there to an object."""
+_NO_PASSES = ("-Xclang", "-disable-llvm-passes")
+_LOOP = b"llvm.loop."
+"""Stands in the bitcode of C where a loop that ends is left. Where none is there are no rounds to
+write out, and the passes that the first run has done are not done again."""
 
 _LINK_OPTIONS = ("--shared", "--experimental-pic", "--import-memory", "--import-undefined")
 
@@ -213,7 +216,7 @@ class _Object:
     def __init__(
         self, source: Path, work: _WorkFolder, order: BuildOrder, toolchain: Toolchain
     ) -> None:
-        is_c = source.suffix.lower() == ".c"
+        self._is_c = is_c = source.suffix.lower() == ".c"
         self.source = source
         self.content = b""
         self.errors: list[str] = []
@@ -234,9 +237,10 @@ class _Object:
             *("-x", "c" if is_c else "c++"),  # clang would take MAIN.C for C++
             str(source),
         ]
-        second = [*_SECOND, "-mllvm", f"-unroll-count={toolchain.rounds}"]
-        self._second_command = [*toolchain.c, *_OPTIONS, *order.options, *second]
-        self._manifest = _key("manifest", toolchain.identity, *self.command, *second)
+        self._rounds = [*_ROUNDS, "-mllvm", f"-unroll-count={toolchain.rounds}"]
+        self._options = order.options
+        ways = [*self._rounds, *_NO_PASSES]
+        self._manifest = _key("manifest", toolchain.identity, *self.command, *ways)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""
@@ -270,7 +274,10 @@ class _Object:
 
     def command_to_object(self) -> list[str]:
         """Return what makes an object of the bitcode."""
-        return [*self._second_command, str(self._bitcode), "-o", str(self.file)]
+        has_loops = not self._is_c or _LOOP in self._bitcode.read_bytes()
+        passes = self._rounds if has_loops else _NO_PASSES
+        options = [*_OPTIONS, *self._options, *passes, "-Wno-unused-command-line-argument"]
+        return [*self.toolchain.c, *options, str(self._bitcode), "-o", str(self.file)]
 
     def command_that_tells(self) -> list[str]:
         """Return what makes an object at once, and so knows where what is wrong in it stands."""
