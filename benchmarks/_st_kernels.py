@@ -142,7 +142,9 @@ class OnMachine:
                 self._memory.write(addresses[one.name], one.data)
         self.address = addresses[compiled.segment]
         self._size = compiled.variables.size
-        instance = Linker(machine).link(compiled.code, addresses, _nothing)
+        linker = Linker(machine)
+        code = linker.compiled(compiled.code, addresses)
+        instance = linker.link(compiled.code, code, _nothing)
         self.cyclic = instance.function("cyclic")
         self.machine = machine
         driver = machine.compile(_driver())

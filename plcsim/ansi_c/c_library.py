@@ -43,7 +43,8 @@ STAMP: Final = "plcsim.sources"
 """Custom section that holds the hash of what the module was built from."""
 
 STACK_SIZE: Final = 0x4_0000
-"""Bytes of the stack that the library and all programs in C share."""
+"""Bytes of the stack that the library, all programs in C, and functions in Structured Text that
+call themselves share."""
 
 LONGEST_PATH: Final = 259
 """Bytes of the path of a file."""

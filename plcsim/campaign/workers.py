@@ -22,6 +22,7 @@ from distributed import WorkerPlugin, get_worker
 from plcsim.campaign.errors import CampaignError
 from plcsim.campaign.result import Result, RunOutcome
 from plcsim.campaign.runner import HELD_BACK
+from plcsim.host.signals import held_back
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -49,16 +50,13 @@ class Runner:
     def __init__(self, file: Path, folder: Path) -> None:
         self._connection, child = Pipe()
         arguments = [str(file), str(child.fileno()), str(os.getpid())]
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
-        try:
+        with held_back(HELD_BACK):
             self._process = subprocess.Popen(  # noqa: S603  # our own module
                 [sys.executable, "-P", "-m", "plcsim.campaign.runner", *arguments],
                 pass_fds=(child.fileno(),),
                 cwd=folder,
                 stdin=subprocess.DEVNULL,
             )
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         child.close()
         self._await_start()
 

@@ -10,15 +10,29 @@ from __future__ import annotations
 import ctypes
 import os
 import signal
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
 _SIGSET_BYTES = 128
 """Size of the C library's sigset_t on Linux; signal n is bit n - 1."""
 
 _libc = ctypes.CDLL(None, use_errno=True)
+
+
+@contextmanager
+def held_back(numbers: Iterable[int]) -> Iterator[None]:
+    """Block signals in the block, so that a process started there begins with them blocked.
+
+    It lets them come once it handles them; until then one that came would end it.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class HeldSignals:

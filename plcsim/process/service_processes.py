@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
 import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 from plcsim.core.backoff import Backoff
+from plcsim.host.signals import held_back
 from plcsim.process.service_main import HELD_BACK, ServiceOrder
 from plcsim.project.extension import extensions, services_of
 from plcsim.shared_image import ImageNotReady, ImageReader
@@ -72,8 +72,7 @@ class _Service:
 
     def _start(self) -> None:
         order = self.order
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
-        try:
+        with held_back(HELD_BACK):
             self._process = subprocess.Popen(  # noqa: S603  # a module that an extension named
                 [sys.executable, "-P", "-m", MAIN, self._module, order.to_json()],
                 pass_fds=(order.image_fd, order.status_fd, order.wake_fd),
@@ -82,8 +81,6 @@ class _Service:
                 stdout=self._output.fds[0],
                 stderr=self._output.fds[1],
             )
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
         self.starts += 1
 
     @property

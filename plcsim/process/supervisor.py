@@ -26,6 +26,7 @@ from plcsim.core.system import State
 from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
 from plcsim.host.processors import keep_off
+from plcsim.host.signals import held_back
 from plcsim.host.stack_reader import location_in
 from plcsim.process import watchdog
 from plcsim.process.orphans import Orphans, end_group
@@ -430,8 +431,7 @@ class Supervisor:
 
 def _start(order: RunOrder, fds: tuple[int, ...], output: ChildOutput) -> subprocess.Popen[bytes]:
     """Start the scan process, in a group of its own so that Ctrl-C reaches it through us only."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
-    try:
+    with held_back(HELD_BACK):
         return subprocess.Popen(  # noqa: S603  # our own module
             [sys.executable, "-P", "-m", "plcsim.process.scan_process", order.to_json()],
             pass_fds=fds,
@@ -441,8 +441,6 @@ def _start(order: RunOrder, fds: tuple[int, ...], output: ChildOutput) -> subpro
             stderr=output.fds[1],
             env={**ONE_THREAD, **os.environ},
         )
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _read_all(fd: int) -> bytes:

@@ -52,7 +52,7 @@ CAMPAIGN = """
     @campaign.scenario
     def run(plc, values):
         if SLOW.exists():
-            time.sleep(values["pause"])
+            time.sleep(values["pause"])  # a slow run is what the test needs
         plc.faults.noise("ramp.value", 0.5)
         plc.run("1s")
 """

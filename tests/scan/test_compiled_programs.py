@@ -49,7 +49,8 @@ class Counter:
         view = site.memory.new(Variables)
         linker = Linker(Machine(site.memory, cache=CodeCache(None)))
         tag = Tag(name, type_of(Variables), address_of(view))
-        instance = linker.link(self.code, {"program": tag.address}, lambda _: None)
+        compiled = linker.compiled(self.code, {"program": tag.address})
+        instance = linker.link(self.code, compiled, lambda _: None)
         lines = {"counter": locator(self.code.lines)}.get
         units = {one: instance.function(one.value) for one in Unit}
         task = Task(

@@ -1,4 +1,4 @@
-"""Real scan processes: what becomes of programs that hang, crash, fail and print.
+"""Real scan processes: what becomes of programs that hang, crash and fail.
 
 Most tests supervise a scan process from here; what concerns the command line starts `plcsim run`
 itself. Programs say where they are by printing or by what they have run; no test sleeps.
@@ -7,8 +7,6 @@ itself. Programs say where they are by printing or by what they have run; no tes
 import json
 import os
 import signal
-import subprocess
-import sys
 import threading
 from dataclasses import replace
 from functools import partial
@@ -25,25 +23,10 @@ from plcsim.process.supervisor import Supervisor
 from plcsim.project.plc_toml import read_project
 from plcsim.shared_image.status_page import StatusPage
 
+from .conftest import QUICK, SLOW
+
 MS = 1_000_000
-HEAD = "import ctypes, os, signal, sys, threading, time\nfrom plcsim import Program\n"
-QUICK = 'watchdog = "100ms"\nrealtime = "off"\n'  # other tests may need the processor
-SLOW = 'watchdog = "100s"\nrealtime = "off"\n'  # where it is not the watchdog that is tested
 IN = "print('in', flush=True)"
-
-
-@pytest.fixture
-def program(project_of):
-    """``program(cyclic="...", exit="...")``: a project whose units have these bodies."""
-
-    def program(plc=SLOW, settings="", before="", **units):
-        source = f"{HEAD}{before}\nclass Main(Program):\n    pass\n"
-        for unit, body in units.items():
-            lines = "".join(f"        {line}\n" for line in body.splitlines())
-            source += f"    def {unit}(self):\n{lines}"
-        return project_of(source, plc=plc, settings=settings)
-
-    return program
 
 
 PATIENT_NS = 100_000 * MS
@@ -83,40 +66,6 @@ def supervise(monkeypatch):
             return supervised.wait(lambda: look_and_shorten(supervised))
 
     return supervise
-
-
-@pytest.fixture
-def start():
-    """``start("run", folder)``: a running plcsim, killed at the end of the test."""
-    started = []
-
-    def start(*arguments):
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "plcsim.cli.main", *map(str, arguments)],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            env={name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"},
-        )
-        started.append(process)
-        return process
-
-    yield start
-    for process in started:
-        process.kill()
-        process.communicate()
-
-
-@pytest.fixture
-def finish(start):
-    """``finish("run", folder)``: exit code, stdout and stderr of a plcsim that ends by itself."""
-
-    def finish(*arguments):
-        process = start(*arguments)
-        out, err = process.communicate(timeout=100)
-        return process.returncode, out, err
-
-    return finish
 
 
 def line_of(folder, text):
@@ -466,62 +415,6 @@ def test_a_run_ends_at_its_limit(program, supervise, virtual, limit):
     if virtual:
         assert first["cycles"] == 10
         assert result["elapsed_ns"] == limit.get("for_ns", 95 * MS)
-
-
-def test_a_program_that_prints_a_lot_loses_nothing(program, finish):
-    folder = program(cyclic="print('x' * 50_000)\nprint('end')")
-    code, out, _ = finish("run", folder, "--virtual", "--cycles", "20", "--quiet")
-    assert code == 0
-    assert out == ("x" * 50_000 + "\nend\n") * 20
-
-
-def test_what_a_program_printed_before_it_was_killed_is_seen(program, finish):
-    code, out, _ = finish("run", program(cyclic="print('last words')\nos._exit(0)"), "--quiet")
-    assert (code, out) == (3, "last words\n")
-
-
-FLOOD = "for _ in range(200): print('x' * 1_000)"  # 2 MB in 10 cycles: more than all pipes hold
-
-
-def test_a_program_that_prints_to_a_blocked_pipe_goes_on(program, start):
-    process = start("run", program(cyclic=FLOOD), "--cycles", "30")
-    err = process.stderr.read()
-    assert process.wait(100) == 0
-    assert "STOPPED" in err
-    (lost,) = [line for line in err.splitlines() if "are lost" in line]
-    assert int(lost.split()[0].replace(",", "")) + len(process.stdout.read()) == 30 * 200 * 1_001
-
-
-def test_on_the_virtual_clock_a_program_waits_for_its_reader(program, start):
-    """Longer than the watchdog would let it do anything else."""
-    process = start("run", program(plc=QUICK, cyclic=FLOOD), "--virtual", "--cycles", "30")
-    with pytest.raises(subprocess.TimeoutExpired):
-        process.wait(2)
-    assert len(process.stdout.read()) == 30 * 200 * 1_001
-    assert "are lost" not in process.stderr.read()
-    assert process.wait(100) == 0
-
-
-def test_a_reader_that_has_seen_enough_does_not_end_the_run(program, start):
-    process = start("run", program(cyclic="print('line')"), "--cycles", "20")
-    process.stdout.readline()
-    process.stdout.close()
-    process.stdout = None
-    assert "lost" not in process.stderr.read()
-    assert process.wait(100) == 0
-
-
-@pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
-def test_closed_standard_descriptors_do_not_matter(program, closed, tmp_path):
-    """What a program prints must not end up in a file of ours that has got the number."""
-    folder = program(cyclic="print('x' * 5000)\nprint('y' * 5000, file=sys.stderr)")
-    report = tmp_path / "report.json"
-    command = f'"{sys.executable}" -P -m plcsim run "$1" --cycles 5 --report "$2" {closed}'
-    done = subprocess.run(
-        ["sh", "-c", command, "sh", folder, report], capture_output=True, timeout=100, check=False
-    )
-    assert done.returncode == 0
-    assert json.loads(report.read_text())["state"] == "STOPPED"
 
 
 DAEMON = """if not self.context.violation and not hasattr(Main, 'started'):

@@ -599,6 +599,7 @@ FUNCTION WFIND : INT (*position of the first IN2 in the WSTRING IN1, 0 for none*
 	END_VAR
 	VAR
 		place : INT;
+		last : INT;
 		size : INT;
 		found : INT;
 	END_VAR

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
@@ -209,9 +208,9 @@ class StructuredTextCode:
         linkage = Linkage.of(site)
         own = addresses(OWN, (variables, constants))
         placed = linkage.place(self._code, self._scope, own, name)
-
-        task = partial(_task, name, site, variables, constants)
-        return PlacedProgram(placed.compile, lambda: task(placed.link()))
+        return PlacedProgram(
+            placed.compile, lambda: _task(name, site, variables, constants, placed.link())
+        )
 
 
 def _task(name: str, site: Site, variables: Tag, constants: Tag | None, instance: Instance) -> Task:

@@ -110,7 +110,7 @@ class Linkage:
 
     def _link(self, code: ObjectCode, scope: Scope, task: str, compiled: MachineCode) -> Instance:
         self._compiled.locate_by(code.name, locator(code.lines))
-        instance = self._linker.link_compiled(code, compiled, partial(self._provide, scope))
+        instance = self._linker.link(code, compiled, partial(self._provide, scope))
         if code.profile is not None:
             module = CountedModule(task, code.profile, instance)
             self.counted.append(module)

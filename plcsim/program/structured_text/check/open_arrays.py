@@ -7,7 +7,7 @@ UPPER_BOUND are numbers. The price is code, as with methods (docs/decisions/0015
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from st_types.resolve.scope import Scope
 from st_types.syntax.expressions import Literal
@@ -21,7 +21,7 @@ from st_types.syntax.tree import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from plcsim.program.structured_text.syntax.tree import (
         FunctionBlockUnit,
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from st_types.resolve.declared import DeclaredFunction, DeclaredFunctionBlock
     from st_types.syntax.tree import FunctionBlockDeclaration
     from st_types.types.derived import ArrayType
+
+T = TypeVar("T", "DeclaredFunction", "DeclaredFunctionBlock")
 
 _PARAMETERS = frozenset(["VAR_INPUT", "VAR_IN_OUT", "VAR_OUTPUT"])
 _BY_ADDRESS = frozenset(["VAR_IN_OUT"])
@@ -83,8 +85,7 @@ class OpenFunction:
     unit: FunctionUnit | MethodUnit | FunctionBlockUnit
     file: StructuredTextFile
     scope: Scope
-    _made: dict[str, DeclaredFunction | None] = field(default_factory=dict)
-    _made_blocks: dict[str, DeclaredFunctionBlock | None] = field(default_factory=dict)
+    _made: dict[str, Any] = field(default_factory=dict)
 
     def made_for(self, arrays: Mapping[str, ArrayType[object]]) -> DeclaredFunction | None:
         """Return the function for arrays; its name tells their bounds. None after an error.
@@ -92,25 +93,25 @@ class OpenFunction:
         Args:
             arrays: what is given, by the names of the parameters as declared.
         """
-        label = self._label(arrays)
-        if label not in self._made:
-            found = self._around(arrays).find_function(self.unit.declaration.name)
-            self._made[label] = None if found is None else found._replace(name=label)
-        return self._made[label]
+        return self._found(arrays, Scope.find_function)
 
     def block_for(self, arrays: Mapping[str, ArrayType[object]]) -> DeclaredFunctionBlock | None:
         """Return the function block for arrays, likewise; its data block is laid out as any."""
-        label = self._label(arrays)
-        if label not in self._made_blocks:
-            found = self._around(arrays).find_function_block(self.unit.declaration.name)
-            self._made_blocks[label] = None if found is None else found._replace(name=label)
-        return self._made_blocks[label]
+        return self._found(arrays, Scope.find_function_block)
 
-    def _label(self, arrays: Mapping[str, ArrayType[object]]) -> str:
+    def _found(
+        self, arrays: Mapping[str, ArrayType[object]], find: Callable[[Scope, str], T | None]
+    ) -> T | None:
         bounds = "; ".join(
             ", ".join(f"{low}..{high}" for low, high in array.bounds) for array in arrays.values()
         )
-        return f"{self.unit.declaration.name}[{bounds}]"
+        name = self.unit.declaration.name
+        label = f"{name}[{bounds}]"
+        if label not in self._made:
+            found = find(self._around(arrays), name)
+            self._made[label] = None if found is None else found._replace(name=label)
+        made: T | None = self._made[label]
+        return made
 
     def _around(self, arrays: Mapping[str, ArrayType[object]]) -> Scope:
         """Return a scope that declares it for some arrays."""

@@ -31,33 +31,20 @@ class Linker:
         self._mathematics: dict[str, Extern] = {}
         self._lines: dict[str, ModuleLines] = {}
 
+    def compiled(self, code: ObjectCode, addresses: Mapping[str, int]) -> MachineCode:
+        """Return the machine code of a module for addresses of its segments, by name."""
+        return self._machine.compile(code.place(addresses))
+
     def link(
-        self,
-        code: ObjectCode,
-        addresses: Mapping[str, int],
-        provide: Callable[[ir.Import], Extern],
+        self, code: ObjectCode, compiled: MachineCode, provide: Callable[[ir.Import], Extern]
     ) -> Instance:
         """Return a module that is ready to run.
 
         Args:
             code: the module; one may be linked several times, with other addresses.
-            addresses: of its segments, by name.
+            compiled: its machine code for some addresses.
             provide: gives what the module imports; it may link other modules for that. What it
                 raises is raised here.
-
-        Raises:
-            ValueError: another module has its name.
-        """
-        return self.link_compiled(code, self.compiled(code, addresses), provide)
-
-    def compiled(self, code: ObjectCode, addresses: Mapping[str, int]) -> MachineCode:
-        """Return the machine code of a module for addresses of its segments, by name."""
-        return self._machine.compile(code.place(addresses))
-
-    def link_compiled(
-        self, code: ObjectCode, compiled: MachineCode, provide: Callable[[ir.Import], Extern]
-    ) -> Instance:
-        """Return a module of which `compiled` has made machine code, as `link` does.
 
         Raises:
             ValueError: another module has its name.

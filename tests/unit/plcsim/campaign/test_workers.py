@@ -29,7 +29,7 @@ def test_ctrl_c_does_not_end_a_process_that_has_just_been_started(
 
     class Interrupted(subprocess.Popen[bytes]):
         def __init__(self, *arguments: object, **options: object) -> None:
-            super().__init__(*arguments, **options)  # type: ignore[call-overload]
+            super().__init__(*arguments, **options)  # type: ignore[call-overload]  # handed on as given
             self.send_signal(signal.SIGINT)
 
     file = campaign_file(CAMPAIGN)

@@ -1,4 +1,4 @@
-"""``plcsim run``: options, exit codes, report; hard cases are in tests/scan/test_supervisor.py."""
+"""``plcsim run``: options, exit codes, report; hard cases are in tests/scan."""
 
 import json
 import os

@@ -97,7 +97,7 @@ def test_jobs_are_shared_once_one_is_new_and_each_is_done(monkeypatch, tmp_path)
         limit = time.monotonic() + 100
         while number > 2 and len({f.name.split()[1] for f in tmp_path.iterdir()}) < 2:
             assert time.monotonic() < limit
-            time.sleep(0.001)
+            time.sleep(0.001)  # the other process tells by files only
         return number == 2
 
     share(9, do, told.append)

@@ -114,7 +114,8 @@ class Running:
         self.memory.write(self.addresses["hidden"], hidden.data)
         self.segments = segments
         linker = Linker(self.machine)
-        self.instance = linker.link(generate(self.module), self.addresses, self._provide)
+        code = generate(self.module)
+        self.instance = linker.link(code, linker.compiled(code, self.addresses), self._provide)
 
     def _provide(self, wanted):
         codes = {"i32": "i", "i64": "q", "f32": "f", "f64": "d", None: ""}

@@ -60,7 +60,7 @@ def fault(memory):
         code = generate(whole)
         instance = linker.link(
             code,
-            {"program": FIRST},
+            linker.compiled(code, {"program": FIRST}),
             lambda wanted: machine.host_function(provide, "I"),
         )
         cyclic = instance.function("CYCLIC")

@@ -154,7 +154,7 @@ def outlast(supervisor: Supervisor, count: int) -> None:
     """Wait until the scan has done some more cycles."""
     cycles = supervisor.page.of_class(1).cycles + count
     while supervisor.page.of_class(1).cycles < cycles:
-        time.sleep(0.005)
+        time.sleep(0.005)  # the scan tells by its status page only
 
 
 def has_messages(left: Path) -> bool:

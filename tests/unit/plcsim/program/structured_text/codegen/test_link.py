@@ -46,6 +46,10 @@ def user():
     return generate(module(unit(body), imports={"COUNTER": CALLED}))
 
 
+def linked(linker, code, addresses, provide):
+    return linker.link(code, linker.compiled(code, addresses), provide)
+
+
 def word(memory, address):
     return struct.unpack("<I", memory.read(address, 4))[0]
 
@@ -54,7 +58,7 @@ def test_one_program_runs_with_several_sets_of_variables(memory, machine):
     code = generate(module(unit(store(0, op("add", load(0), 1)))))
     linker = Linker(machine)
     starts = [memory.allocate(64) for _ in range(2)]
-    first, second = (linker.link(code, {"program": start}, nothing) for start in starts)
+    first, second = (linked(linker, code, {"program": start}, nothing) for start in starts)
     first.function("CYCLIC")()
     for _ in range(3):
         second.function("CYCLIC")()
@@ -64,11 +68,11 @@ def test_one_program_runs_with_several_sets_of_variables(memory, machine):
 def test_modules_call_each_other(memory, machine):
     def provide(wanted):
         assert wanted == CALLED
-        return linker.link(counter_library(), {}, nothing).extern(wanted.name)
+        return linked(linker, counter_library(), {}, nothing).extern(wanted.name)
 
     linker = Linker(machine)
     start = memory.allocate(64)
-    cyclic = linker.link(user(), {"program": start}, provide).function("CYCLIC")
+    cyclic = linked(linker, user(), {"program": start}, provide).function("CYCLIC")
     cyclic()
     cyclic()
     assert word(memory, start + 8) == 2
@@ -78,22 +82,25 @@ def test_modules_call_blocks_of_other_languages(memory, machine):
     called = []
     linker = Linker(machine)
     start = memory.allocate(64)
-    linker.link(
-        user(), {"program": start}, lambda wanted: machine.host_function(called.append, "I")
+    linked(
+        linker, user(), {"program": start}, lambda wanted: machine.host_function(called.append, "I")
     ).function("CYCLIC")()
     assert called == [start + 8]
 
 
 def test_what_nobody_provides_is_told_by_who_provides(machine):
     with pytest.raises(LookupError, match="COUNTER"):
-        Linker(machine).link(user(), {"program": 0x11_0000}, nothing)
+        linked(Linker(machine), user(), {"program": 0x11_0000}, nothing)
 
 
 def test_mathematics_is_there_by_itself(memory, machine):
     power = call("rt.pow", load(0, "f64"), load(8, "f64"), result="f64")
     start = memory.allocate(64)
-    instance = Linker(machine).link(
-        generate(module(unit(store(16, power, "f64")))), {"program": start}, nothing
+    instance = linked(
+        Linker(machine),
+        generate(module(unit(store(16, power, "f64")))),
+        {"program": start},
+        nothing,
     )
     memory.write(start, struct.pack("<dd", 2.0, 10.0))
     instance.function("CYCLIC")()
@@ -103,10 +110,10 @@ def test_mathematics_is_there_by_itself(memory, machine):
 def test_names_of_modules_are_unique(machine):
     linker = Linker(machine)
     code = counter_library()
-    linker.link(code, {}, nothing)
-    linker.link(code, {}, nothing)
+    linked(linker, code, {}, nothing)
+    linked(linker, code, {}, nothing)
     with pytest.raises(ValueError, match="two modules are called library"):
-        linker.link(counter_library(), {}, nothing)
+        linked(linker, counter_library(), {}, nothing)
 
 
 def test_the_c_library_has_every_mathematical_function():
