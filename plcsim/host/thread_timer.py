@@ -44,21 +44,21 @@ class _Setting(ctypes.Structure):
 
 
 class ThreadTimer:
-    """A timer on the monotonic clock for the thread that makes it (timer_create(2)).
+    """A timer for the thread that makes it (timer_create(2)).
 
     Args:
         number: of its signal.
+        clock_id: of its clock; that of the thread's CPU time, for one, is
+            `time.CLOCK_THREAD_CPUTIME_ID`.
 
     Raises:
         OSError: the host has no timer left.
     """
 
-    def __init__(self, number: int) -> None:
+    def __init__(self, number: int, clock_id: int = time.CLOCK_MONOTONIC) -> None:
         event = _Event(number=number, notify=_SIGEV_THREAD_ID, thread=threading.get_native_id())
         self._timer = ctypes.c_void_p()
-        _check(
-            _libc.timer_create(time.CLOCK_MONOTONIC, ctypes.byref(event), ctypes.byref(self._timer))
-        )
+        _check(_libc.timer_create(clock_id, ctypes.byref(event), ctypes.byref(self._timer)))
 
     def set(self, first_s: float, interval_s: float) -> None:
         """Signal after a time, and again and again after another."""

@@ -1,15 +1,18 @@
 """Ends a program that never returns, so that it fails its test instead of hanging the run.
 
-The limit counts CPU time of the process (ITIMER_VIRTUAL), so a loaded machine or a debugger does
-not end a good program.
+The limit counts CPU time of the thread, so a loaded machine or a debugger does not end a good
+program, and other threads do not bring it nearer.
 """
 
 from __future__ import annotations
 
 import signal
 import threading
+import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
+
+from plcsim.host.thread_timer import ThreadTimer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,10 +47,11 @@ def watchdog(controller: Controller, limit_s: float = LIMIT_S) -> Iterator[None]
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    timer = ThreadTimer(signal.SIGVTALRM, time.CLOCK_THREAD_CPUTIME_ID)
     before = signal.signal(signal.SIGVTALRM, _Watch(controller).look)
-    signal.setitimer(signal.ITIMER_VIRTUAL, limit_s, limit_s)
     try:
+        timer.set(limit_s, limit_s)
         yield
     finally:
-        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
-        signal.signal(signal.SIGVTALRM, before)
+        timer.close()
+        signal.signal(signal.SIGVTALRM, before)  # looks for what has come before
