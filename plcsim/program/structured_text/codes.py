@@ -214,8 +214,8 @@ EXPLANATIONS: Final[dict[FindingCode, Explanation]] = {
     ),
     FindingCode.NOT_SUPPORTED: Explanation(
         "This is Structured Text that plcsim does not run",
-        "Object orientation (METHOD, PROPERTY, INTERFACE, CLASS, EXTENDS), sequential function "
-        "charts, jumps and labels. The message names it.",
+        "Object orientation (METHOD, PROPERTY, INTERFACE, CLASS, EXTENDS), jumps "
+        "and labels, what a chart asks for and is not there. The message names it.",
         "METHOD go END_METHOD",
     ),
     FindingCode.OTHER_CASE: Explanation(

@@ -14,6 +14,7 @@ from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.dialect import is_standard
+from plcsim.program.structured_text.languages.charts import with_charts
 from plcsim.program.structured_text.program_uses import (
     NO_USES,
     ProgramUses,
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
     from st_types.resolve.dialect import Dialect
 
 _DECLARING: Final = re.compile(
-    r"\b(?:VAR(?:_\w+)?|TYPE|FUNCTION(?:_BLOCK)?|CONFIGURATION)\b", re.IGNORECASE
+    r"\b(?:VAR(?:_\w+)?|TYPE|FUNCTION(?:_BLOCK)?|CONFIGURATION|INITIAL_STEP)\b", re.IGNORECASE
 )
 
 
@@ -58,7 +59,7 @@ class UnitFile:
     @cached_property
     def parsed(self) -> StructuredTextFile:
         """The parsed file; what is wrong in its text is in its ``diagnostics``."""
-        return parse_structured_text(self.source)
+        return with_charts(parse_structured_text(self.source))
 
     @property
     def may_declare(self) -> bool:

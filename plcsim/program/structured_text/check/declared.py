@@ -38,7 +38,7 @@ def declarations_of(file: StructuredTextFile, uses: ProgramUses = NO_USES) -> De
         file: parsed.
         uses: which PROGRAMs others name.
     """
-    items: list[Item] = []
+    items: list[Item] = [*file.hidden]
     for unit in file.units:
         if isinstance(unit, TypeBlock | VariableBlock):
             items.append(unit)

@@ -39,7 +39,6 @@ from plcsim.program.structured_text.syntax.tree import (
     MethodUnit,
     NamespaceUnit,
     ProgramUnit,
-    UnsupportedUnit,
 )
 from st_types.syntax.tree import TypeBlock, VariableBlock
 from st_types.types.derived import StructType
@@ -179,8 +178,6 @@ class UnitCollector:
                 self._add_action(part, owner)
             elif isinstance(part, MethodUnit):
                 self._add_method(part, owner)
-            else:
-                self._refused(part)
 
     def _action(self, unit: ActionUnit) -> None:
         """Take an action: behind a unit with variables of its own it belongs to that."""
@@ -292,14 +289,10 @@ class UnitCollector:
         hint = "write its VAR blocks here, or declare it in a .fun file"
         self._findings.error(unit, FindingCode.NO_DECLARATION, message, hint)
 
-    def _refused(self, unit: MethodUnit | UnsupportedUnit) -> None:
-        if isinstance(unit, MethodUnit):
-            word = "PROPERTY" if "PROPERTY" in unit.words else "METHOD"
-            name = unit.declaration.name
-        else:
-            word, name = unit.keyword, unit.name
-        message = f"{word} {name}".rstrip()
-        self._findings.error(unit, FindingCode.NOT_SUPPORTED, f"{message} is not supported")
+    def _refused(self, unit: MethodUnit) -> None:
+        word = "PROPERTY" if "PROPERTY" in unit.words else "METHOD"
+        message = f"{word} {unit.declaration.name} is not supported"
+        self._findings.error(unit, FindingCode.NOT_SUPPORTED, message)
 
     def _namespace(self, unit: NamespaceUnit) -> None:
         self.symbols.namespaces.add(unit.name.upper())
@@ -334,7 +327,6 @@ _RULES: Mapping[type, Callable[..., None]] = {
     MethodUnit: UnitCollector._refused,
     InterfaceUnit: UnitCollector._interface,
     NamespaceUnit: UnitCollector._namespace,
-    UnsupportedUnit: UnitCollector._refused,
     Include: UnitCollector._include,
     TypeBlock: UnitCollector._declarations,
     VariableBlock: UnitCollector._declarations,

@@ -59,7 +59,8 @@ _NAMED: Final = (
     tree.FunctionBlockUnit,
     tree.ActionUnit,
     tree.MethodUnit,
-    tree.UnsupportedUnit,
+    tree.StepUnit,
+    tree.TransitionUnit,
     tree.Configuration,
 )
 """What begins with a keyword before its name, where the node is."""

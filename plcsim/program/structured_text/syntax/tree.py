@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from st_types.syntax.diagnostics import DiagnosticLog
-    from st_types.syntax.expressions import Argument, Expression
+    from st_types.syntax.expressions import Argument, Expression, Name
     from st_types.syntax.lexer import Tokens
     from st_types.syntax.source import Location
 
@@ -170,11 +170,45 @@ class MethodUnit(Node):
 
 
 @dataclass(slots=True)
-class UnsupportedUnit(Node):
-    """What is read and cannot run, such as a STEP: ``keyword`` and its name."""
+class ActionAssociation(Node):
+    """``action(qualifier, time);`` in a STEP; ``at`` is the name of the action.
 
-    keyword: str
+    ``qualifier`` is in capitals; ``time`` is None for those without.
+    """
+
+    action: str
+    qualifier: str
+    time: Expression | None = None
+
+
+@dataclass(slots=True)
+class StepUnit(Node):
+    """``STEP name: ... END_STEP``; ``at`` is the name.
+
+    ``body`` runs while the step is active, ``entry`` and ``exit`` (Automation Studio's ENTRY_ACTION
+    and EXIT_ACTION behind END_STEP) once when it becomes active and inactive.
+    """
+
     name: str
+    is_initial: bool
+    associations: Sequence[ActionAssociation]
+    body: Sequence[Statement]
+    entry: Sequence[Statement] = ()
+    exit: Sequence[Statement] = ()
+
+
+@dataclass(slots=True)
+class TransitionUnit(Node):
+    """``TRANSITION FROM (a, b) TO (c, d) := condition; END_TRANSITION``.
+
+    ``sources`` and ``targets`` are names of steps. ``priority`` is the number that it is given
+    among those from one step, the lowest first; None where its place in the text decides.
+    """
+
+    sources: Sequence[Name]
+    targets: Sequence[Name]
+    condition: Expression
+    priority: int | None = None
 
 
 @dataclass(slots=True)
@@ -228,7 +262,7 @@ class FunctionBlockUnit(Node):
     bases: Sequence[str] = ()
 
 
-Part = ActionUnit | MethodUnit | UnsupportedUnit
+Part = ActionUnit | MethodUnit | StepUnit | TransitionUnit
 """What stands inside a unit besides declarations and statements."""
 
 
@@ -280,7 +314,6 @@ Unit = (
     | Configuration
     | InterfaceUnit
     | NamespaceUnit
-    | UnsupportedUnit
     | Include
 )
 
@@ -293,11 +326,14 @@ class StructuredTextFile:
         units: in order; those of namespaces and packages of actions among the others.
         tokens: where the nodes' ``at`` lead.
         diagnostics: findings of the parser; later steps add theirs.
+        hidden: variables of the program that its language needs and nobody wrote, such as the
+            state of a chart.
     """
 
     units: Sequence[Unit]
     tokens: Tokens = field(compare=False, repr=False)
     diagnostics: DiagnosticLog = field(compare=False, repr=False)
+    hidden: Sequence[VariableBlock] = ()
 
     @property
     def path(self) -> str:

@@ -1,15 +1,15 @@
 """Parser of program organisation units: what stands around declarations and statements.
 
-Object orientation, sequential function charts and namespaces are read, so that a file of them
-parses; which of them can run the checker says.
+Object orientation and namespaces are read, so that a file of them parses; which of them can run the
+checker says.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from plcsim.program.structured_text.syntax.charts import ChartParser
 from plcsim.program.structured_text.syntax.keywords import UNIT_ENDS, UNIT_STARTS
-from plcsim.program.structured_text.syntax.statements import StatementParser
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
     Configuration,
@@ -23,7 +23,6 @@ from plcsim.program.structured_text.syntax.tree import (
     ProgramUnit,
     StructuredTextFile,
     TaskConfiguration,
-    UnsupportedUnit,
 )
 from st_types.syntax.lexer import NAME
 from st_types.syntax.reader import UnexpectedTokenError
@@ -39,13 +38,14 @@ if TYPE_CHECKING:
 _MODIFIERS = frozenset(
     ["PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "FINAL", "ABSTRACT", "OVERRIDE"]
 )
-_PARTS = frozenset(["ACTION", "METHOD", "PROPERTY", "INITIAL_STEP", "STEP", "TRANSITION"])
+_CHART_WORDS = frozenset(["INITIAL_STEP", "STEP", "TRANSITION"])
+_PARTS = _CHART_WORDS | {"ACTION", "METHOD", "PROPERTY"}
 _LOST_UNIT = (
     "a file of Structured Text holds PROGRAM, FUNCTION, FUNCTION_BLOCK, ACTION, TYPE or VAR"
 )
 
 
-class UnitParser(StatementParser):
+class UnitParser(ChartParser):
     """Parses whole files."""
 
     def structured_text_file(self) -> StructuredTextFile:
@@ -74,6 +74,8 @@ class UnitParser(StatementParser):
         key = self.keys[self.index]
         if key == ";":
             self.index += 1
+        elif key in _CHART_WORDS:
+            self._stray_chart(key)
         elif key in VARIABLE_SECTIONS:
             into.append(self._variable_block())
         elif key in _UNIT_RULES:
@@ -84,6 +86,11 @@ class UnitParser(StatementParser):
             self.fail("expected a unit", _LOST_UNIT)
         else:
             self._rare_unit(into)
+
+    def _stray_chart(self, key: str) -> None:
+        """Read an element of a chart that stands in no unit, and tell it."""
+        self.tell(self.here(), f"a {key} stands in a PROGRAM or a FUNCTION_BLOCK")
+        self._part([])
 
     def _rare_unit(self, into: list[Unit]) -> None:
         """Parse what begins with a word that is a keyword only here."""
@@ -194,8 +201,10 @@ class UnitParser(StatementParser):
             into.append(self._method())
         elif key == "PROPERTY":
             into += self._property()
+        elif key == "TRANSITION":
+            into.append(self.transition())
         else:
-            into.append(self._chart_element())
+            into.append(self.step())
 
     def _program(self, into: list[Unit]) -> None:
         at = self.index
@@ -300,22 +309,6 @@ class UnitParser(StatementParser):
         self.leave()
         self._close("END_NAMESPACE", at)
 
-    # Sequential function charts.
-
-    def _chart_unit(self, into: list[Unit]) -> None:
-        into.append(self._chart_element())
-
-    def _chart_element(self) -> UnsupportedUnit:
-        """Step over a STEP or a TRANSITION."""
-        at, key = self.index, self.keys[self.index]
-        self.index += 1
-        name = self.text if self.text.isidentifier() else ""
-        end = "END_TRANSITION" if key == "TRANSITION" else "END_STEP"
-        while self.keys[self.index] not in (end, ""):
-            self.index += 1
-        self._close(end, at)
-        return UnsupportedUnit(at, key, name)
-
     # Configurations.
 
     def _configuration_unit(self, into: list[Unit]) -> None:
@@ -383,7 +376,4 @@ _UNIT_RULES: dict[str, Callable[[UnitParser, list[Unit]], None]] = {
     "INTERFACE": UnitParser._interface,
     "NAMESPACE": UnitParser._namespace,
     "CONFIGURATION": UnitParser._configuration_unit,
-    "INITIAL_STEP": UnitParser._chart_unit,
-    "STEP": UnitParser._chart_unit,
-    "TRANSITION": UnitParser._chart_unit,
 }

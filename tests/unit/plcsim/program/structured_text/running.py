@@ -11,6 +11,7 @@ from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.codes import FindingCode
+from plcsim.program.structured_text.languages.charts import with_charts
 from plcsim.program.structured_text.lower.memory import DIRECT, Spot
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
@@ -39,7 +40,7 @@ def checked(
     text, declarations="", dialect=dialects.AUTOMATION_STUDIO, hidden=(FindingCode.UNUSED_VARIABLE,)
 ):
     """Return the checked program, its scope, and the findings as ``line:column CODE message``."""
-    file = parse_structured_text(Source("a.st", text))
+    file = with_charts(parse_structured_text(Source("a.st", text)))
     file.diagnostics.raise_errors()
     declared = parse_declarations(Source("a.var", declarations))
     declared.diagnostics.raise_errors()

@@ -11,9 +11,11 @@ from plcsim.program.structured_text.syntax.tree import (
     NamespaceUnit,
     Part,
     ProgramUnit,
+    StepUnit,
+    TransitionUnit,
     Unit,
-    UnsupportedUnit,
 )
+from st_types.syntax.expression_printer import print_expression as text_of
 from st_types.syntax.tree import TypeBlock, VariableBlock
 
 from ..cases import cases
@@ -49,8 +51,14 @@ def outline(unit: Unit | Part) -> str:
             return " ".join([f"interface {unit.name} {bases}:", *map(outline, unit.parts)])
         case NamespaceUnit():
             return f"namespace {unit.name}"
-        case UnsupportedUnit():
-            return f"unsupported {unit.keyword} {unit.name}"
+        case StepUnit():
+            actions = "".join(f" {each.action}({each.qualifier})" for each in unit.associations)
+            bodies = f"{{{shapes(unit.body)}}}"
+            return f"{'initial ' * unit.is_initial}step {unit.name}{actions} {bodies}"
+        case TransitionUnit():
+            sources = ",".join(each.name for each in unit.sources)
+            targets = ",".join(each.name for each in unit.targets)
+            return f"transition {sources} to {targets} {text_of(unit.condition)}"
         case VariableBlock():
             return block_names([unit])
         case TypeBlock():

@@ -1,0 +1,1 @@
+"""The languages of the front end beside Structured Text: each becomes its syntax tree."""
