@@ -11,7 +11,7 @@ import hashlib
 import re
 import struct
 import sys
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, NoReturn, Protocol
 
@@ -200,7 +200,7 @@ class _Host:
 
 
 class CLibrary:
-    """The C library, placed and ready.
+    """The C library, placed; the first function that somebody takes of it makes it ready.
 
     Args:
         machine: that it is for; it has one.
@@ -212,13 +212,23 @@ class CLibrary:
             raise MachineError(f"the C library has {linked.memory_size} bytes of data")
         machine.memory.open_stack(STACK_SIZE)
         self._host = _Host(machine)
-        self._module = CModule("C library", linked, machine, self._host, LIBRARY_AREA).link()
+        self._placed = CModule("C library", linked, machine, self._host, LIBRARY_AREA)
         self._externs: dict[str, Extern] = {}
-        self.reset()
+
+    def compile(self) -> bool:
+        """Compile it to machine code; return whether that was in no cache."""
+        return self._placed.compile()
+
+    @cached_property
+    def _module(self) -> CModule:
+        """The module, ready."""
+        module = self._placed.link()
+        module.reset()
+        return module
 
     def extern(self, name: str) -> Extern | None:
         """Return a function for others to import, None where there is none of this name."""
-        if name not in self._externs and name in self._module:
+        if name not in self._externs and name in self._placed:
             self._externs[name] = self._module.extern(name)
         return self._externs.get(name)
 
@@ -228,7 +238,7 @@ class CLibrary:
 
     def variable(self, name: str) -> int | None:
         """Return the address of a variable such as ``errno``, None where there is none."""
-        return self._module.address_of(name)
+        return self._placed.address_of(name)
 
     def use_files(self, files: Files) -> None:
         """Let fopen and its relations open files; without this there is no device for them."""

@@ -115,7 +115,7 @@ def make_controller(
     ordered = sorted(setup.classes, key=lambda c: c.number)
     programs = [*(program for each in ordered for program in each.programs), *exception]
     placed = [program.code.place(program.name, site) for program in programs]
-    _compile(placed)
+    _compile(placed, site)
     tasks = iter([each.task() for each in placed])
     classes = [_task_class(each, tasks) for each in ordered]
     return Controller(
@@ -148,9 +148,12 @@ def _channels(setup: Setup, context: Context) -> list[Tag]:
     return [Tag(CHANNELS, kind, context.memory.allocate(kind.size, kind.alignment))]
 
 
-def _compile(placed: Sequence[PlacedProgram]) -> None:
+def _compile(placed: Sequence[PlacedProgram], site: Site) -> None:
     """Compile programs, in two processes where there is much that no cache knows."""
-    share(len(placed), lambda number: placed[number].compile(), lambda _done: None)
+    own = [each.compile for each in placed]
+    # a program first, for the second process begins after the first job, and that is a short one
+    jobs = [*own[:1], *site.compile_shared, *own[1:]]
+    share(len(jobs), lambda number: jobs[number](), lambda _done: None)
 
 
 def _task_class(setup: TaskClassSetup, tasks: Iterator[Task]) -> TaskClass:

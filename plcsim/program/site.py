@@ -13,6 +13,7 @@ from st_types.types.views import address_of, type_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
+    from plcsim.ansi_c.c_library import CLibrary
     from plcsim.core.context import Context
     from plcsim.core.memory import Memory
     from plcsim.core.tag import Tag
@@ -37,6 +38,8 @@ class Site:
         context: as above.
         catalogue: likewise.
         shared: likewise.
+        compile_shared: compile the modules that several programs share, of those that are placed;
+            each returns whether that was in no cache.
     """
 
     def __init__(
@@ -51,9 +54,11 @@ class Site:
         self.context = context
         self.catalogue = catalogue
         self.shared = tuple(shared)
+        self.compile_shared: list[Callable[[], bool]] = []
         self._bound: dict[StructType[Any], Callable[[int], None]] = {}
         self._counts_instructions = counts_instructions
         self._watch = watch
+        self._c_library: CLibrary | None = None
         context.give_settings(self)
         context.run_block = self._run_block
 
@@ -84,6 +89,15 @@ class Site:
         from plcsim.machine import Machine  # noqa: PLC0415  # 20 ms that not every project needs
 
         return Machine(self.memory, fuel=self._counts_instructions, watch=self._watch)
+
+    def c_library(self) -> CLibrary:
+        """Return the C library, which is placed at the first call."""
+        if self._c_library is None:
+            from plcsim.ansi_c.c_library import CLibrary  # noqa: PLC0415  # likewise
+
+            self._c_library = self.machine.shared(CLibrary)
+            self.compile_shared.append(self._c_library.compile)
+        return self._c_library
 
     def block(self, data_type: StructType[Any]) -> Callable[[int], None]:
         """Return what runs a function block on the data block at an address.

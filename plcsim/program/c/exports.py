@@ -33,9 +33,7 @@ class _CLibraryCode:
 
     def on(self, site: Site) -> CLibrary:
         """Return the one of a controller."""
-        from plcsim.ansi_c.c_library import CLibrary  # noqa: PLC0415  # not every project needs it
-
-        return site.machine.shared(CLibrary)
+        return site.c_library()
 
 
 _C_LIBRARY: Final = _CLibraryCode()

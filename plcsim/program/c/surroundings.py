@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from plcsim.ansi_c.c_library import CLibrary
 from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
 from plcsim.core.heap_use import Heaps
 from plcsim.library.executable import CompiledExecutable
@@ -16,6 +15,7 @@ from st_types.types.derived import StructType
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from plcsim.ansi_c.c_library import CLibrary
     from plcsim.core.tag import Tag
     from plcsim.machine import Extern
     from plcsim.machine.engine import Type
@@ -117,7 +117,7 @@ class ProgramSurroundings:
 
 def _library(site: Site) -> CLibrary:
     """Return the C library of a controller, which finds the files of its devices."""
-    library = site.machine.shared(CLibrary)
+    library = site.c_library()
     if site.context.settings(DeviceFiles) is None:
         files = DeviceFiles(site.context)
         site.context.give_settings(files)

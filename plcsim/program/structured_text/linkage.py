@@ -71,6 +71,7 @@ class Linkage:
         self.counted: list[CountedModule] = []
         self._site = site
         self._linker = Linker(site.machine)
+        site.c_library()  # compiled with the programs; the linker needs it for each
         self._libraries: dict[object, Instance | None] = {}
         self._compiled = CompiledPrograms.of(site)
         self._shared = addresses(SHARED, site.shared)
