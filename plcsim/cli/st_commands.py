@@ -14,8 +14,8 @@ from plcsim.core.errors import PlcError
 from plcsim.program.structured_text.check.program import QUIET
 from plcsim.program.structured_text.code import StructuredTextCode
 from plcsim.program.structured_text.codes import FindingCode
+from plcsim.program.structured_text.languages.readers import parse_units
 from plcsim.program.structured_text.names import SUFFIXES
-from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from plcsim.program.structured_text.syntax.tree import (
     ActionUnit,
     FunctionBlockUnit,
@@ -123,7 +123,7 @@ def _read(
     except SourceError as err:
         print(err)
     else:
-        file = parse_structured_text(source, defines)
+        file = parse_units(source, defines)
         counts["line"] += source.line_count
         counts.update(_NOUNS[type(unit)] for unit in file.units if type(unit) in _NOUNS)
         return file

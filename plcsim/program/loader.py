@@ -25,6 +25,7 @@ from plcsim.program.python.language import PYTHON
 from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
 from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
+from plcsim.program.structured_text.names import NOT_THERE
 from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
@@ -50,16 +51,6 @@ BODIES: Final[tuple[BodyLanguage, ...]] = (
     ExportedBodies(),
 )
 """Bodies of libraries are written in one of them."""
-
-NOT_THERE: Final = {
-    ".ab": "Automation Basic",
-    ".cfc": "CFC",
-    ".fbd": "Function Block Diagram",
-    ".il": "Instruction List",
-    ".ld": "Ladder Diagram",
-    ".sfc": "Sequential Function Chart",
-}
-"""Languages of Automation Studio that no language here loads, by suffix in small letters."""
 
 DIALECTS: Final = {"automation-studio": AUTOMATION_STUDIO, "iec": IEC}
 """Dialects of Structured Text by their names in plc.toml."""

@@ -219,6 +219,21 @@ class Tokens:
         self._offsets: list[int] | None = None
         self.parentheses: dict[int, int] = {}
 
+    @classmethod
+    def placed(cls, source: Source, tokens: Sequence[tuple[int, str]]) -> Tokens:
+        """Return tokens that were cut elsewise, such as from the attributes of XML.
+
+        Args:
+            source: the file.
+            tokens: each with its offset in the file; several may stem from one place.
+        """
+        made = cls(type(source)(source.path, ""))
+        made.source = source
+        made.texts = [text for _, text in tokens] + [""] * LOOKAHEAD
+        made.trivia = [""] * len(made.texts)
+        made._offsets = [offset for offset, _ in tokens] + [len(source.text)] * LOOKAHEAD
+        return made
+
     @property
     def end(self) -> int:
         """Number of the token that stands for the end of the text."""

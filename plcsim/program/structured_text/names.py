@@ -1,11 +1,33 @@
-"""What the language is called."""
+"""What the language is called, and those that become Structured Text's syntax tree."""
 
+from pathlib import PurePath
 from typing import Final
 
 NAME: Final = "Structured Text"
 
-SUFFIXES = frozenset([".st", ".tcpou", ".tcgvl", ".tcdut", ".tcio"])
-"""Of files with Structured Text, in small letters; all but the first are TwinCAT's."""
+LANGUAGES: Final = {
+    ".ld": "Ladder Diagram",
+    ".sfc": "Sequential Function Chart",
+    ".st": NAME,
+    **dict.fromkeys([".tcpou", ".tcgvl", ".tcdut", ".tcio"], NAME),  # TwinCAT's
+}
+"""The language of a file by its suffix in small letters: each has a reader in ``languages``."""
 
-TWINCAT_MARK = "<TcPlcObject"
+NOT_THERE: Final = {
+    ".ab": "Automation Basic",
+    ".cfc": "CFC",
+    ".fbd": "Function Block Diagram",
+    ".il": "Instruction List",
+}
+"""Languages of Automation Studio that nothing reads, likewise."""
+
+SUFFIXES: Final = frozenset(LANGUAGES)
+"""Of files with units, in small letters."""
+
+TWINCAT_MARK: Final = "<TcPlcObject"
 """What stands near the start of a file of TwinCAT."""
+
+
+def language_of(path: str) -> str:
+    """Return the language of a file, Structured Text for any that is not known."""
+    return LANGUAGES.get(PurePath(path).suffix.lower(), NAME)

@@ -14,14 +14,14 @@ from plcsim.program.structured_text.code_cache import code_cache
 from plcsim.program.structured_text.codegen.storage import compiler
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.dialect import is_standard
-from plcsim.program.structured_text.languages.charts import with_charts
+from plcsim.program.structured_text.languages.readers import parse_units
+from plcsim.program.structured_text.names import NAME, language_of
 from plcsim.program.structured_text.program_uses import (
     NO_USES,
     ProgramUses,
     program_uses,
     without_comments,
 )
-from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.errors import DiagnosticSeverity, SourceError
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 from st_types.syntax.diagnostics import DiagnosticLog
@@ -59,7 +59,7 @@ class UnitFile:
     @cached_property
     def parsed(self) -> StructuredTextFile:
         """The parsed file; what is wrong in its text is in its ``diagnostics``."""
-        return with_charts(parse_structured_text(self.source))
+        return parse_units(self.source)
 
     @property
     def may_declare(self) -> bool:
@@ -68,6 +68,8 @@ class UnitFile:
 
     @cached_property
     def _has_declaring_words(self) -> bool:
+        if language_of(self.path) != NAME:  # whose words are others
+            return bool(declarations_of(self.parsed).items)
         return _DECLARING.search(without_comments(self.source.text)) is not None
 
     def declarations(self, uses: ProgramUses = NO_USES) -> UnitDeclarations:
@@ -89,7 +91,7 @@ class UnitFile:
     @cached_property
     def _is_silent(self) -> bool:
         """Whether it declares nothing, and its syntax has no errors; that is kept on disk."""
-        text = self.source.text.encode("utf-8", "surrogatepass")
+        text = f"{language_of(self.path)}\0{self.source.text}".encode("utf-8", "surrogatepass")
         key = f"syntax-{hashlib.blake2b(compiler() + text, digest_size=20).hexdigest()}"
         cache = code_cache()
         if cache.load(key) is not None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from plcsim.library.library import CBuild
-from plcsim.project.automation_studio.document import DocumentError, XmlElement, read_document
+from plcsim.program.document import DocumentError, XmlElement, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware, read_hardware
 from plcsim.project.automation_studio.software import Software, read_software

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.loader import NOT_THERE
+from plcsim.program.structured_text.names import NOT_THERE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.library import CBuild
+from plcsim.program.document import DocumentError, read_document
 from plcsim.project.automation_studio.configuration import (
     IO_MAP,
     PERMANENT,
@@ -19,7 +20,6 @@ from plcsim.project.automation_studio.configuration import (
     Configuration,
     Configurations,
 )
-from plcsim.project.automation_studio.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware
 from plcsim.project.automation_studio.logical_view import (

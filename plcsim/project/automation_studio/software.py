@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.project.automation_studio.document import DocumentError, read_document
+from plcsim.program.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plcsim.project.automation_studio.document import XmlElement
+    from plcsim.program.document import XmlElement
 
 SUFFIX: Final = ".prg"
 

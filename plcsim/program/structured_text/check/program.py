@@ -181,6 +181,7 @@ class _ProgramChecker(UnitCollector):
             body.parameters, body.locals = self._variables(owner.scope)
             for symbol in body.locals:
                 symbol.has_address |= bool(owner.actions)  # VAR_TEMP, which they know as well
+        body.locals = [*body.locals, *checker.temporaries]
         into.append(body)
         called = [self._action_of(owner, name) for name in sorted(checker.called_actions)]
         job.body, job.calls = body, checker.called_bodies | {action.label for action in called}

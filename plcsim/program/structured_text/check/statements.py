@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from bisect import bisect
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text.check import typed
 from plcsim.program.structured_text.check.blocks import BlockChecker
 from plcsim.program.structured_text.check.fits import as_character
-from plcsim.program.structured_text.check.kinds import BOOL, COUNTS, UDINT, VOID, kind_of
+from plcsim.program.structured_text.check.kinds import (
+    ANY_INT,
+    ANY_REAL,
+    BOOL,
+    COUNTS,
+    DINT,
+    UDINT,
+    VOID,
+    kind_of,
+)
 from plcsim.program.structured_text.check.names import NOTHING
 from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
 from plcsim.program.structured_text.codes import FindingCode
@@ -18,6 +27,7 @@ from st_types.resolve.constants import EvaluationError
 from st_types.syntax import expressions as syntax
 from st_types.syntax.literals import parse_literal
 from st_types.types.derived import ReferenceType, StructType
+from st_types.types.elementary import REAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -28,6 +38,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Statement, Value
     from st_types.syntax.expressions import Expression
 
+_TYPES_OF_LITERALS: Final[Mapping[Type, Type]] = {ANY_INT: DINT, ANY_REAL: REAL}
 _LEAVING = (typed.Exit, typed.Continue, typed.Return, typed.Jump)
 
 
@@ -41,6 +52,7 @@ class StatementChecker(BlockChecker):
 
     Attributes:
         called_actions: names of the actions that it calls.
+        temporaries: what its temporary statements keep.
     """
 
     def __init__(
@@ -48,6 +60,7 @@ class StatementChecker(BlockChecker):
     ) -> None:
         super().__init__(names, findings)
         self.called_actions: set[str] = set()
+        self.temporaries: list[typed.Symbol] = []
         self._actions = actions
         self._loops = 0
         self._labels: frozenset[str] = frozenset()
@@ -155,6 +168,16 @@ class StatementChecker(BlockChecker):
         value = Constant(BOOL, int(node.operator == "S="))
         arm = typed.Arm(line, condition, [typed.Assign(line, target, value)])
         return typed.If(line, [arm], ())
+
+    def _temporary(self, node: tree.TemporaryStatement, into: list[Statement]) -> None:
+        """Check a value that is kept for the rest of the call."""
+        value = self.value(node.value)
+        data_type = _TYPES_OF_LITERALS.get(value.type, value.type)
+        symbol = typed.Symbol(node.name, data_type, "frame", self.names.scope, used=True)
+        self.names.values[node.name] = target = typed.Variable(data_type, symbol)
+        if data_type is not VOID:
+            self.temporaries.append(symbol)
+            into.append(self.assignment(node.value, target, value, self.findings.line(node)))
 
     # Calls
 
@@ -379,4 +402,5 @@ _RULES: dict[type, Callable[[StatementChecker, Any, list[Statement]], None]] = {
     tree.ReturnStatement: StatementChecker._return,
     tree.JumpStatement: StatementChecker._jump,
     tree.LabelStatement: StatementChecker._mark,
+    tree.TemporaryStatement: StatementChecker._temporary,
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.syntax.preprocessor import preprocess
@@ -18,11 +18,12 @@ from st_types.syntax.source import Source
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_NO_DEFINES: Mapping[str, str] = {}
+NO_DEFINES: Final[Mapping[str, str]] = {}
+"""No macros."""
 
 
 def parse_structured_text(
-    source: Source, defines: Mapping[str, str] = _NO_DEFINES
+    source: Source, defines: Mapping[str, str] = NO_DEFINES
 ) -> StructuredTextFile:
     """Parse the text of a file of Structured Text.
 

@@ -136,6 +136,18 @@ class LabelStatement(Node):
     label: str
 
 
+@dataclass(slots=True)
+class TemporaryStatement(Node):
+    """Keeps a value for the rest of the call, under a name that no text can have.
+
+    Languages are read into it whose connections have no names, such as the rungs of a ladder. The
+    type of ``name`` is that of the value; a `Name` reads it in later statements.
+    """
+
+    name: str
+    value: Expression
+
+
 Statement = (
     Assignment
     | ExpressionStatement
@@ -149,6 +161,7 @@ Statement = (
     | ReturnStatement
     | JumpStatement
     | LabelStatement
+    | TemporaryStatement
 )
 
 

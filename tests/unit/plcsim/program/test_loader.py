@@ -172,8 +172,8 @@ def test_a_folder_without_a_program(load):
 
 
 def test_a_language_that_is_not_there_is_named(load):
-    told = "main: is written in Ladder Diagram, which plcsim does not run"
-    assert wrong(load, {"main/Main.LD": ""}) == told
+    told = "main: is written in Automation Basic, which plcsim does not run"
+    assert wrong(load, {"main/Main.AB": ""}) == told
 
 
 def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):

@@ -167,3 +167,16 @@ def test_a_key_says_what_a_parser_decides_by() -> None:
     keys = ["IF", "IF", "IF", "END_IF", "name", "literal", "literal", "literal", "address"]
     assert table.keys_of([*found, "é", ""]) == [*keys, "directive", "unknown", ":=", "unknown", ""]
     assert "x" not in table  # names of one file are not kept for the next
+
+
+def test_tokens_that_were_cut_elsewise_stand_where_they_are_placed():
+    source = Source("a.xml", '<a name="x"/>\n<b name="y"/>')
+    tokens = Tokens.placed(source, [(9, "x"), (9, "+"), (23, "y")])
+    assert tokens.texts[: tokens.end] == ["x", "+", "y"]
+    assert [tokens.location(index)[1:] for index in range(4)] == [
+        (1, 10),
+        (1, 10),
+        (2, 10),
+        (2, 14),
+    ]
+    assert tokens.source is source

@@ -11,11 +11,10 @@ from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.codegen.generate import generate
 from plcsim.program.structured_text.codegen.link import Linker
 from plcsim.program.structured_text.codes import FindingCode
-from plcsim.program.structured_text.languages.charts import with_charts
+from plcsim.program.structured_text.languages.readers import parse_units
 from plcsim.program.structured_text.lower.memory import DIRECT, Spot
 from plcsim.program.structured_text.lower.module import lower
 from plcsim.program.structured_text.lower.semantics import AUTOMATION_STUDIO
-from plcsim.program.structured_text.syntax.parser import parse_structured_text
 from st_types.resolve import dialect as dialects
 from st_types.resolve.scope import Scope
 from st_types.syntax.declarations import parse_declarations
@@ -37,10 +36,14 @@ def standard(dialect):
 
 
 def checked(
-    text, declarations="", dialect=dialects.AUTOMATION_STUDIO, hidden=(FindingCode.UNUSED_VARIABLE,)
+    text,
+    declarations="",
+    dialect=dialects.AUTOMATION_STUDIO,
+    hidden=(FindingCode.UNUSED_VARIABLE,),
+    path="a.st",
 ):
     """Return the checked program, its scope, and the findings as ``line:column CODE message``."""
-    file = with_charts(parse_structured_text(Source("a.st", text)))
+    file = parse_units(Source(path, text))
     file.diagnostics.raise_errors()
     declared = parse_declarations(Source("a.var", declarations))
     declared.diagnostics.raise_errors()
@@ -75,6 +78,7 @@ class Running:
         declarations: what a .typ, .var or .fun file beside it declares.
         semantics: of the dialect.
         dialect: of names.
+        path: of the file; its suffix tells the language.
         imports: Python functions by the name that the program knows; they get the object itself
             first.
     """
@@ -85,9 +89,10 @@ class Running:
         declarations="",
         semantics=AUTOMATION_STUDIO,
         dialect=dialects.AUTOMATION_STUDIO,
+        path="a.st",
         **imports,
     ):
-        program, _, found = checked(text, declarations, dialect)
+        program, _, found = checked(text, declarations, dialect, path=path)
         errors = [each for each in found if " ST5" not in each]
         assert not errors, errors
         self.imports = imports

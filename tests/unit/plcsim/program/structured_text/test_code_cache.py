@@ -85,13 +85,13 @@ def parsed(monkeypatch, tmp_path):
     """The names of the files with units that are parsed, with a cache of its own."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     names = []
-    whole = sources.parse_structured_text
+    whole = sources.parse_units
 
     def noted(source):
         names.append(source.path.rpartition("/")[2])
         return whole(source)
 
-    monkeypatch.setattr(sources, "parse_structured_text", noted)
+    monkeypatch.setattr(sources, "parse_units", noted)
     return names
 
 

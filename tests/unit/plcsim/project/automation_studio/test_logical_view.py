@@ -3,7 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.project.automation_studio import document, logical_view
+from plcsim.program import document
+from plcsim.project.automation_studio import logical_view
 from plcsim.project.automation_studio.logical_view import (
     is_listed,
     is_package,

@@ -52,6 +52,7 @@ class XmlElement:
         line: where it begins.
         text: of the element itself, before its first child.
         children: the elements in it.
+        offset: bytes of the document before it.
     """
 
     tag: str
@@ -59,6 +60,7 @@ class XmlElement:
     line: int
     text: str = ""
     children: list[XmlElement] = field(default_factory=list)
+    offset: int = 0
 
     def get(self, key: str, default: str = "") -> str:
         """Return an attribute."""
@@ -94,13 +96,17 @@ def read_document(file: Path) -> XmlElement:
     return parse(data)
 
 
-def parse(data: bytes) -> XmlElement:
+def parse(data: bytes, encoding: str | None = None) -> XmlElement:
     """Return the root element of an XML text.
+
+    Args:
+        data: the text.
+        encoding: that it has, whatever it declares; None where it is to be found out.
 
     Raises:
         DocumentError: it is no such XML.
     """
-    builder = _Builder(_encoding(data))
+    builder = _Builder(encoding or _encoding(data))
     try:
         builder.parser.Parse(data, True)  # noqa: FBT003  # expat takes no names
     except expat.ExpatError as err:
@@ -153,7 +159,8 @@ class _Builder:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         if len(self._open) >= MAX_DEPTH:
             raise DocumentError(f"elements are nested deeper than {MAX_DEPTH}", self.line)
-        element = XmlElement(name.rpartition(":")[2], attributes, self.line)
+        tag, place = name.rpartition(":")[2], self.parser.CurrentByteIndex
+        element = XmlElement(tag, attributes, self.line, offset=place)
         if self._open:
             self._open[-1].children.append(element)
         else:

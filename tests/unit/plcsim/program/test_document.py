@@ -1,7 +1,7 @@
 import pytest
 
-from plcsim.project.automation_studio import document
-from plcsim.project.automation_studio.document import DocumentError, parse, read_document
+from plcsim.program import document
+from plcsim.program.document import DocumentError, parse, read_document
 
 TEXT = """\ufeff<?xml version="1.0" encoding="utf-8"?>
 <?AutomationStudio Version=4.1.17.113 SP?>
@@ -60,3 +60,14 @@ def test_a_file_that_cannot_be_read(tmp_path, monkeypatch):
     monkeypatch.setattr(document, "MAX_BYTES", 50)
     with pytest.raises(DocumentError, match="it is larger than"):
         read_document(tmp_path / "large.pkg")
+
+
+def test_an_element_knows_how_many_bytes_are_before_it():
+    data = "<a>\u00e9\n <b x='\u00e9'/></a>".encode()
+    root = parse(data, "UTF-8")
+    assert data[root.children[0].offset :].startswith(b"<b ")
+
+
+def test_an_encoding_that_is_known_overrides_what_a_text_declares():
+    text = '<?xml version="1.0" encoding="windows-1252"?><a n="\u00e9"/>'
+    assert parse(text.encode(), "UTF-8").get("n") == "\u00e9"
