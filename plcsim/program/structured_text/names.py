@@ -6,6 +6,9 @@ from typing import Final
 NAME: Final = "Structured Text"
 
 LANGUAGES: Final = {
+    ".cfc": "CFC",
+    ".fbd": "Function Block Diagram",
+    ".il": "Instruction List",
     ".ld": "Ladder Diagram",
     ".sfc": "Sequential Function Chart",
     ".st": NAME,
@@ -15,9 +18,6 @@ LANGUAGES: Final = {
 
 NOT_THERE: Final = {
     ".ab": "Automation Basic",
-    ".cfc": "CFC",
-    ".fbd": "Function Block Diagram",
-    ".il": "Instruction List",
 }
 """Languages of Automation Studio that nothing reads, likewise."""
 

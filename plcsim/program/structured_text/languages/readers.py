@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.program.structured_text.languages.chart_file import parse_chart_file
 from plcsim.program.structured_text.languages.charts import with_charts
+from plcsim.program.structured_text.languages.instruction_list import read_instruction_list
 from plcsim.program.structured_text.languages.ladder import read_ladder
 from plcsim.program.structured_text.syntax.parser import NO_DEFINES, parse_structured_text
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from st_types.syntax.source import Source
 
 READERS: Final[Mapping[str, Callable[[Source], StructuredTextFile]]] = {
+    **dict.fromkeys([".cfc", ".fbd", ".il"], read_instruction_list),
     ".ld": read_ladder,
     ".sfc": parse_chart_file,
 }

@@ -23,7 +23,9 @@ NO_DEFINES: Final[Mapping[str, str]] = {}
 
 
 def parse_structured_text(
-    source: Source, defines: Mapping[str, str] = NO_DEFINES
+    source: Source,
+    defines: Mapping[str, str] = NO_DEFINES,
+    parser_class: type[UnitParser] = UnitParser,
 ) -> StructuredTextFile:
     """Parse the text of a file of Structured Text.
 
@@ -33,6 +35,7 @@ def parse_structured_text(
     Args:
         source: the text.
         defines: macros that are defined before the first line, each with its replacement.
+        parser_class: parses the units; one of another language has bodies of its own.
     """
     if not is_text(source.text):
         diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
@@ -48,10 +51,11 @@ def parse_structured_text(
         diagnostics.error(0, "the file is XML", hint)
         return StructuredTextFile([], Tokens(Source(source.path, "")), diagnostics)
     with collector_paused():
-        first = _parse(source, defines)
+        first = _parse(source, defines, parser_class)
         if not first.diagnostics.error_count or (text := unnest_comments(source.text)) is None:
             return first
-        second = _parse(Source(source.path, text, source.encoding, source.mark), defines)
+        unnested = Source(source.path, text, source.encoding, source.mark)
+        second = _parse(unnested, defines, parser_class)
     return second if second.diagnostics.error_count < first.diagnostics.error_count else first
 
 
@@ -71,13 +75,15 @@ def is_text(text: str) -> bool:
     return len(_CONTROLS.findall(sample)) * 20 <= len(sample)
 
 
-def _parse(source: Source, defines: Mapping[str, str]) -> StructuredTextFile:
+def _parse(
+    source: Source, defines: Mapping[str, str], parser_class: type[UnitParser]
+) -> StructuredTextFile:
     diagnostics = DiagnosticLog(source, FindingCode.SYNTAX)
     tokens = Tokens(source)
-    parser = UnitParser(tokens, diagnostics)
+    parser = parser_class(tokens, diagnostics)
     if defines or ("#" in source.text and "directive" in parser.keys):
         preprocess(tokens, defines, diagnostics)
-        parser = UnitParser(tokens, diagnostics)
+        parser = parser_class(tokens, diagnostics)
     file = parser.structured_text_file()
     diagnostics.code = FindingCode.DECLARATION
     return file
