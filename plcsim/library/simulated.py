@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 LANGUAGE: Final = "table"
 
-Value = str | bool | int | float
-"""An input that an output follows, or a constant."""
+Value = str | list[str] | bool | int | float
+"""An input that an output follows, several of which the first that is not 0 counts, or a
+constant."""
 
 
 @dataclass(frozen=True)
@@ -59,12 +60,21 @@ def built_in_rules() -> Rules:
 
 
 class _Move(NamedTuple):
-    """What one call does: bytes from an input, or a constant, to an output."""
+    """What one call does: bytes to an output.
+
+    Attributes:
+        target: offset of the output.
+        size: of it, bytes.
+        sources: offsets of inputs, of which the first that is not 0 counts; empty for a constant.
+        data: the constant.
+        followed: names of the inputs.
+    """
 
     target: int
     size: int
-    source: int
+    sources: tuple[int, ...]
     data: bytes
+    followed: tuple[str, ...] = ()
 
 
 class TableBody(NamedTuple):
@@ -88,8 +98,12 @@ class TableBody(NamedTuple):
         memory, moves = context.memory, self.moves
 
         def run(address: int) -> None:
-            for target, size, source, data in moves:
-                value = data or memory.read(address + source, size)
+            for target, size, sources, data, _ in moves:
+                value = data
+                for source in sources:
+                    value = memory.read(address + source, size)
+                    if any(value):
+                        break
                 memory.write(address + target, value)
 
         return run
@@ -103,8 +117,8 @@ def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> Tab
         move = _move(data_type, output, value)
         if move is not None:
             moves.append(move)
-            if isinstance(value, str):
-                texts.append(f"{output} follows {value}")
+            if move.followed:
+                texts.append(f"{output} follows {' or '.join(move.followed)}")
     return TableBody(tuple(moves), ", ".join(texts)) if texts else None
 
 
@@ -113,12 +127,14 @@ def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None
     if target is None:
         return None
     kind, offset = target
-    if not isinstance(value, str):
-        return _Move(offset, kind.size, 0, struct.pack(f"<{kind.code}", value))
-    source = _elementary(data_type, value, Section.INPUT)
-    if source is None or source[0] is not kind:
+    if not isinstance(value, (str, list)):
+        return _Move(offset, kind.size, (), struct.pack(f"<{kind.code}", value))
+    names = [value] if isinstance(value, str) else value
+    found = {name: _elementary(data_type, name, Section.INPUT) for name in names}
+    places = {name: each[1] for name, each in found.items() if each and each[0] is kind}
+    if not places:
         return None
-    return _Move(offset, kind.size, source[1], b"")
+    return _Move(offset, kind.size, tuple(places.values()), b"", tuple(places))
 
 
 def _elementary(

@@ -337,11 +337,15 @@ def _simulated(table: Table) -> Mapping[str, Mapping[str, Any]]:
         with findings.gathered():
             rules = each.values()
             for key, value in rules.items():
-                if not isinstance(value, str | bool | int | float):
+                if not isinstance(value, str | bool | int | float) and not _is_names(value):
                     raise each.error(key, f"{value!r} is neither the name of an input nor a value")
             found[name] = rules
     findings.check()
     return found
+
+
+def _is_names(value: object) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(n, str) for n in value)
 
 
 def _class_tables(table: Table) -> dict[int, TaskClassTable]:

@@ -49,6 +49,32 @@ def test_outputs_follow_inputs_or_keep_a_value(run):
     assert run(rules, Enable=False)["Active"] is False
 
 
+COMMANDS = DataBlockType(
+    "Recipe",
+    [
+        Member("Enable", BOOL, section=Section.INPUT),
+        Member("Load", BOOL, section=Section.INPUT),
+        Member("Save", BOOL, section=Section.INPUT),
+        Member("Active", BOOL, section=Section.OUTPUT),
+        Member("CommandDone", BOOL, section=Section.OUTPUT),
+    ],
+)
+
+
+@pytest.mark.parametrize(
+    ("commands", "done"), [({}, 0), ({"Load": 1}, 1), ({"Save": 1}, 1), ({"Enable": 1}, 0)]
+)
+def test_an_output_follows_the_first_of_several_inputs_that_is_not_0(commands, done):
+    memory = Memory()
+    address = memory.allocate(COMMANDS.size)
+    body = table_body(COMMANDS, built_in_rules().of("Recipe"))
+    assert body.text == "Active follows Enable, CommandDone follows Load or Save"
+    for name, value in commands.items():
+        memory.set(BOOL, address + COMMANDS.find(name)[1], value)
+    body.bind(Context(memory, None))(address)
+    assert memory.get(BOOL, address + COMMANDS.find("CommandDone")[1]) == done
+
+
 def test_rules_that_do_not_fit_are_no_rules(run):
     assert table_body(BLOCK, {"Done": "Execute", "Actual": "Enable", "Hidden": "Enable"}) is None
     assert table_body(BLOCK, {"Error": False}) is None

@@ -78,6 +78,11 @@ def test_everything_that_is_wrong_is_told(read):
     ]
     with pytest.raises(ConfigurationError, match=r"simulate\.A\.x: \[\] is neither the name of"):
         read("[simulate.A]\nx = []")
+    with pytest.raises(ConfigurationError, match=r"simulate\.A\.x: \[1\] is neither the name of"):
+        read("[simulate.A]\nx = [1]")
+    assert read('[simulate.A]\nx = ["Load", "Save"]').layout.simulate["A"] == {
+        "x": ["Load", "Save"]
+    }
     with pytest.raises(ConfigurationError, match="project: there is no such folder"):
         read("", 'project = "nowhere"')
     with pytest.raises(ConfigurationError, match="as: there is no Automation Studio project here"):
