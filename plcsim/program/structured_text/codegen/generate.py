@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from array import array
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
-
-import numpy as np
 
 from plcsim.machine.encoder import ModuleWriter, Signature, sleb
 from plcsim.machine.opcodes import I32, I64, I64_CONST, UNREACHABLE
@@ -14,7 +13,7 @@ from plcsim.program.structured_text.codegen.body import FunctionWriter, Generati
 from plcsim.program.structured_text.codegen.instrument import Instrument
 from plcsim.program.structured_text.codegen.lines import FunctionLines, ModuleLines, pack
 from plcsim.program.structured_text.codegen.loops import poll
-from plcsim.program.structured_text.codegen.object_code import Holes, ObjectCode
+from plcsim.program.structured_text.codegen.object_code import HOLES, Holes, ObjectCode
 from plcsim.program.structured_text.codegen.operators import VALUE_TYPES
 from plcsim.program.structured_text.codegen.options import CodegenOptions
 from plcsim.program.structured_text.codegen.parts import parts_of
@@ -152,10 +151,11 @@ class _Compiler:
         return Profile(files, counted.counters, counted.costs, counted.arcs)
 
     def _holes(self, starts: Sequence[int]) -> Holes:
-        holes = np.array([n for body in self._bodies for n in body.holes], np.int64)
-        holes = holes.reshape(-1, 3)
-        counts = [len(body.holes) // 3 for body in self._bodies]
-        holes[:, 0] += np.repeat(np.array(starts, np.int64), counts)
+        holes = array(HOLES)
+        for body, start in zip(self._bodies, starts, strict=True):
+            moved = [*body.holes]
+            moved[::3] = [start + position for position in body.holes[::3]]
+            holes.extend(moved)
         return holes
 
     def _lines(self, starts: Sequence[int]) -> ModuleLines:

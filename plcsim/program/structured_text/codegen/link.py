@@ -33,7 +33,8 @@ class Linker:
 
     def compiled(self, code: ObjectCode, addresses: Mapping[str, int]) -> MachineCode:
         """Return the machine code of a module for addresses of its segments, by name."""
-        return self._machine.compile(code.place(addresses))
+        identity = code.identity(addresses)
+        return self._machine.compile_made(identity, lambda: code.place(addresses))
 
     def link(
         self, code: ObjectCode, compiled: MachineCode, provide: Callable[[ir.Import], Extern]

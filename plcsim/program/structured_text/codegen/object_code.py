@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-import numpy as np
-import numpy.typing as npt
+import hashlib
+import struct
+from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from array import array
+    from collections.abc import Iterator, Mapping, Sequence
 
     from plcsim.program.structured_text import ir
     from plcsim.program.structured_text.codegen.lines import ModuleLines
     from plcsim.program.structured_text.codegen.profile import Profile
 
 
-Holes = npt.NDArray[np.int64]
-"""Holes of five bytes in a module, each in a row of three: position in the module, number of a
+HOLES = "i"
+"""Type of the numbers in an array of holes (module ``array``)."""
+
+Holes: TypeAlias = "array[int]"
+"""Holes of five bytes in a module, three numbers for each: position in the module, number of a
 segment, bytes to add to the address of the segment.
 
 What is filled in is the same as operand of i32.const, a signed LEB128 number, and as offset of an
 access, an unsigned one: an address below 2**31, filled up to five bytes.
 """
+
+_HOLE = struct.Struct("<IB")
+_MORE = 0x8080_8080
+"""The bit in four of the five bytes that says that another follows."""
 
 
 class ObjectCode:
@@ -63,11 +70,28 @@ class ObjectCode:
         Raises:
             KeyError: a segment has no address.
         """
-        wasm = np.frombuffer(bytearray(self.wasm), dtype=np.uint8)
-        starts = np.array([addresses[one.name] for one in self.segments], dtype=np.int64)
-        positions, segments, offsets = self.holes.T
-        values = starts[segments] + offsets
-        for place in range(4):
-            wasm[positions + place] = values >> 7 * place & 0x7F | 0x80
-        wasm[positions + 4] = values >> 28
-        return wasm.tobytes()
+        wasm, fill = bytearray(self.wasm), _HOLE.pack_into
+        starts = self._starts(addresses)
+        for position, segment, offset in self.rows():
+            value = starts[segment] + offset
+            parts = value & 0x7F | value << 1 & 0x7F00 | value << 2 & 0x7F_0000
+            fill(wasm, position, parts | value << 3 & 0x7F00_0000 | _MORE, value >> 28)
+        return bytes(wasm)
+
+    def identity(self, addresses: Mapping[str, int]) -> bytes:
+        """Return what `place` depends on, which is known sooner.
+
+        Raises:
+            KeyError: a segment has no address.
+        """
+        state = hashlib.blake2b(self.wasm)
+        state.update(self.holes)
+        return state.digest() + repr(self._starts(addresses)).encode()
+
+    def rows(self) -> Iterator[tuple[int, int, int]]:
+        """Iterate over the holes: position, number of the segment, bytes to add."""
+        numbers = iter(self.holes)
+        return zip(numbers, numbers, numbers, strict=True)
+
+    def _starts(self, addresses: Mapping[str, int]) -> list[int]:
+        return [addresses[one.name] for one in self.segments]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-Counts = npt.NDArray[np.int64]
+    import numpy as np
+    import numpy.typing as npt
+
+Counts: TypeAlias = "npt.NDArray[np.int64]"
 """Values of the counters of a module."""
 
 

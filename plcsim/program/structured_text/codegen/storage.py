@@ -5,17 +5,16 @@ from __future__ import annotations
 import hashlib
 import marshal
 import sys
+from array import array
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
-
-import numpy as np
 
 import plcsim
 import st_types
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.lines import FunctionLines, ModuleLines
-from plcsim.program.structured_text.codegen.object_code import ObjectCode
+from plcsim.program.structured_text.codegen.object_code import HOLES, ObjectCode
 from plcsim.program.structured_text.codegen.profile import Arc, LineCost, Profile
 
 if TYPE_CHECKING:
@@ -48,7 +47,7 @@ def dump(code: ObjectCode) -> bytes:
             code.name,
             code.wasm,
             [(one.name, one.size, one.alignment, one.data) for one in code.segments],
-            code.holes.astype("<i4").tobytes(),
+            code.holes.tobytes(),
             _tuples(code.lines.functions),
             code.lines.traps,
             [
@@ -82,7 +81,7 @@ def _load(  # the parts of `dump`
         name,
         wasm,
         [ir.Segment(*one) for one in segments],
-        np.frombuffer(holes, "<i4").reshape(-1, 3).astype(np.int64),
+        array(HOLES, holes),
         ModuleLines([FunctionLines(*one) for one in functions], traps),
         [
             ir.Import(space, field, ir.Signature(parameters, result))

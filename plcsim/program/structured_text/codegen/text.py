@@ -32,7 +32,7 @@ class _Notes:
         self._file, self._line = "", 0
         self._places = {
             position: f"{code.segments[segment].name}+{offset}"
-            for position, segment, offset in code.holes.tolist()
+            for position, segment, offset in code.rows()
         }
 
     def at(self, offset: int) -> str:

@@ -1,16 +1,17 @@
-import numpy as np
+from array import array
+
 import pytest
 
 from plcsim.machine.encoder import sleb, uleb
 from plcsim.program.structured_text import ir
 from plcsim.program.structured_text.codegen.body import HOLE
 from plcsim.program.structured_text.codegen.lines import ModuleLines
-from plcsim.program.structured_text.codegen.object_code import ObjectCode
+from plcsim.program.structured_text.codegen.object_code import HOLES, ObjectCode
 
 
 def filled(address, offset=0):
     """What is put into a hole."""
-    holes = np.array([[1, 0, offset]], np.int64)
+    holes = array(HOLES, [1, 0, offset])
     code = ObjectCode(
         "test", b"\x41" + HOLE + b"\x0b", [ir.Segment("program")], holes, ModuleLines([], {})
     )
@@ -45,7 +46,7 @@ def test_what_is_filled_in_is_what_the_encoder_writes_but_longer():
 
 
 def test_every_hole_takes_the_address_of_its_segment():
-    holes = np.array([[0, 1, 4], [5, 0, 0], [10, 1, 0]], np.int64)
+    holes = array(HOLES, [0, 1, 4, 5, 0, 0, 10, 1, 0])
     code = ObjectCode(
         "test", HOLE * 3, [ir.Segment("program"), ir.Segment("global")], holes, ModuleLines([], {})
     )
@@ -58,5 +59,5 @@ def test_every_hole_takes_the_address_of_its_segment():
 
 
 def test_code_without_addresses():
-    code = ObjectCode("test", b"abc", [], np.empty((0, 3), np.int64), ModuleLines([], {}))
+    code = ObjectCode("test", b"abc", [], array(HOLES), ModuleLines([], {}))
     assert code.place({}) == b"abc"

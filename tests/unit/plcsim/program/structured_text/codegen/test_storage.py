@@ -1,7 +1,6 @@
 import marshal
 import random
 
-import numpy as np
 import pytest
 
 from plcsim.program.structured_text import ir
@@ -19,7 +18,7 @@ def test_what_was_dumped_comes_out_again(counters):
     code = generate(Maker(random.Random(5)).module(), CodegenOptions(counters=counters))
     found = load(dump(code))
     assert (found.name, found.wasm) == (code.name, code.wasm)
-    assert np.array_equal(found.holes, code.holes)
+    assert found.holes == code.holes
     assert found.lines.functions == code.lines.functions
     assert found.lines.traps == code.lines.traps
     assert [(one.space, one.name) for one in found.imports] == [
