@@ -17,6 +17,7 @@ from plcsim.project.assembly import load, still_controller
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project
 from plcsim.project.survey import survey
+from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
     import argparse
@@ -50,6 +51,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.set_defaults(func=check)
 
 
+@collector_paused()
 def check(options: argparse.Namespace) -> int:
     """Check the project and print what it consists of."""
     project = read_project(options.project, configuration_of(options))

@@ -88,7 +88,8 @@ class Language(Protocol):
 
     Attributes:
         name: as people call it, such as "Structured Text".
-        is_compiled: loading runs nothing of the program, and leaves what it compiles in a cache.
+        load_cost: what a byte of source takes, beside other languages, where loading runs nothing
+            of the program and leaves what it compiles in a cache; 0 where that is not so.
     """
 
     @property
@@ -96,8 +97,8 @@ class Language(Protocol):
         """As people call it, such as "Structured Text"."""
 
     @property
-    def is_compiled(self) -> bool:
-        """Loading runs nothing of the program, and leaves what it compiles in a cache."""
+    def load_cost(self) -> int:
+        """What a byte of source takes, beside other languages; 0 where nothing is compiled."""
 
     def units(self, files: Sequence[Path]) -> Sequence[Path]:
         """Return those files of a program that are in this language and hold units.

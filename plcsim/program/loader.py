@@ -235,12 +235,13 @@ class ProgramLoader:
 
     def _compiled(self, names: Sequence[str]) -> list[str]:
         """Return the programs whose code a cache keeps, the longest first."""
-        sizes = {}
+        costs = {}
         for name in names:
             files = self._layout.programs[name].own.files
-            if any(each.units(files) for each in self._languages if each.is_compiled):
-                sizes[name] = sum(_size(file) for file in files)
-        return sorted(sizes, key=lambda name: (-sizes[name], name))
+            found = [each for each in self._languages if each.load_cost and each.units(files)]
+            if found:
+                costs[name] = found[0].load_cost * sum(_size(file) for file in files)
+        return sorted(costs, key=lambda name: (-costs[name], name))
 
     def _tried(self, name: str) -> ProgramCode | tuple[str, ...]:
         """Return a program, or what is wrong in it."""

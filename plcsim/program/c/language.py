@@ -27,7 +27,7 @@ class C:
     """The language; see `plcsim.program.language.Language`."""
 
     name: Final = NAME
-    is_compiled: Final = True
+    load_cost: Final = 10
 
     def units(self, files: Sequence[Path]) -> list[Path]:
         """Return the C files of a program: which of them hold units, the compiler finds out."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.ansi_c.build import BuildOrder, build
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
     from plcsim.library.library import CBuild, Library
     from plcsim.machine.shared_module import SharedModule
+    from plcsim.program.declarations import Declarations
     from plcsim.program.language import ProgramSource
     from st_types.resolve.scope import Scope
 
@@ -46,21 +48,49 @@ def compile_program(source: ProgramSource) -> LinkedModule:
     Raises:
         ConfigurationError: there are errors in them, or no compiler; all are told.
     """
-    libraries = source.declarations.catalogue.scopes.by_dependency()
+    common = _common(source.declarations)
+    libraries = common.scopes
     around = [scope for scope in source.scope.chain if scope not in libraries]
-    shared = _headers("libraries", libraries, lambda: library_headers(libraries))
     headers = _headers("program", [*around, *libraries], lambda: program_headers(around, libraries))
-    own = source.declarations.own_libraries
-    others = [each for each in source.declarations.catalogue.libraries if each not in own]
-    brought = [*_with_own_header(own), *_with_headers(others)]
     c_build = source.declarations.layout.c_build
-    folders = [source.folder, *c_build.include_folders, *brought, headers, shared]
-    static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
+    folders = [
+        source.folder,
+        *c_build.include_folders,
+        *common.with_headers,
+        headers,
+        common.headers,
+    ]
     options = compiler_options(c_build)
-    libraries_in_c = [*static, UNIT_TEST]
     return _compiled(
-        BuildOrder(source.name, source.files, folders, options, libraries_in_c, headers.parent)
+        BuildOrder(source.name, source.files, folders, options, common.static, headers.parent)
     )
+
+
+class _Common(NamedTuple):
+    """What all programs of a project have of its libraries.
+
+    Attributes:
+        scopes: of the libraries, each behind those that it needs.
+        headers: folder with the headers that are made of their declarations.
+        with_headers: folders of libraries that bring headers themselves.
+        static: libraries that become part of a program.
+    """
+
+    scopes: Sequence[Scope]
+    headers: Path
+    with_headers: Sequence[Path]
+    static: Sequence[StaticLibrary]
+
+
+@lru_cache(maxsize=1)  # the programs of a project ask in turn
+def _common(declarations: Declarations) -> _Common:
+    scopes = declarations.catalogue.scopes.by_dependency()
+    headers = _headers("libraries", scopes, lambda: library_headers(scopes))
+    own = declarations.own_libraries
+    others = [each for each in declarations.catalogue.libraries if each not in own]
+    static = [StaticLibrary(c_files(each.files), (each.folder,)) for each in own if is_static(each)]
+    with_headers = [*_with_own_header(own), *_with_headers(others)]
+    return _Common(scopes, headers, with_headers, [*static, UNIT_TEST])
 
 
 def is_static(library: Library) -> bool:

@@ -79,7 +79,7 @@ class Python:
     """The language; see `plcsim.program.language.Language`."""
 
     name: Final = "Python"
-    is_compiled: Final = False
+    load_cost: Final = 0
 
     def units(self, files: Sequence[Path]) -> list[Path]:
         """Return the files with the program's class, or those with a unit each."""

@@ -28,7 +28,7 @@ class StructuredText:
     """The language; see `plcsim.program.language.Language`."""
 
     name: Final = NAME
-    is_compiled: Final = True
+    load_cost: Final = 1
 
     def units(self, files: Sequence[Path]) -> list[Path]:
         """Return the .st files of a program."""

@@ -50,7 +50,7 @@ class Other:
     """A language whose units end in ``.other``; it loads nothing."""
 
     name = "Other"
-    is_compiled = False
+    load_cost = 0
 
     def units(self, files):
         return [file for file in files if file.suffix == ".other"]
@@ -82,7 +82,7 @@ def test_a_helper_process_compiles_some_of_many_programs(project, monkeypatch):
     pid = os.getpid()
 
     class Compiled(Other):
-        is_compiled = True
+        load_cost = 1
 
         def load(self, source):
             cache = source.folder / "cache"
@@ -114,7 +114,7 @@ def test_a_helper_process_compiles_some_of_many_programs(project, monkeypatch):
 
 def test_what_a_cache_has_needs_no_helper_process(project, monkeypatch):
     class Compiled(Other):
-        is_compiled = True
+        load_cost = 1
 
     monkeypatch.setattr(helper_module, "can_help", lambda: True)
     monkeypatch.setattr(loader_module, "LONGEST_KNOWN_S", 3600.0)
@@ -126,6 +126,29 @@ def test_what_a_cache_has_needs_no_helper_process(project, monkeypatch):
     loader = ProgramLoader(layout, [Compiled()], lambda done, total: told.append((done, total)))
     assert [*loader.load()] == names
     assert told == [(count, 8) for count in range(1, 9)]
+
+
+def test_what_takes_longest_is_loaded_first(project):
+    """Of two processes none works alone at the end for long."""
+    order = []
+
+    class Slow(Other):
+        load_cost = 10
+
+        def load(self, source):
+            order.append(source.name)
+            return OtherCode(source)
+
+    class Fast(Slow):
+        load_cost = 1
+
+        def units(self, files):
+            return [file for file in files if file.suffix == ".fast"]
+
+    files = {"a/a.fast": "123456", "b/b.other": "12", "c/c.other": "123", "d/d.fast": "1"}
+    layout = folder_layout(project(files), ["a", "b", "c", "d"])
+    assert [*ProgramLoader(layout, [Slow(), Fast()]).load()] == ["a", "b", "c", "d"]
+    assert order == ["c", "b", "a", "d"]
 
 
 def test_a_program_has_one_language(project):

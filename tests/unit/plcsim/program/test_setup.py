@@ -1,5 +1,6 @@
 """Controllers of a setup."""
 
+from plcsim.ansi_c.c_library import CLibrary
 from plcsim.core.clock import VirtualClock
 from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
@@ -41,3 +42,23 @@ def test_all_programs_are_placed_before_one_is_compiled_and_compiled_before_one_
     tasks = [[task.name for task in each.tasks] for each in controller.classes]
     assert tasks == [["a", "b"], ["c"]]
     controller.close()
+
+
+def test_the_c_library_is_compiled_beside_the_programs_and_before_one_is_linked(monkeypatch):
+    told = []
+
+    class UsesC(Code):
+        def place(self, name, site):
+            site.c_library()
+            return super().place(name, site)
+
+    def compile_(library):
+        told.append("compile the C library")
+        return whole(library)
+
+    whole = CLibrary.compile
+    monkeypatch.setattr(CLibrary, "compile", compile_)
+    programs = [ProgramSetup(name, UsesC(told)) for name in "ab"]
+    make_controller(Setup([TaskClassSetup(1, 10, programs)]), clock=VirtualClock()).close()
+    compiled = ["compile a", "compile the C library", "compile b"]
+    assert told == ["place a", "place b", *compiled, "link a", "link b"]
