@@ -56,6 +56,36 @@ def test_what_nothing_executes_is_simulated_by_a_table_and_told(plc):
     assert "MpAlarm: MpAlarmCore is simulated: Active follows Enable" in texts
 
 
+def test_a_program_in_ladder_beside_structured_text(plc):
+    def press(name):
+        plc[f"Motor.{name}"] = True
+        plc.run("8ms")
+        plc[f"Motor.{name}"] = False
+        plc.run("8ms")
+
+    press("start")
+    assert (plc["Motor.motor"], plc["Motor.warm"]) == (True, False)
+    plc.run("120ms")
+    assert plc["Motor.warm"] is True
+    press("stop")
+    turns = plc["Motor.turns"]
+    assert (plc["Motor.motor"], plc["Motor.warm"], plc["Motor.last"]) == (False, False, turns)
+    assert (turns > 10, plc["Motor.starts"], plc["Motor.often"]) == (True, 1, False)
+    for _ in range(2):
+        press("start")
+        press("stop")
+    assert (plc["Motor.starts"], plc["Motor.often"], plc["Motor.many"]) == (3, True, True)
+    press("clear")
+    assert (plc["Motor.starts"], plc["Motor.often"], plc["Motor.many"]) == (0, False, False)
+
+
+def test_a_program_in_a_function_block_diagram(plc):
+    plc.run("400ms")
+    assert (plc["Mixer.level"], plc["Mixer.full"], plc["Mixer.mixing"]) == (60, False, False)
+    plc.run("1s")
+    assert (plc["Mixer.level"], plc["Mixer.full"], plc["Mixer.mixing"]) == (100, True, True)
+
+
 def test_io_channels_are_latched_and_published(plc):
     plc['%IX."X20DI9371".DigitalInput01'] = True
     plc["IoMap.X20DI9371.DigitalInput03"] = True

@@ -544,4 +544,4 @@ def _hint_at(statement: Statement) -> str:
     word = name.name.upper() if isinstance(name, Name) else ""
     if word in _EXCEPTIONS:
         return f"{word} of CODESYS is not supported"
-    return "Instruction List is not supported" if word in _INSTRUCTION_LIST else ""
+    return "Instruction List has files of its own: .il" if word in _INSTRUCTION_LIST else ""

@@ -61,7 +61,17 @@ def test_plc_toml_chooses_skips_adds_and_counts_more(read, tmp_path):
         """
     )
     assert found.automation_studio.configuration.name == "Simulation"
-    assert names(found) == ["Clock", "FillStatio", "ValveA", "ValveB", "Boiler", "plant", "Count"]
+    assert names(found) == [
+        "Clock",
+        "FillStatio",
+        "ValveA",
+        "ValveB",
+        "Boiler",
+        "Motor",
+        "Mixer",
+        "plant",
+        "Count",
+    ]
     assert found.classes[1].cycle_ns == 16_000 * US
     assert found.plc.memory_size == 1 << 20
     assert (found.layout.stubs, found.layout.folder) == ({"mpbase"}, tmp_path.resolve())
@@ -101,6 +111,6 @@ def test_a_project_without_programs_says_what_is_wrong_in_its_files(tmp_path):
 
 
 def test_a_configuration_without_tasks_names_the_others(read):
-    skip = '["Clock", "FillStatio", "ValveA", "ValveB", "Boiler", "Count"]'
+    skip = '["Clock", "FillStatio", "ValveA", "ValveB", "Boiler", "Motor", "Mixer", "Count"]'
     with pytest.raises(ConfigurationError, match="no task runs in the configuration Machine"):
         read(f"[as]\nskip = {skip}")

@@ -109,7 +109,7 @@ def test_large_arrays_at_an_address_are_refused(load_text):
     [
         ("VAR p : UDINT; END_VAR p := __NEW(INT);", "ST4001: __NEW is not supported"),
         ("VAR n : UDINT; b : BOOL; END_VAR n := BITADR(b);", "ST4001: BITADR is not supported"),
-        ("VAR b : BOOL; END_VAR LD b", "hint: Instruction List is not supported"),
+        ("VAR b : BOOL; END_VAR LD b", "hint: Instruction List has files of its own: .il"),
         ("VAR n : INT; END_VAR __TRY n := 1;", "hint: __TRY of CODESYS is not supported"),
         ("VAR f : G; END_VAR f();", "ST4001: VAR_GENERIC is not supported"),
         ("VAR b : BOOL; END_VAR b := a(b);", "ST4001: x is of type ANY, which is not supported"),

@@ -14,6 +14,8 @@ def test_everything_that_a_project_says(bottling):
         ("ValveA", 2, "Line.Valves.Valve"),
         ("ValveB", 2, "Line.Valves.Valve"),
         ("Boiler", 2, "Plant.Boiler"),
+        ("Motor", 2, "Plant.Motor"),
+        ("Mixer", 2, "Plant.Mixer"),
         ("Count", 4, "Line.Valves.Count"),
     ]
     assert [(each.name, each.data_type) for each in found.mapp_variables] == [

@@ -1,0 +1,8 @@
+﻿<?xml version="1.0" encoding="utf-8"?>
+<?AutomationStudio Version=4.12.2.93 SP?>
+<Program SubType="IEC" xmlns="http://br-automation.co.at/AS/Program">
+  <Files>
+    <File>Cyclic.fbd</File>
+    <File Private="true">Mixer.var</File>
+  </Files>
+</Program>
