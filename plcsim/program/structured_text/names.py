@@ -6,6 +6,7 @@ from typing import Final
 NAME: Final = "Structured Text"
 
 LANGUAGES: Final = {
+    ".ab": "Automation Basic",
     ".cfc": "CFC",
     ".fbd": "Function Block Diagram",
     ".il": "Instruction List",
@@ -15,11 +16,6 @@ LANGUAGES: Final = {
     **dict.fromkeys([".tcpou", ".tcgvl", ".tcdut", ".tcio"], NAME),  # TwinCAT's
 }
 """The language of a file by its suffix in small letters: each has a reader in ``languages``."""
-
-NOT_THERE: Final = {
-    ".ab": "Automation Basic",
-}
-"""Languages of Automation Studio that nothing reads, likewise."""
 
 SUFFIXES: Final = frozenset(LANGUAGES)
 """Of files with units, in small letters."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from plcsim.program.structured_text.check.calls import CallChecker, Parameter
@@ -23,29 +24,40 @@ from plcsim.program.structured_text.check.typed import (
     Constant,
     Evaluate,
     SetAddress,
+    Symbol,
     Target,
     Unary,
+    Variable,
 )
 from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
 from st_types.types.derived import DataBlockType, ReferenceType, Section
 
 if TYPE_CHECKING:
+    from plcsim.program.structured_text.check.findings import FileFindings
     from plcsim.program.structured_text.check.kinds import Type
+    from plcsim.program.structured_text.check.names import ScopeNames
     from plcsim.program.structured_text.check.typed import Statement, Value
+    from plcsim.program.structured_text.syntax.tree import BlockCall
     from st_types.syntax.expressions import Expression
 
 
 class BlockChecker(CallChecker):
     """Checks assignments and calls of function blocks."""
 
+    def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
+        super().__init__(names, findings)
+        self._own_instances: dict[str, int] = {}
+
     # Function blocks
 
     def block_call(self, node: syntax.Call, line: int) -> Statement | None:
         """Check the call of a function block, None if it is none."""
         instance = self._instance(node.function)
-        if instance is None:
-            return None
+        return None if instance is None else self._called_block(node, instance, line)
+
+    def _called_block(self, node: syntax.Call, instance: Value, line: int) -> Statement:
+        """Check the call of an instance of a function block with the arguments of ``node``."""
         meant = self._for_bounds_given(node, instance)
         if meant is None:
             return CallBlock(line, instance, instance.type.name, (), ())
@@ -67,6 +79,72 @@ class BlockChecker(CallChecker):
             self._block_argument(argument, parameter, instance, before, after, line)
         self.called_bodies.add(block_label(name))
         return CallBlock(line, instance, name, before, after)
+
+    def call_by_type(self, node: BlockCall, line: int) -> Statement | None:
+        """Check the call of a function block by its type, as Automation Basic has it.
+
+        None where ``node`` has no instance and names no function block.
+        """
+        known = self.names.scope.find_function_block(node.block.name)
+        data_type = None if known is None else known.data_type
+        if node.instance is None:
+            if data_type is None or self.names.value(node.block) is not None:
+                return None
+            instance = self._own_instance(node, data_type)
+        else:
+            instance = self.value(node.instance)
+            if instance.type is not VOID and instance.type is not data_type:
+                message = f"this is {instance.type}, no {node.block.name}"
+                self.error(node.instance, FindingCode.NOT_CALLABLE, message)
+        if instance.type is VOID or instance.type is not data_type or data_type is None:
+            return Evaluate(line, NOTHING)
+        arguments = self._by_name(node, data_type)
+        return self._called_block(syntax.Call(node.at, node.block, arguments), instance, line)
+
+    def _own_instance(self, node: BlockCall, data_type: DataBlockType[Any]) -> Value:
+        """Return the instance that a call has for itself: of a function block a member of its own.
+
+        Automation Studio declares such members itself, zzTON00000 and so on.
+        """
+        number = self._own_instances.get(data_type.name, 0)
+        self._own_instances[data_type.name] = number + 1
+        if self.names.symbols.storages.get(self.names.scope) != "instance":
+            name = f"{data_type.name} {number} of {node.at}"
+            return Variable(data_type, Symbol(name, data_type, "hidden", has_address=True))
+        wanted = re.compile(rf"zz{re.escape(data_type.name)}\d+", re.ASCII)
+        variables = self.names.scope.index.variables
+        names = [each.name for each in variables if wanted.fullmatch(each.name)]
+        if number < len(names):
+            return self.names.value(syntax.Name(node.at, names[number])) or NOTHING
+        message = f"the function block has no member zz{data_type.name}{number:05} for this call"
+        hint = f"declare it as VAR : {data_type.name}, as Automation Studio does when it builds"
+        self.error(node, FindingCode.UNKNOWN_MEMBER, message, hint)
+        return NOTHING
+
+    def _by_name(self, node: BlockCall, block: DataBlockType[Any]) -> list[syntax.Argument]:
+        """Return arguments in order, inputs and then outputs, with the names of what they are."""
+        members = [
+            each
+            for section in (Section.INPUT, Section.IN_OUT, Section.OUTPUT)
+            for each in block.members
+            if each.section is section
+        ]
+        given = node.arguments
+        if not given:
+            return []
+        has_names = any(each.name or each.value is None for each in given)
+        if has_names or len(given) != len(members):
+            message = f"{block} takes its {len(members)} inputs and outputs in order, or nothing"
+            self.error(node, FindingCode.WRONG_ARGUMENTS, message)
+            return []
+        if any(each.section is Section.IN_OUT for each in members):
+            message = f"{block} has a VAR_IN_OUT"
+            self.error(node, FindingCode.NOT_SUPPORTED, f"{message}, which has no place here")
+            return []
+        return [
+            syntax.Argument(each.at, member.name, each.value, member.section is Section.OUTPUT)
+            for each, member in zip(given, members, strict=True)
+        ]
 
     def _for_bounds_given(self, node: syntax.Call, instance: Value) -> tuple[Value, str] | None:
         """Return an instance as the function block for the arrays that it is given, and its name.

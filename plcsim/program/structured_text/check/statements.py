@@ -202,6 +202,15 @@ class StatementChecker(BlockChecker):
             found = self.bare_call(expression, line)
         into.append(found or self._evaluated(expression, line))
 
+    def _call_by_type(self, node: tree.BlockCall, into: list[Statement]) -> None:
+        """Check a call of Automation Basic: of a function block by its type, or any other one."""
+        found = self.call_by_type(node, self.findings.line(node))
+        if found is None:
+            call = syntax.Call(node.block.at, node.block, node.arguments)
+            self._expression(tree.ExpressionStatement(node.at, call), into)
+        else:
+            into.append(found)
+
     def _has_enable(self, node: syntax.Call) -> bool:
         """Return whether a call has an EN or ENO that nothing declares.
 
@@ -398,6 +407,7 @@ _VENDOR_RULES: dict[str, Callable[[StatementChecker, tree.Assignment, int], Stat
 _RULES: dict[type, Callable[[StatementChecker, Any, list[Statement]], None]] = {
     tree.Assignment: StatementChecker._assignment,
     tree.ExpressionStatement: StatementChecker._expression,
+    tree.BlockCall: StatementChecker._call_by_type,
     tree.IfStatement: StatementChecker._if,
     tree.CaseStatement: StatementChecker._case,
     tree.ForStatement: StatementChecker._for,

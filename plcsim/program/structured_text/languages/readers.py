@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Final
 
+from plcsim.program.structured_text.languages.automation_basic import parse_automation_basic
 from plcsim.program.structured_text.languages.chart_file import parse_chart_file
 from plcsim.program.structured_text.languages.charts import with_charts
 from plcsim.program.structured_text.languages.instruction_list import read_instruction_list
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from st_types.syntax.source import Source
 
 READERS: Final[Mapping[str, Callable[[Source], StructuredTextFile]]] = {
+    ".ab": parse_automation_basic,
     **dict.fromkeys([".cfc", ".fbd", ".il"], read_instruction_list),
     ".ld": read_ladder,
     ".sfc": parse_chart_file,

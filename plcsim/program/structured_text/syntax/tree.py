@@ -148,8 +148,23 @@ class TemporaryStatement(Node):
     value: Expression
 
 
+@dataclass(slots=True)
+class BlockCall(Node):
+    """``instance FUB TYPE(a, b)`` or ``TYPE(a, b)`` of Automation Basic.
+
+    Arguments are the inputs and then the outputs of the function block in their order, or none.
+    Without an instance each call in the text has one of its own; ``block`` may be a function then,
+    or an action.
+    """
+
+    block: Name
+    arguments: Sequence[Argument]
+    instance: Expression | None = None
+
+
 Statement = (
     Assignment
+    | BlockCall
     | ExpressionStatement
     | IfStatement
     | CaseStatement
