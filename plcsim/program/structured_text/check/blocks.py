@@ -93,7 +93,10 @@ class BlockChecker(CallChecker):
             instance = self._own_instance(node, data_type)
         else:
             instance = self.value(node.instance)
-            if instance.type is not VOID and instance.type is not data_type:
+            if data_type is None:
+                message = f"no function block is called {node.block.name}"
+                self.error(node.block, FindingCode.UNKNOWN_TYPE, message)
+            elif instance.type is not VOID and instance.type is not data_type:
                 message = f"this is {instance.type}, no {node.block.name}"
                 self.error(node.instance, FindingCode.NOT_CALLABLE, message)
         if instance.type is VOID or instance.type is not data_type or data_type is None:
@@ -278,6 +281,7 @@ class BlockChecker(CallChecker):
         An address goes into a reference itself, unless that refers to an integer of 32 bits: then
         it goes there, as any other value does. So does 0, which is no address.
         """
+        value = self.address_of_text(node, value, target.type)
         value = self.as_implementation(value, target.type)
         self._check_pointer(node, target, value)
         if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):

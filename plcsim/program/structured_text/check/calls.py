@@ -105,11 +105,13 @@ class CallChecker(MethodChecker):
 
     Attributes:
         edges: how many edge functions were met in the function block, for its zzEdge members.
+        texts_are_addresses: a text that goes into a UDINT is its address.
         called_open: functions and function blocks that take arrays of any bounds, by the names of
             what was made of them for their calls.
     """
 
     edges = 0
+    texts_are_addresses = False
 
     def __init__(self, names: ScopeNames, findings: FileFindings) -> None:
         super().__init__(names, findings)
@@ -468,13 +470,28 @@ class CallChecker(MethodChecker):
         target = parameter.type
         if value.type is VOID or target is None:
             return value
-        value = self.as_implementation(value, target)
+        value = self.as_implementation(self.address_of_text(node, value, target), target)
         if isinstance(target, ReferenceType):
             return self._reference_argument(node, value, target)
         if not parameter.by_address:
             self.check_fit(node, value, target)
             return value
         return self._address_argument(node, value, parameter, target)
+
+    def address_of_text(self, node: Expression, value: Value, target: Type) -> Value:
+        """Return the address of a text that goes into a UDINT where that is meant, else ``value``.
+
+        Args:
+            node: the value as it is written.
+            value: of it.
+            target: what it goes into.
+        """
+        is_text = isinstance(value, Constant) and isinstance(value.value, str)
+        return (
+            self.address(node)
+            if self.texts_are_addresses and is_text and target is UDINT
+            else value
+        )
 
     def _reference_argument(self, node: Expression, value: Value, target: ReferenceType) -> Value:
         """Check what goes into a REFERENCE TO: an address, or a place of the type referred to."""

@@ -173,6 +173,7 @@ class _ProgramChecker(UnitCollector):
             names, findings, {key: each.name for key, each in self._callable(owner).items()}
         )
         checker.this, checker.maker = owner.this, job.maker or owner.this
+        checker.texts_are_addresses = job.file.texts_are_addresses
         line = findings.line(job.unit)
         statements = checker.statements(job.nodes)
         body = typed.CheckedBody(job.name, job.kind, job.file.path, line, statements, owner.block)

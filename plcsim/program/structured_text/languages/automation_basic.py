@@ -33,11 +33,10 @@ from plcsim.program.structured_text.syntax.tree import (
     LabelStatement,
     ProgramUnit,
     StructuredTextFile,
-    WhileStatement,
 )
 from st_types.syntax.collector import collector_paused
 from st_types.syntax.diagnostics import DiagnosticLog
-from st_types.syntax.expressions import Call, ExpressionParser, Name, Unary
+from st_types.syntax.expressions import Call, ExpressionParser, Name
 from st_types.syntax.lexer import NAME, KeyTable, Tokens
 from st_types.syntax.reader import UnexpectedTokenError
 from st_types.syntax.source import Source
@@ -62,6 +61,9 @@ _ENDS: Final = frozenset(
 _INSIDE: Final = frozenset(["THEN", "OF", "TO", "DOWNTO", "DO", "FUB"])
 _STARTS: Final = frozenset(["IF", "CASE", "LOOP", "EXITIF", "GOTO", "INC", "DEC"])
 _OPERATORS: Final = frozenset(["OR", "XOR", "AND", "MOD", "NOT"])
+_MEANINGS: Final = {"BIT": "TO_BOOL", "LSL": "SHL", "LSR": "SHR"}
+"""Functions by names that Structured Text does not have."""
+
 _AFTER_NAMES: Final = frozenset(["=", ":=", ".", "["])
 """What makes a name of a keyword that it follows."""
 
@@ -112,7 +114,7 @@ class BasicParser(ExpressionParser):
                     self.index += 1
         if self.tokens.truncated:
             self.tell(self.here(), "the file has too many tokens")
-        return StructuredTextFile(units, self.tokens, self.diagnostics)
+        return StructuredTextFile(units, self.tokens, self.diagnostics, texts_are_addresses=True)
 
     def _unit(self) -> Unit:
         at, word = self.index, self.keyword
@@ -181,7 +183,9 @@ class BasicParser(ExpressionParser):
         if self.accept(END_OF_LINE):
             return
         key = self.keys[self.index]
-        if key in _STARTS and not self._is_name():
+        if key == "LOOP" and not self._is_name():
+            into += self._loop()
+        elif key in _STARTS and not self._is_name():
             into.append(_RULES[key](self))
         elif key in _ENDS and not self._is_name():
             self.fail("expected a statement", f"nothing is open that {key} ends")
@@ -217,8 +221,12 @@ class BasicParser(ExpressionParser):
 
     def _call(self, base: Expression) -> Expression:
         """Parse a call; that of a type is a conversion."""
-        if isinstance(base, Name) and base.name.upper() in ALL_ELEMENTARY:
-            base = Name(base.at, f"TO_{base.name.upper()}")
+        if isinstance(base, Name):
+            word = base.name.upper()
+            if word in ALL_ELEMENTARY:
+                base = Name(base.at, f"TO_{word}")
+            elif word in _MEANINGS:
+                base = Name(base.at, _MEANINGS[word])
         return super()._call(base)
 
     # Statements
@@ -294,13 +302,13 @@ class BasicParser(ExpressionParser):
         low = self.expression()
         return low, self.expression() if self.accept("..") else None
 
-    def _loop(self) -> Statement:
+    def _loop(self) -> list[Statement]:
         at = self.index
         self.index += 1
         if self.text == END_OF_LINE or self.accept("DO"):
             body = self._body("ENDLOOP")
             self._close("ENDLOOP", at)
-            return WhileStatement(at, NodeMaker(at).literal("TRUE"), body)
+            return [NodeMaker(at).loop(NodeMaker(at).literal("TRUE"), body)]
         self._operators = 0
         variable = self._operand()
         self.expect("=", "after the variable of LOOP")
@@ -310,10 +318,11 @@ class BasicParser(ExpressionParser):
             self.expect("TO", "after the first value of LOOP")
         last = self.expression()
         self.expect("DO", "after the values of LOOP")
-        step = Unary(at, "-", NodeMaker(at).literal("1")) if is_down else None
         body = self._body("ENDLOOP")
         self._close("ENDLOOP", at)
-        return ForStatement(at, variable, first, last, step, body)
+        if is_down:
+            return _counted_down(NodeMaker(at), variable, first, last, body)
+        return [ForStatement(at, variable, first, last, None, body)]
 
     def _exit_if(self) -> Statement:
         at = self.index
@@ -336,10 +345,24 @@ class BasicParser(ExpressionParser):
         return make.assignment(target, make.binary(operator, target, make.literal("1")))
 
 
+def _counted_down(
+    make: NodeMaker,
+    variable: Expression,
+    first: Expression,
+    last: Expression,
+    body: list[Statement],
+) -> list[Statement]:
+    """Return a loop that counts down: to 0 with an unsigned variable, too, which FOR never ends."""
+    count = make.assignment(variable, make.binary("-", variable, make.literal("1")))
+    is_last = make.binary("=", variable, last)
+    passes = [*body, make.condition(is_last, [count, make.leave()]), count]
+    loop = make.loop(make.binary(">=", variable, last), passes)
+    return [make.assignment(variable, first), loop]
+
+
 _RULES: Final[dict[str, Callable[[BasicParser], Statement]]] = {
     "IF": BasicParser._if,
     "CASE": BasicParser._case,
-    "LOOP": BasicParser._loop,
     "EXITIF": BasicParser._exit_if,
     "GOTO": BasicParser._go_to,
     "INC": BasicParser._count,

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 from plcsim.program.structured_text.syntax.tree import (
     Arm,
     Assignment,
+    ExitStatement,
     ExpressionStatement,
     IfStatement,
+    WhileStatement,
 )
 from st_types.syntax.expressions import (
     Argument,
@@ -103,6 +105,14 @@ class NodeMaker:
     ) -> Statement:
         """Return ``IF condition THEN body ELSE other END_IF``."""
         return IfStatement(self._at, [Arm(self._at, condition, body)], other)
+
+    def loop(self, condition: Expression, body: Sequence[Statement]) -> Statement:
+        """Return ``WHILE condition DO body END_WHILE``."""
+        return WhileStatement(self._at, condition, body)
+
+    def leave(self) -> Statement:
+        """Return ``EXIT;``."""
+        return ExitStatement(self._at)
 
     def declaration(self, name: str, specification: TypeSpecification) -> Declaration:
         """Return ``name : specification;``."""

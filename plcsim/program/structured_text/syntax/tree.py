@@ -356,12 +356,15 @@ class StructuredTextFile:
         diagnostics: findings of the parser; later steps add theirs.
         hidden: variables of the program that its language needs and nobody wrote, such as the
             state of a chart.
+        texts_are_addresses: ``strcpy(to, "text")`` gives the address of the text, as it does in
+            Automation Basic.
     """
 
     units: Sequence[Unit]
     tokens: Tokens = field(compare=False, repr=False)
     diagnostics: DiagnosticLog = field(compare=False, repr=False)
     hidden: Sequence[VariableBlock] = ()
+    texts_are_addresses: bool = False
 
     @property
     def path(self) -> str:
