@@ -25,7 +25,6 @@ from plcsim.program.python.language import PYTHON
 from plcsim.program.python.modules import add_library, add_package, unload
 from plcsim.program.python.program import globals_in
 from plcsim.program.structured_text.language import STRUCTURED_TEXT, StructuredTextBodies
-from plcsim.program.structured_text.names import NOT_THERE
 from plcsim.program.variables import DeclaredVariables, variables_of
 from st_types.resolve.dialect import AUTOMATION_STUDIO, IEC
 
@@ -303,7 +302,10 @@ class ProgramLoader:
                     f"{folder}: holds units in {names}; a program has one language"
                 )
             if not found:
-                raise self._nothing_in(folder, own.files)
+                raise ConfigurationError(
+                    f"{folder}: holds no program: neither main.py nor variables.py, no .st file, "
+                    "no .c file"
+                )
             language, files = found[0]
             scope = self.declarations.scope_of(name)
             return language.load(
@@ -320,16 +322,6 @@ class ProgramLoader:
 
     def _is_program(self, folder: Path) -> bool:
         return any(language.units(files_in(folder)) for language in self._languages)
-
-    def _nothing_in(self, folder: Path, files: Sequence[Path]) -> ConfigurationError:
-        suffixes = {file.suffix.lower() for file in files}
-        for suffix in sorted(suffixes & NOT_THERE.keys()):
-            return ConfigurationError(
-                f"{folder}: is written in {NOT_THERE[suffix]}, which plcsim does not run"
-            )
-        return ConfigurationError(
-            f"{folder}: holds no program: neither main.py nor variables.py, no .st file, no .c file"
-        )
 
 
 def _size(file: Path) -> int:

@@ -5,14 +5,11 @@ from __future__ import annotations
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.structured_text.names import NOT_THERE
-
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
 
     from plcsim.project.automation_studio.finding import Finding
-    from plcsim.project.automation_studio.logical_view import SourceFolder
     from plcsim.project.automation_studio.reader import AutomationStudioProject, ProgramTask
 
 LANGUAGES: Final = {
@@ -53,28 +50,7 @@ def of_task(task: ProgramTask, file: Path) -> tuple[str, ...]:
     """
     if task.program is None:
         return (f"{file}:{task.line}: error: the logical view has no program {task.source}",)
-    missing = [_as_error(each) for each in task.program.missing if _is_needed(each)]
-    return (*missing, *_foreign(task.program))
-
-
-def _foreign(program: SourceFolder) -> Iterator[str]:
-    """Yield the languages of a program that plcsim does not run, with the first file in each.
-
-    Files without text, which Automation Studio makes for units nobody wrote, are none.
-    """
-    seen: set[str] = set()
-    for file in program.files:
-        language = NOT_THERE.get(file.suffix.lower())
-        if language is not None and language not in seen and _has_text(file):
-            seen.add(language)
-            yield f"{file}: is written in {language}, which plcsim does not run"
-
-
-def _has_text(file: Path) -> bool:
-    try:
-        return bool(file.read_bytes().strip())
-    except OSError:
-        return True  # which is told when it is loaded
+    return tuple(_as_error(each) for each in task.program.missing if _is_needed(each))
 
 
 def _is_needed(finding: Finding) -> bool:

@@ -194,11 +194,6 @@ def test_a_folder_without_a_program(load):
     assert wrong(load, {"main/notes.txt": ""}) == told
 
 
-def test_a_language_that_is_not_there_is_named(load):
-    told = "main: is written in Automation Basic, which plcsim does not run"
-    assert wrong(load, {"main/Main.AB": ""}) == told
-
-
 def test_a_folder_that_may_not_be_read_is_named(load, monkeypatch):
     def refused(path, **_):
         raise PermissionError(13, "Permission denied", str(path))
