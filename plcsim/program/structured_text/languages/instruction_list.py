@@ -9,7 +9,7 @@ result, for jumps come from elsewhere: an instruction that takes one there is an
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.program.structured_text.syntax.keywords import UNIT_ENDS, UNIT_STARTS
 from plcsim.program.structured_text.syntax.parser import parse_structured_text
@@ -29,8 +29,6 @@ from st_types.syntax.lexer import TokenKind, kind_of
 from st_types.syntax.reader import UnexpectedTokenError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from plcsim.program.structured_text.syntax.tree import Statement, StructuredTextFile
     from st_types.syntax.expressions import Expression
     from st_types.syntax.source import Source
@@ -60,6 +58,9 @@ _NEGATED: Final = {"ANDN": "AND", "&N": "AND", "ORN": "OR", "XORN": "XOR"}
 _LEAVING: Final = frozenset(["JMP", "RET"])
 _CALLS: Final = frozenset(["CAL", *_LEAVING])
 _MODIFIERS: Final = {"": "", "C": "C", "CN": "CN", "NC": "CN"}
+MAX_LENGTH: Final = 100
+"""Instructions whose results are one expression; bounds the depth of its tree."""
+
 _FRESH: Final = frozenset(["LD", "LDN", "JMP", "RET"])
 """Instructions that take no current result, and leave none of before."""
 
@@ -71,17 +72,35 @@ def read_instruction_list(source: Source) -> StructuredTextFile:
     return parse_structured_text(source, parser_class=InstructionListParser)
 
 
+class _Deferred(NamedTuple):
+    """An operator whose second operand stands in the parentheses that are open.
+
+    Attributes:
+        at: number of its token.
+        word: the operator.
+        left: its first operand.
+        length: instructions by which that was worked out.
+    """
+
+    at: int
+    word: str
+    left: Expression
+    length: int
+
+
 class InstructionListParser(UnitParser):
     """Parses units whose bodies are lists of instructions."""
 
     _result: Expression | None = None
+    _length = 0
+    """Instructions that the current result is worked out by."""
     _temporaries = 0
 
     def statements(self) -> list[Statement]:
         """Parse instructions up to the end of the unit."""
         found: list[Statement] = []
         self._result = None
-        self._deferred: list[tuple[int, Callable[[Expression], Expression]]] = []
+        self._deferred: list[_Deferred] = []
         while not self._is_end():
             start = self.index
             try:
@@ -91,7 +110,7 @@ class InstructionListParser(UnitParser):
                 self.depth = 0
                 self._recover_instruction(start)
         if self._deferred:
-            offset = self.tokens.offset(self._deferred[-1][0])
+            offset = self.tokens.offset(self._deferred[-1].at)
             self.tell(offset, "expected ')' behind the operands of this operator")
         return found
 
@@ -121,20 +140,21 @@ class InstructionListParser(UnitParser):
         if word == ";":
             return
         if word == ")":
-            self._close_operator(at)
+            self._close_operator(at, into)
         elif word in ("LD", "LDN"):
             value = self._value("to load")
             self._result = Unary(at, "NOT", value) if word == "LDN" else value
+            self._length = 1
         elif word in ("ST", "STN", "S", "R"):
             self._store(at, word, into)
         elif word == "NOT":
-            self._result = Unary(at, "NOT", self._current(at))
+            self._replace(at, Unary(at, "NOT", self._current(at)), 0, into)
         elif word in _SIGNS or word in _NEGATED:
-            self._operate(at, word)
+            self._operate(at, word, into)
         elif (found := _flow(word)) is not None:
             self._branch(at, *found, into)
         else:
-            self._invoke(at)
+            self._invoke(at, into)
         if not self._begins_line() and self.text not in _ENDS and not self._is_end():
             self.fail("expected the end of the line behind an instruction")
 
@@ -156,11 +176,30 @@ class InstructionListParser(UnitParser):
         is_kept = isinstance(found, Literal) or (isinstance(found, Name) and " " in found.name)
         if is_kept or self._is_taken_last():
             return found
+        return self._keep(at, found, into)
+
+    def _keep(self, at: int, value: Expression, into: list[Statement]) -> Expression:
+        """Let a value be worked out here; it is the current result."""
         self._temporaries += 1
         name = f"result {self._temporaries}"
-        into.append(TemporaryStatement(at, name, found))
+        into.append(TemporaryStatement(at, name, value))
         self._result = Name(at, name)
+        self._length = 1
         return self._result
+
+    def _replace(self, at: int, value: Expression, others: int, into: list[Statement]) -> None:
+        """Take another current result, which was worked out of this one.
+
+        Args:
+            at: number of the token of the instruction.
+            value: the result.
+            others: instructions by which its other operand was worked out.
+            into: takes the value where it is too long.
+        """
+        self._result = value
+        self._length = max(self._length, others) + 1
+        if self._length > MAX_LENGTH:
+            self._keep(at, value, into)
 
     def _is_taken_last(self) -> bool:
         """Return whether the next instruction takes no current result."""
@@ -185,33 +224,30 @@ class InstructionListParser(UnitParser):
         operator = f"{word}=" if word in ("S", "R") else ":="
         into.append(Assignment(at, target, value, operator))
 
-    def _operate(self, at: int, word: str) -> None:
+    def _operate(self, at: int, word: str, into: list[Statement]) -> None:
         """Parse an operator with its operands, or with what stands in parentheses behind it."""
-        operator = _SIGNS[_NEGATED.get(word, word)]
         left = self._current(at)
-
-        def applied(right: Expression) -> Expression:
-            return Binary(
-                at, operator, left, Unary(at, "NOT", right) if word in _NEGATED else right
-            )
-
         if self.text == "(":
             self.index += 1
             self.enter()
-            self._deferred.append((at, applied))
+            self._deferred.append(_Deferred(at, word, left, self._length))
             self._result = None if self._begins_line() else self._value("in the parenthesis")
+            self._length = 1
             return
-        self._result = applied(self._value(f"of {word}"))
+        self._replace(at, _applied(at, word, left, self._value(f"of {word}")), 0, into)
         while self.accept(","):
-            self._result = Binary(at, operator, self._result, self._value("behind ','"))
+            right = self._value("behind ','")
+            self._replace(at, _applied(at, word, self._current(at), right), 0, into)
 
-    def _close_operator(self, at: int) -> None:
+    def _close_operator(self, at: int, into: list[Statement]) -> None:
         """Carry out the operator whose parenthesis ends."""
         if not self._deferred:
             raise UnexpectedTokenError(self.tokens.offset(at), "')' closes no parenthesis")
         self.leave()
         inner = self._current(at)
-        self._result = self._deferred.pop()[1](inner)
+        deferred = self._deferred.pop()
+        value = _applied(deferred.at, deferred.word, deferred.left, inner)
+        self._replace(deferred.at, value, deferred.length, into)
 
     def _branch(self, at: int, word: str, modifier: str, into: list[Statement]) -> None:
         """Parse CAL, JMP and RET, with C where the current result must be TRUE, CN where FALSE."""
@@ -233,7 +269,7 @@ class InstructionListParser(UnitParser):
             condition = Unary(at, "NOT", condition)
         into.append(IfStatement(at, [Arm(at, condition, [statement])], None))
 
-    def _invoke(self, at: int) -> None:
+    def _invoke(self, at: int, into: list[Statement]) -> None:
         """Parse a function: the current result is its first argument, unless all have names."""
         if kind_of(self.texts[at]) is not TokenKind.IDENTIFIER:
             self.index = at
@@ -247,13 +283,20 @@ class InstructionListParser(UnitParser):
                 message = f"expected arguments with names in the brackets behind {name.name}"
                 raise UnexpectedTokenError(self.tokens.offset(at), message, hint)
             self._result = Call(at, name, given)
+            self._length = 1
             return
         given = [Argument(at, "", self._current(at))]
         while not self._begins_line() and self.text not in _ENDS:
             given.append(Argument(self.index, "", self._value(f"of {name.name}")))
             if not self.accept(","):
                 break
-        self._result = Call(at, name, given)
+        self._replace(at, Call(at, name, given), 0, into)
+
+
+def _applied(at: int, word: str, left: Expression, right: Expression) -> Expression:
+    """Return what an operator makes of two operands."""
+    right = Unary(at, "NOT", right) if word in _NEGATED else right
+    return Binary(at, _SIGNS[_NEGATED.get(word, word)], left, right)
 
 
 def _flow(word: str) -> tuple[str, str] | None:

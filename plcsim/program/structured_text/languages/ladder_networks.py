@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.languages.placed import PlacedTokens
     from st_types.syntax.diagnostics import DiagnosticLog
 
-MAX_COLUMNS: Final = 200
+MAX_COLUMNS: Final = 100
 """Cells of a row; bounds the depth of what is made of it."""
 
 MAX_ROWS: Final = 5000
@@ -38,7 +38,9 @@ _TYPES: Final = {
     ),
 }
 _BLOCKS: Final = ("function", "functionblock")
-_POSITIONS: Final = ("", "header", "top", "middle", "bottom")
+_INSIDE: Final = ("", "middle", "bottom")
+"""Positions of parts of a block that are not its first."""
+
 _ATTRIBUTES: Final = {
     "networks": frozenset(["maxcolumn"]),
     "network": frozenset(["label", "comment", "row", "column", "commented"]),
@@ -187,6 +189,9 @@ class NetworkReader:
                 self._fail(place, f"a row has more than {MAX_COLUMNS} cells")
             else:
                 found.rows.append(self._row(row, found, open_blocks))
+        for block in found.blocks:
+            if block.name and not block.type and not block.has_instance:
+                block.type, block.at = block.name, block.operand
         return found
 
     def _row(
@@ -230,11 +235,9 @@ class NetworkReader:
         """Return a part of a block; it begins with its header, or with its top."""
         self._checked(element, place)
         position = element.get("position")
-        if position not in _POSITIONS:
-            self._fail(place, f"the position {position!r} of a block is not known")
         has_instance = element.tag == "functionblock"
         block = blocks.get(column)
-        begins = position == "header" or (position == "top" and _is_whole(block))
+        begins = position == "header" or (position not in _INSIDE and _is_whole(block))
         if block is None or begins or block.has_instance != has_instance:
             block = blocks[column] = LadderBlock(self._tokens.mark(place), column, has_instance)
             network.blocks.append(block)

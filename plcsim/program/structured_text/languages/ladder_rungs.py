@@ -67,6 +67,7 @@ class NetworkStatements:
         self._rows = network.rows
         self._parser = parser
         self._rail: Expression = _literal(network.at, "TRUE")
+        self._edges: dict[int, list[range]] = {}
         self._known: dict[tuple[int, int], Expression | None] = {}
         self._results: dict[int, Expression] = {}
         self._done: set[int] = set()
@@ -99,18 +100,21 @@ class NetworkStatements:
         return self._rows[row][column]
 
     def _joined(self, row: int, edge: int) -> range:
-        """Return the rows that a vertical line at an edge joins; edge 0 is the left rail."""
+        """Return the rows that a vertical line at an edge joins with a row."""
+        if edge not in self._edges:
+            self._edges[edge] = self._joined_rows(edge)
+        return self._edges[edge][row]
 
-        def joins(number: int) -> bool:
-            cell = self._cell(number, edge - 1) if edge else None
-            return cell is not None and cell.joins
-
-        first = last = row
-        while first and joins(first):
-            first -= 1
-        while joins(last + 1):
-            last += 1
-        return range(first, last + 1)
+    def _joined_rows(self, edge: int) -> list[range]:
+        """Return for each row those that a vertical line at an edge joins it with."""
+        found: list[range] = []
+        first = 0
+        for row in range(len(self._rows)):
+            below = self._cell(row + 1, edge - 1)
+            if below is None or not below.joins:
+                found += [range(first, row + 1)] * (row + 1 - first)
+                first = row + 1
+        return found
 
     def _reaching(self, row: int, edge: int) -> Expression | None:
         """Return what reaches an edge of a row, None where nothing leads to it."""

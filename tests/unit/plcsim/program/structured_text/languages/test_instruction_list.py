@@ -232,3 +232,15 @@ def test_all_mistakes_are_told():
 def test_findings_of_the_checker_stand_at_the_operand():
     _, _, found = checked("PROGRAM _CYCLIC\nLD gone\nST x\nEND_PROGRAM", DECLARED, path="Main.il")
     assert [each.split(" |")[0] for each in found] == ["2:4 ST2001 no variable is called gone"]
+
+
+def test_a_list_of_any_length_runs(run):
+    assert after(run("LD 1", *["ADD 1"] * 3000, "ST i"), "i") == 3001
+    nested = ["OR(", *["LD b", "AND c"] * 3] * 20
+    assert after(run("LD a", *nested, *[")"] * 20, "ST x"), "x", b=1, c=1) is True
+
+
+def test_a_list_that_is_nested_too_deep():
+    text = "\n".join(["PROGRAM _CYCLIC", "LD a", *["AND( b"] * 200, "END_PROGRAM"])
+    records = parse_units(Source("Main.il", text)).diagnostics.records
+    assert any("expected at most 100 levels of nesting" in each.message for each in records)

@@ -1,11 +1,18 @@
 """Ladder Diagrams: what each element of a network does when it runs."""
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from plcsim.program.structured_text.check.declared import declarations_of
+from plcsim.program.structured_text.check.program import check_program
 from plcsim.program.structured_text.languages.readers import parse_units
+from st_types.resolve.dialect import AUTOMATION_STUDIO
+from st_types.resolve.scope import Scope
+from st_types.syntax.declarations import parse_declarations
 from st_types.syntax.source import Source
 
-from ..running import Running, checked
+from ..running import Running, checked, standard
 
 FLAGS = "VAR a, b, c, d, x, y, z : BOOL; i, j, k : INT; t : TON; END_VAR"
 
@@ -35,8 +42,8 @@ def ladder(*networks, unit="PROGRAM _CYCLIC", end="END_PROGRAM"):
 
 def ton(running, address):
     """Q is what IN is, and ET what PT is."""
-    for given, taken, size in (("IN", "Q", 1), ("PT", "ET", 4)):
-        value = running.memory.read(address + offset(running, given), size)
+    for source, taken, size in (("IN", "Q", 1), ("PT", "ET", 4)):
+        value = running.memory.read(address + offset(running, source), size)
         running.memory.write(address + offset(running, taken), value)
 
 
@@ -187,10 +194,10 @@ def block(kind, rows, name="", of=""):
     """The cells of a block, from its header on: the names of an input and an output each."""
     head = f' name="{name}"' if name else ""
     cells = [f'<{kind} position="header"{head}/>']
-    for number, (given, taken) in enumerate(rows):
+    for number, (source, taken) in enumerate(rows):
         place = "top" if not number else "bottom" if number == len(rows) - 1 else "middle"
         kinds = f' type="{of}"' if not number else ""
-        pins = f'<input name="{given}"/>' * (given is not None)
+        pins = f'<input name="{source}"/>' * (source is not None)
         pins += f'<output name="{taken}"/>' * (taken is not None)
         cells.append(f'<{kind} position="{place}"{kinds}>{pins}</{kind}>')
     return cells
@@ -312,6 +319,85 @@ def test_compare_and_compute_take_their_name_as_expression(run):
     assert cycle(running, "x", "k", a=0, j=3) == (False, 13)
 
 
+def test_a_function_block_with_en_and_eno(run):
+    rows = [("EN", "ENO"), ("IN", "Q"), ("PT", "ET")]
+    header, top, middle, bottom = block("functionblock", rows, "t", "TON")
+    running = run(
+        network(
+            [EMPTY, header, EMPTY],
+            [contact("a"), top, coil("x")],
+            [contact("b"), middle, coil("y")],
+            [analog("T#1s"), bottom, EMPTY],
+        )
+    )
+    assert cycle(running, "x", "y", a=0, b=1) == (False, False)
+    assert cycle(running, "x", "y", a=1, b=1) == (True, True)
+    assert cycle(running, "x", "y", a=0, b=0) == (False, True)
+
+
+def test_blocks_below_each_other_in_one_column(run):
+    one = ['<function position="single" type="NOT"><input name=""/><output name=""/></function>']
+    two = block("functionblock", [("IN", "Q"), ("PT", "ET")], "t", "TON")
+    running = run(
+        network(
+            [EMPTY, two[0], EMPTY],
+            [contact("a"), two[1], coil("x")],
+            [analog("T#1s"), two[2], EMPTY],
+            [contact("b"), *one, coil("y")],
+            [contact("c"), *one, coil("z")],
+        )
+    )
+    assert cycle(running, "x", "y", "z", a=1, b=1, c=0) == (True, False, True)
+
+
+def test_the_name_of_a_function_is_its_type_where_it_has_none(run):
+    running = run(
+        network(
+            [EMPTY, '<function position="header" name="NOT"/>', EMPTY],
+            [contact("a"), block("function", [("", "")])[1], coil("x")],
+        )
+    )
+    assert cycle(running, "x", a=0) is True
+
+
+def test_a_large_network_is_read(run):
+    rows = [[contact("b"), LINE, JOIN, EMPTY]] * 2000
+    running = run(network([contact("a"), LINE, LINE, coil("x")], *rows))
+    assert [cycle(running, "x", b=b) for b in (0, 1)] == [False, True]
+    wide = [contact("a")] * 98
+    assert cycle(run(network([*wide, coil("x")], [*[UP] * 97, LINE, coil("y")])), "x", a=1) is True
+
+
+def test_a_chain_of_blocks_as_long_as_a_row(run):
+    one = '<function position="single" type="NOT"><input name=""/><output name=""/></function>'
+    running = run(network([contact("a"), *[one] * 98, coil("x")]))
+    assert cycle(running, "x", a=1) is True
+    running = run(network([*[EMPTY] * 99, coil("x")], [contact("a"), *[one] * 97, JOIN, LINE]))
+    assert cycle(running, "x", a=1) is False
+
+
+CELLS = st.sampled_from(
+    [
+        *(contact("a"), contact("b", "closed", ' or="true"'), contact("c", "positive transition")),
+        *(coil("x"), coil("y", "set"), coil("n", "jump"), analog("i"), analog("j")),
+        *(LINE, EMPTY, JOIN, UP, LINE, EMPTY),
+        *block("functionblock", [("IN", "Q"), ("EN", "ENO"), ("PT", "ET")], "t", "TON"),
+        *block("function", [("EN", "ENO"), ("", ""), ("", None)], of="ADD"),
+        *block("function", [("", "")], "i &gt; 1", "Compare!"),
+    ]
+)
+
+
+@settings(max_examples=60)
+@given(st.lists(st.lists(CELLS, max_size=8), max_size=6))
+def test_any_grid_is_read_or_told(rows):
+    file = parse_units(Source("Main.ld", ladder(network(*rows, head='label="n"'))))
+    if not file.diagnostics.records:
+        declared = parse_declarations(Source("a.var", FLAGS))
+        scope = Scope("program", [declared, declarations_of(file)], [standard(AUTOMATION_STUDIO)])
+        check_program("program", [file], scope)
+
+
 def test_an_address_of_a_variable(run):
     move = block("function", [("", "")], of="MOVE")
     running = run(
@@ -398,7 +484,7 @@ def test_a_file_without_units(text):
             5,
             "network 1: the function block of type TON has no instance",
         ),
-        (network([LINE] * 201), 5, "network 1: a row has more than 200 cells"),
+        (network([LINE] * 101), 5, "network 1: a row has more than 100 cells"),
         ("<network><row></network>", 4, "it is no XML: mismatched tag"),
         ('<network a="é"/><network><row><what/></row></network>', 4, "element <what> is not"),
     ],
