@@ -36,7 +36,7 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help=text,
         description=f"{text[0].upper()}{text[1:]}.",
         examples=(
-            ("plcsim st check my_plc", "all .st files of a folder"),
+            ("plcsim st check my_plc", "all files of programs in a folder"),
             ("plcsim st check --syntax Main.st", "without the declarations around it"),
             ("plcsim st check --show ST5002 my_plc", "unused variables, too"),
         ),
@@ -65,7 +65,7 @@ def _add_check(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         nargs="+",
         type=Path,
         metavar="PATH",
-        help="file, or folder with all .st files below it",
+        help="file, or folder with all files of programs below it: .st, .ld, .il, .sfc, ...",
     )
     parser.set_defaults(func=_run, act="check")
 
@@ -105,7 +105,7 @@ def _add_run(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     parser.add_argument(
         "--format", choices=("table", "csv", "json"), default="table", help="default: table"
     )
-    parser.add_argument("file", type=Path, metavar="FILE", help="an .st file")
+    parser.add_argument("file", type=Path, metavar="FILE", help="an .st file, or .ld, .il, ...")
     parser.set_defaults(func=_run, act="run")
 
 

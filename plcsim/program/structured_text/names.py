@@ -20,6 +20,11 @@ LANGUAGES: Final = {
 SUFFIXES: Final = frozenset(LANGUAGES)
 """Of files with units, in small letters."""
 
+WITH_ENABLE: Final = frozenset(
+    ["CFC", "Function Block Diagram", "Instruction List", "Ladder Diagram"]
+)
+"""Languages in which each call may have EN and ENO, whatever is declared."""
+
 TWINCAT_MARK: Final = "<TcPlcObject"
 """What stands near the start of a file of TwinCAT."""
 

@@ -22,7 +22,7 @@ from plcsim.program.structured_text.check.kinds import (
 from plcsim.program.structured_text.check.names import NOTHING
 from plcsim.program.structured_text.check.typed import PLACES, Address, Constant, Target
 from plcsim.program.structured_text.codes import FindingCode
-from plcsim.program.structured_text.names import NAME, language_of
+from plcsim.program.structured_text.names import WITH_ENABLE, language_of
 from plcsim.program.structured_text.syntax import tree
 from st_types.resolve.constants import EvaluationError
 from st_types.syntax import expressions as syntax
@@ -67,8 +67,8 @@ class StatementChecker(BlockChecker):
         self._labels: frozenset[str] = frozenset()
         self._placed: set[str] = set()
         self._key = names.scope.dialect.key
-        is_other = language_of(findings.tokens.source.path) != NAME
-        self._may_enable = is_other or not names.scope.dialect.case_sensitive
+        has_enable = language_of(findings.tokens.source.path) in WITH_ENABLE
+        self._may_enable = has_enable or not names.scope.dialect.case_sensitive
 
     def statements(self, nodes: Sequence[tree.Statement]) -> list[Statement]:
         """Return the checked statements."""
@@ -214,7 +214,7 @@ class StatementChecker(BlockChecker):
     def _has_enable(self, node: syntax.Call) -> bool:
         """Return whether a call has an EN or ENO that nothing declares.
 
-        Automation Studio's Structured Text has none; its other languages have.
+        Automation Studio's Structured Text has none; what is drawn there has.
         """
         if not self._may_enable or _enables(node) == (None, None):
             return False

@@ -79,6 +79,50 @@ def test_programs_in_structured_text_call_them(run, value):
     assert figures(controller, value) == [3.0, 3, -197, True, "some", 3]
 
 
+def test_bodies_and_programs_in_other_languages(run, value):
+    """A block in Ladder counts rising edges by a function in Instruction List."""
+    ladder = (
+        "{0} {1}\n<?xml version='1.0'?>\n<networks><network>{2}</network></networks>\nEND_{0}\n"
+    )
+    body = """
+        <row><contact type="positive transition" name="pulse"/>
+          <function position="top" type="Next"><input name="EN"/><output name="ENO"/></function>
+          <coil type="open" name="seen"/></row>
+        <row><analog name="count"/>
+          <function position="bottom"><input name="n"/><output name=""/></function>
+          <analog name="count"/></row>
+    """
+    call = """
+        <row><empty/><functionblock position="header" name="edges"/></row>
+        <row><contact type="open" name="on"/>
+          <functionblock position="top" type="Edges"><input name="pulse"/></functionblock></row>
+    """
+    files = {
+        "util/util.fun": """
+            FUNCTION_BLOCK Edges
+                VAR_INPUT pulse : BOOL; END_VAR
+                VAR_OUTPUT count : DINT; seen : BOOL; END_VAR
+                VAR zzEdge00000 : BOOL; END_VAR
+            END_FUNCTION_BLOCK
+            FUNCTION Next : DINT
+                VAR_INPUT n : DINT; END_VAR
+            END_FUNCTION
+        """,
+        "util/Edges.ld": ladder.format("FUNCTION_BLOCK", "Edges", body),
+        "util/Next.il": "FUNCTION Next\nLD n\nADD 1\nST Next\nEND_FUNCTION\n",
+        "main/Init.st": "PROGRAM _INIT\non := FALSE;\nEND_PROGRAM\n",
+        "main/Cyclic.ld": ladder.format("PROGRAM", "_CYCLIC", call),
+        "main/Blink.il": "ACTION Blink:\nLDN on\nST on\nEND_ACTION\n",
+        "main/Exit.st": "PROGRAM _EXIT\nBlink;\nEND_PROGRAM\n",
+        "main/Main.var": "VAR on : BOOL; edges : Edges; END_VAR\n",
+    }
+    controller = run(files)
+    assert value(controller, "main.edges.count") == 0
+    controller = run(files | {"main/Init.st": "PROGRAM _INIT\non := TRUE;\nEND_PROGRAM\n"})
+    assert value(controller, "main.edges.count") == 1
+    assert value(controller, "main.edges.seen") is False
+
+
 def test_programs_in_python_call_them(run, value):
     files = {"main/main.py": PYTHON, "main/Variables.var": DECLARED}
     controller = run(UTIL | files)
