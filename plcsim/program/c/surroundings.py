@@ -10,7 +10,9 @@ from plcsim.library.executable import CompiledExecutable
 from plcsim.machine.placement import Placement, initial_values
 from plcsim.program.c.files import DeviceFiles
 from plcsim.program.compiled import CompiledPrograms
+from plcsim.program.variables import variables_of
 from st_types.types.derived import StructType
+from st_types.types.values import initial_image
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,7 +62,19 @@ class ProgramSurroundings:
         known, plain = self._variables, name
         while plain not in known and plain.endswith("_"):
             plain = plain[:-1]  # headers write it behind words of C, and behind names of types
-        return known.get(plain) or self._library.variable(name)
+        return known.get(plain) or self._constant(plain) or self._library.variable(name)
+
+    def _constant(self, name: str) -> int | None:
+        """Return the address of a library's constant, None where there is none.
+
+        Their headers give a constant of a number or a text as a macro; one of an ARRAY is a
+        variable, of which each module that uses it has its own.
+        """
+        found = self._scope.find_variable(name)
+        if found is None or found.name != name or not found.is_constant:
+            return None
+        alone = variables_of(self._name, [found]).constants
+        return self._site.memory.keep(initial_image(alone), alone.alignment)
 
     def function(self, name: str, wanted: Type | None = None) -> Extern | None:
         """Return a block, a FUNCTION of a library or a function of C, None where there is none.

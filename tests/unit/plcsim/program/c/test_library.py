@@ -355,3 +355,31 @@ def test_errors_in_a_library_are_told_once_with_their_places(run):
         run(files)
     (finding,) = caught.value.findings
     assert "util/functions.c:1:22: use of undeclared identifier 'x'" in finding
+
+
+def test_c_reads_the_constants_of_libraries_that_are_arrays(run, value):
+    """A library, another one and a program: each by the header of the one that declares them."""
+    files = {
+        "signs/signs.fun": "FUNCTION Own : INT END_FUNCTION",
+        "signs/signs.var": """
+            VAR CONSTANT
+                sQUOTE : ARRAY[0..1] OF USINT := [34, 0];
+                aLEVELS : ARRAY[1..3] OF INT := [-7, 2(500)];
+            END_VAR
+        """,
+        "signs/signs.c": '#include "signs.h"\nshort Own(void) { return sQUOTE[0]; }',
+        "user/ANSIC.lby": '<L><Dependencies><Dependency ObjectName="signs"/></Dependencies></L>',
+        "user/user.fun": "FUNCTION Other : INT END_FUNCTION",
+        "user/user.c": """
+            #include <string.h>
+            #include "user.h"
+            short Other(void) { return strlen((char *)&sQUOTE) + aLEVELS[0]; }
+        """,
+        "main/V.var": "VAR own, other, here : INT; END_VAR",
+        "main/Main.c": """
+            #include <AsDefault.h>
+            void _CYCLIC run(void) { own = Own(); other = Other(); here = aLEVELS[2]; }
+        """,
+    }
+    controller = run(files)
+    assert [value(controller, f"main.{name}") for name in ("own", "other", "here")] == [34, -6, 500]
