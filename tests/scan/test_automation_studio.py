@@ -79,6 +79,61 @@ def test_a_program_in_ladder_beside_structured_text(plc):
     assert (plc["Motor.starts"], plc["Motor.often"], plc["Motor.many"]) == (0, False, False)
 
 
+def test_a_program_in_a_sequential_function_chart(plc):
+    def active():
+        steps = ("Idle", "Fill", "Wash", "Ready", "Watch", "Drain")
+        return " ".join(step for step in steps if plc[f"Washer.{step}.X"])
+
+    plc.run("40ms")
+    assert active() == "Idle"
+    assert plc["Washer.Idle.T"] > 16
+    plc["Washer.start"] = True
+    seen = []
+    for _ in range(90):
+        plc.run("4ms")
+        outputs = [name for name in ("valve", "pump", "lamp") if plc[f"Washer.{name}"]]
+        here = f"{active()}: {' '.join(outputs)}"
+        if here not in seen[-1:]:
+            seen.append(here)
+    assert seen == [
+        "Idle: ",
+        "Fill: valve",
+        "Wash Watch: pump lamp",
+        "Ready Watch: lamp",
+        "Fill: valve",
+        "Wash Watch: pump lamp",
+        "Ready Watch: lamp",
+        "Drain: ",
+    ]
+    assert (plc["Washer.loads"], plc["Washer.drained"]) == (2, True)
+    plc["Washer.start"] = False
+    plc.run("8ms")
+    assert active() == "Idle"
+
+
+def test_a_program_in_automation_basic(plc):
+    def put(kind, time="60ms"):
+        plc["Sorter.kind"] = kind
+        plc["Sorter.part"] = True
+        plc.run(time)
+        plc["Sorter.part"] = False
+        plc.run("8ms")
+
+    assert plc["Sorter.text"] == "no 'part' yet"
+    put(3, "20ms")
+    assert list(plc["Sorter.count"]) == [0, 0, 0, 0]
+    put(3)
+    put(1)
+    assert plc["Sorter.text"] == "sorted"
+    assert plc["Sorter.cleaned"] is False
+    put(2)
+    assert list(plc["Sorter.count"]) == [0, 2, 1, 0]
+    assert list(plc["Sorter.last"]) == [2, 1, 3, -1]
+    assert (plc["Sorter.flags"], plc["Sorter.cleaned"]) == (6, True)
+    put(9, "200ms")
+    assert plc["Sorter.text"] == "unknown"
+
+
 def test_a_program_in_a_function_block_diagram(plc):
     plc.run("400ms")
     assert (plc["Mixer.level"], plc["Mixer.full"], plc["Mixer.mixing"]) == (60, False, False)

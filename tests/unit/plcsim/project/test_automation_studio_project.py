@@ -69,6 +69,8 @@ def test_plc_toml_chooses_skips_adds_and_counts_more(read, tmp_path):
         "Boiler",
         "Motor",
         "Mixer",
+        "Washer",
+        "Sorter",
         "plant",
         "Count",
     ]
@@ -111,6 +113,7 @@ def test_a_project_without_programs_says_what_is_wrong_in_its_files(tmp_path):
 
 
 def test_a_configuration_without_tasks_names_the_others(read):
-    skip = '["Clock", "FillStatio", "ValveA", "ValveB", "Boiler", "Motor", "Mixer", "Count"]'
+    tasks = "Clock FillStatio ValveA ValveB Boiler Motor Mixer Washer Sorter Count"
+    skip = str(tasks.split())
     with pytest.raises(ConfigurationError, match="no task runs in the configuration Machine"):
         read(f"[as]\nskip = {skip}")

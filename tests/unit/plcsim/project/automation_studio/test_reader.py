@@ -16,6 +16,8 @@ def test_everything_that_a_project_says(bottling):
         ("Boiler", 2, "Plant.Boiler"),
         ("Motor", 2, "Plant.Motor"),
         ("Mixer", 2, "Plant.Mixer"),
+        ("Washer", 2, "Plant.Washer"),
+        ("Sorter", 2, "Plant.Sorter"),
         ("Count", 4, "Line.Valves.Count"),
     ]
     assert [(each.name, each.data_type) for each in found.mapp_variables] == [

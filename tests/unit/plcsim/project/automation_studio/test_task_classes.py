@@ -31,4 +31,13 @@ def test_times_come_from_plc_toml_then_from_the_hardware_then_from_a_new_project
 def test_tasks_are_skipped_by_name(bottling):
     found = read_automation_studio(bottling)
     names = [each.name for each in tasks_to_run(found, ["valvea", "CLOCK"])]
-    assert names == ["FillStatio", "ValveB", "Boiler", "Motor", "Mixer", "Count"]
+    assert names == [
+        "FillStatio",
+        "ValveB",
+        "Boiler",
+        "Motor",
+        "Mixer",
+        "Washer",
+        "Sorter",
+        "Count",
+    ]
