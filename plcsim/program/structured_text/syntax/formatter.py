@@ -65,12 +65,15 @@ _NAMED: Final = (
 )
 """What begins with a keyword before its name, where the node is."""
 
+_BEHIND_STEPS: Final = frozenset(["ENTRY_ACTION", "EXIT_ACTION"])
+"""Begins of blocks that no node stands for."""
 
 _STATEMENTS: Final = tuple(
     each for name, each in vars(tree).items() if isinstance(each, type) and "Statement" in name
 )
 _STARTING: Final = (
     *_STATEMENTS,
+    tree.ActionAssociation,
     tree.Assignment,
     tree.CaseElement,
     tree.TaskConfiguration,
@@ -110,6 +113,9 @@ class _Marks:
         self._first: dict[int, int] = {}
         for node in _children_first(file.units):
             self._mark(node)
+        for at, (before, key) in enumerate(zip(self._keys, self._keys[1:], strict=False), 1):
+            if key in _BEHIND_STEPS and before in ("END_STEP", "END_ACTION"):
+                self._open(at)
 
     def _mark(self, node: Node) -> None:
         """Mark a node, those in it being marked already."""

@@ -120,6 +120,31 @@ def test_whole_files_keep_their_content_and_stay_as_they_are_the_second_time(fil
     assert formatted(once) == once
 
 
+def test_steps_and_transitions():
+    text = """INITIAL_STEP A:
+n:=1;
+act( N );
+END_STEP
+ENTRY_ACTION
+n:=2;
+END_ACTION
+TRANSITION FROM A TO (B,C):=n>1;
+END_TRANSITION
+STEP B: END_STEP"""
+    assert body(text) == [
+        "INITIAL_STEP A:",
+        "\tn := 1;",
+        "\tact(N);",
+        "END_STEP",
+        "ENTRY_ACTION",
+        "\tn := 2;",
+        "END_ACTION",
+        "TRANSITION FROM A TO (B, C) := n > 1;",
+        "END_TRANSITION",
+        "STEP B: END_STEP",
+    ]
+
+
 BLANKS = st.sampled_from(["", " ", "\n", "\n\n\n\n", "\t", " (* c *) ", " // d\n", "\r\n"])
 TOKENS = re.split(
     " ",
