@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.program.structured_text.languages.nodes import NodeMaker
 from plcsim.program.structured_text.syntax.tree import (
     Arm,
     Assignment,
@@ -28,9 +29,7 @@ from st_types.syntax.expressions import (
     Literal,
     MemberAccess,
     Name,
-    Unary,
 )
-from st_types.syntax.literals import parse_literal
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -66,7 +65,7 @@ class NetworkStatements:
         self._network = network
         self._rows = network.rows
         self._parser = parser
-        self._rail: Expression = _literal(network.at, "TRUE")
+        self._rail: Expression = NodeMaker(network.at).literal("TRUE")
         self._edges: dict[int, list[range]] = {}
         self._known: dict[tuple[int, int], Expression | None] = {}
         self._results: dict[int, Expression] = {}
@@ -124,7 +123,7 @@ class NetworkStatements:
         key = rows.start, edge
         if key not in self._known:
             values = [value for each in rows if (value := self._leaving(each, edge - 1))]
-            found = _combined("OR", values) if values else None
+            found = NodeMaker(values[0].at).joined("OR", values) if values else None
             if any(value is self._rail for value in values):
                 found = self._rail
             if found is not None and sum(self._takers(each, edge) for each in rows) > 1:
@@ -158,15 +157,15 @@ class NetworkStatements:
     def _contact(self, cell: Cell, power: Expression | None) -> Expression | None:
         operand = self._operand(cell)
         if cell.type == "address":
-            return _call(cell.at, "ADR", operand)
+            return NodeMaker(cell.at).call("ADR", operand)
         if power is None:
             self._fail(cell.at, f"nothing leads to the contact {cell.name}")
             return operand
         if cell.type == "closed":
-            operand = Unary(cell.at, "NOT", operand)
+            operand = NodeMaker(cell.at).negated(operand)
         elif cell.type in _EDGES:
-            operand = _call(cell.at, _EDGES[cell.type], operand)
-        return operand if power is self._rail else Binary(cell.at, "AND", power, operand)
+            operand = NodeMaker(cell.at).call(_EDGES[cell.type], operand)
+        return operand if power is self._rail else NodeMaker(cell.at).binary("AND", power, operand)
 
     def _kept(self, value: Expression) -> Expression:
         """Return a value that is worked out here and now, once."""
@@ -193,9 +192,9 @@ class NetworkStatements:
         else:
             operator = _SETS.get(cell.type, ":=")
             if cell.type == "closed":
-                power = Unary(cell.at, "NOT", power)
+                power = NodeMaker(cell.at).negated(power)
             elif cell.type in _EDGES:
-                power = _call(cell.at, _EDGES[cell.type], power)
+                power = NodeMaker(cell.at).call(_EDGES[cell.type], power)
             target = self._operand(cell)
             self._found.append(Assignment(cell.at, target, power, operator))
 
@@ -260,7 +259,7 @@ class NetworkStatements:
                 given.append(Argument(pin.at, self._named(block, pin), value))
         for pin in block.outputs:
             if pin.name.upper() == _ENABLED:
-                enabled = self._temporary(pin.at, _literal(pin.at, "FALSE"), self._found)
+                enabled = self._temporary(pin.at, NodeMaker(pin.at).literal("FALSE"), self._found)
                 given.append(Argument(pin.at, pin.name, enabled, is_output=True))
                 self._results[pin.at] = enabled
             else:
@@ -295,7 +294,8 @@ class NetworkStatements:
             return
         power = self._given(block, block.inputs[0]) if block.inputs else self._rail
         if block.type == COMPARE and power is not None:
-            value = value if power is self._rail else Binary(block.at, "AND", power, value)
+            both = NodeMaker(block.at).binary("AND", power, value)
+            value = value if power is self._rail else both
             power = self._rail
         self._evaluate(block, power, value)
 
@@ -357,20 +357,3 @@ class NetworkStatements:
     def _fail(self, at: int, message: str) -> None:
         offset = self._parser.tokens.offset(at)
         self._parser.diagnostics.error(offset, f"network {self._network.number}: {message}")
-
-
-def _combined(operator: str, values: Sequence[Expression]) -> Expression:
-    """Return what an operator makes of values, in a tree that is as flat as can be."""
-    if len(values) == 1:
-        return values[0]
-    half = len(values) // 2
-    left, right = _combined(operator, values[:half]), _combined(operator, values[half:])
-    return Binary(right.at, operator, left, right)
-
-
-def _call(at: int, name: str, argument: Expression) -> Call:
-    return Call(at, Name(at, name), [Argument(at, "", argument)])
-
-
-def _literal(at: int, text: str) -> Literal:
-    return Literal(at, text, parse_literal(text))
