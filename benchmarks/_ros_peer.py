@@ -2,14 +2,15 @@
 
     python _ros_peer.py PORT talk TOPIC TYPE RATE SIZE | idle COUNT | echo TOPIC | call COUNT
 
-It runs unpaced, so that the measured side is the one that limits.
+It runs unpaced, so that the measured side is the one that limits. Behind `in-step PORT` it does what
+is due whenever a time comes on its standard input, 8 bytes of nanoseconds, and answers a byte.
 """
 
 from __future__ import annotations
 
 import sys
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ros_processes import answers
 
@@ -23,6 +24,9 @@ from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import OsNetwork
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 HOST = "127.0.0.1"
 STRING = "std_msgs/String"
 BYTES = "std_msgs/UInt8MultiArray"
@@ -30,14 +34,19 @@ IMAGE = "sensor_msgs/Image"
 DIGITS = 8
 """Of the number that a message with a rate begins with."""
 
+TIME_BYTES = 8
+"""Of a time that a peer is told."""
+
 
 def environment(port: int) -> dict[str, str]:
     return {"ROS_MASTER_URI": f"http://{HOST}:{port}/"}
 
 
-def make_node(name: str, port: int, **options: Any) -> tuple[Context, CrosNode]:
+def make_node(
+    name: str, port: int, now_ns: int | None = None, **options: Any
+) -> tuple[Context, CrosNode]:
     context = Context(Memory(), OsNetwork())
-    context.release_ns = time.monotonic_ns()
+    context.release_ns = time.monotonic_ns() if now_ns is None else now_ns
     settings = node_settings(name, (), environment(port), host=HOST)
     return context, CrosNode(context, settings, options=NodeOptions(bind_ip=HOST, **options))
 
@@ -139,23 +148,38 @@ class MethodCall:
 ACTS: dict[str, Any] = {"talk": Talk, "echo": Echo, "idle": Idle, "call": MethodCall}
 
 
+def told_times() -> Iterator[int]:
+    """Give each time that comes on standard input, and answer when what was due then is done."""
+    while told := sys.stdin.buffer.read(TIME_BYTES):
+        yield int.from_bytes(told, "little")
+        sys.stdout.buffer.write(b".")
+        sys.stdout.buffer.flush()
+
+
+def own_times(pause_s: float) -> Iterator[int]:
+    """Give the time, again and again."""
+    while True:
+        yield time.monotonic_ns()
+        if pause_s:
+            time.sleep(pause_s)
+
+
 def main() -> None:
-    port = int(sys.argv[1])
-    context, node = make_node("peer", port, step=UNPACED)
-    master = MasterServer(context, MasterOptions(host=HOST, port=port, bind_ip=HOST))
+    is_told = sys.argv[1] == "in-step"
+    port, *orders = sys.argv[1 + is_told :]
+    context, node = make_node("peer", int(port), step=UNPACED)
+    master = MasterServer(context, MasterOptions(host=HOST, port=int(port), bind_ip=HOST))
     acts = []
-    for order in " ".join(sys.argv[2:]).split(","):
+    for order in " ".join(orders).split(","):
         name, *arguments = order.split()
         acts.append(ACTS[name](node, *arguments))
-    unpaced = any(isinstance(act, Talk) and not act.period_ns for act in acts)
-    while True:
-        now_ns = context.release_ns = time.monotonic_ns()
+    is_flat_out = any(isinstance(act, Talk) and not act.period_ns for act in acts)
+    for now_ns in told_times() if is_told else own_times(0 if is_flat_out else 0.0005):
+        context.release_ns = now_ns
         master.step()
         for act in acts:
             act.step(now_ns)
         node.do_events_loop()
-        if not unpaced:
-            time.sleep(0.0005)
 
 
 if __name__ == "__main__":

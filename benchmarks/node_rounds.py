@@ -1,0 +1,212 @@
+"""The longest steps of a node that are its own: the same steps again and again, least of all rounds.
+
+    python benchmarks/node_rounds.py [--rounds 7] [--ticks 2200] [--only TEXT ...] [--json FILE]
+
+A host of virtual machines takes time from a step without a word, and the thread's CPU clock runs on
+meanwhile: an empty step of 900 us is not the node's. A host can only add. So the same steps are done
+in several rounds, and what a step takes in the round in which it takes least is the most that can
+be the node's own.
+
+Each round is a process of its own, from the first step of a node on: master and peers are another
+process, which does what is due before a step and says so; then the step is done, with a time that
+is counted, not read. So a step finds in its sockets what it found in the other rounds, byte by byte.
+All else is as in a scan: rights, memory, and Python's collector, which runs between the steps. A step
+of one round is compared with those alone that had as much to do: that left as much of each part of
+their budget, and for which about as many pages were laid out. One that has no like counts as it is.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import resource
+import subprocess
+import sys
+import time
+from collections import defaultdict
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from _outcome import (
+    Target,
+    console,
+    figures_table,
+    number_above_0,
+    print_machine,
+    print_targets,
+    write_json,
+)
+from _ports import free_port
+from _ros_peer import TIME_BYTES, make_node
+from node_step import CASES, NS_PER_MS, Case, Program, ordinary
+
+from plcsim.host import garbage, realtime
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from crosnode.transport.budget import StepBudget
+
+HERE = Path(__file__).parent
+BEFORE = 100
+"""Cycles in which the peer is there before the node."""
+
+FAULTS = 16
+"""Pages laid out within a step that may differ where steps are the same."""
+
+LATER_NS = 3_600_000_000_000
+
+IDLE_NS = 700_000
+"""Of a millisecond of cycle, in which Python's garbage may be collected."""
+
+
+class Step(NamedTuple):
+    """A step of one round.
+
+    Attributes:
+        ns: own CPU time.
+        left: of each part of its budget.
+        faults: pages laid out.
+    """
+
+    ns: int
+    left: tuple[int, ...]
+    faults: int
+
+    @property
+    def like(self) -> tuple[object, ...]:
+        """What steps of different rounds have in common where they are the same."""
+        return (*self.left, self.faults // FAULTS)
+
+
+class Place(NamedTuple):
+    """A step of all rounds.
+
+    Attributes:
+        number: of the step, 0 is the node's first.
+        least_ns: of the rounds that were the same; of several such, the one that takes longest.
+        most_ns: of all rounds.
+        likes: kinds of rounds.
+    """
+
+    number: int
+    least_ns: int
+    most_ns: int
+    likes: int
+
+
+def do_round(case: Case, ticks: int) -> Iterator[Step]:
+    """Do the steps of a round in this process, with a peer beside it."""
+    port = free_port()
+    command = [sys.executable, str(HERE / "_ros_peer.py"), "in-step", str(port), *case.peer.split()]
+    peer = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                            preexec_fn=ordinary)  # noqa: PLW1509  # no threads here  # fmt: skip
+    assert peer.stdin
+    assert peer.stdout
+    try:
+        rights = realtime.acquire(50, None)
+        tick_ns = case.tick_ms * NS_PER_MS
+        now_ns = time.monotonic_ns() + LATER_NS  # behind all that the peer has read itself
+        for cycle in range(-BEFORE, ticks):
+            now_ns += tick_ns
+            for part in range(case.tick_ms):  # a peer has steps of a millisecond
+                peer.stdin.write((now_ns - tick_ns + part * NS_PER_MS).to_bytes(TIME_BYTES, "little"))
+                peer.stdin.flush()
+                assert peer.stdout.read(1)
+            if cycle < 0:
+                continue
+            if cycle == 0:
+                context, node = make_node("plc", port, now_ns)
+                program = Program(case, node)
+                realtime.settle(rights)  # as the scan does
+            context.release_ns = now_ns
+            faults = page_faults()
+            begin_ns = time.thread_time_ns()
+            node.do_events_loop()
+            ns = time.thread_time_ns() - begin_ns
+            yield Step(ns, left_of(node.core.budget), page_faults() - faults)
+            program.cycle(cycle)
+            garbage.collect_while_idle(case.tick_ms * IDLE_NS)  # as the scan does
+    finally:
+        peer.kill()
+        peer.wait()
+    if program.lost:
+        raise SystemExit(f"{case.name}: {program.lost} messages lost")
+
+
+def left_of(budget: StepBudget) -> tuple[int, ...]:
+    """Return what a step has left of what it may do."""
+    return (budget.work, budget.bytes_in, budget.bytes_out, budget.bytes_parsed, budget.messages,
+            budget.polls)  # fmt: skip
+
+
+def page_faults() -> int:
+    """Return the pages laid out for this thread so far."""
+    return resource.getrusage(resource.RUSAGE_THREAD).ru_minflt
+
+
+def places_of(rounds: list[list[Step]]) -> list[Place]:
+    """Return what each step came to in all rounds."""
+    return [place_of(number, steps) for number, steps in enumerate(zip(*rounds, strict=True))]
+
+
+def place_of(number: int, steps: tuple[Step, ...]) -> Place:
+    """Return what a step came to."""
+    likes = defaultdict(list)
+    for step in steps:
+        likes[step.like].append(step.ns)
+    least_ns = max(min(times) for times in likes.values())
+    return Place(number, least_ns, max(step.ns for step in steps), len(likes))
+
+
+def run_rounds(case: Case, rounds: int, ticks: int) -> list[list[Step]]:
+    """Run the rounds of a case, each in a process."""
+    found = []
+    for _ in range(rounds):
+        command = [sys.executable, __file__, "--round", case.name, "--ticks", str(ticks)]
+        told = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout
+        found.append([Step(ns, tuple(left), faults) for ns, left, faults in json.loads(told)])
+    return found
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=number_above_0, default=7)
+    parser.add_argument("--ticks", type=number_above_0, default=2200)
+    parser.add_argument(
+        "--only", nargs="+", default=[""], help="cases with one of these in their name"
+    )
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--round", metavar="CASE", help="do one round here, and print its steps")
+    options = parser.parse_args()
+    if options.round:
+        (case,) = [case for case in CASES if case.name == options.round]
+        print(json.dumps(list(do_round(case, options.ticks))))
+        return 0
+    hosts = [print_machine("before")]
+    cases = [case for case in CASES if any(text in case.name for text in options.only)]
+    found = {}
+    for case in cases:
+        found[case.name] = run_rounds(case, options.rounds, options.ticks)
+    hosts.append(print_machine("after"))
+    table = figures_table("load", "steps", "unlike", "p50 us", "p99", "longest", "its number", "most of it",
+                          "over", "over in a round")
+    made = []
+    for case in cases:
+        places = places_of(found[case.name])
+        ordered = sorted(places, key=lambda each: each.least_ns)
+        longest = ordered[-1]
+        over = [each for each in places if each.least_ns > case.limit_ns]
+        by_host = sum(step.ns > case.limit_ns for steps in found[case.name] for step in steps)
+        at = lambda share: f"{ordered[int(share*len(ordered))].least_ns/1e3:.0f}"
+        table.add_row(case.name, str(len(places)), str(sum(p.likes > 1 for p in places)), at(.5), at(.99),
+          f"{longest.least_ns/1e3:.0f}", str(longest.number), f"{longest.most_ns/1e3:.0f}", str(len(over)), str(by_host))
+        for each in places:
+            if each.least_ns > case.limit_ns or each.number < 3:
+                print(case.name, each.number, each.least_ns//1000, each.most_ns//1000, each.likes, [(s[each.number].left,s[each.number].faults) for s in found[case.name]][0])
+    console.print(table)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
