@@ -103,6 +103,7 @@ def do_round(case: Case, ticks: int) -> Iterator[Step]:
                             preexec_fn=ordinary)  # noqa: PLW1509  # no threads here  # fmt: skip
     assert peer.stdin
     assert peer.stdout
+    told=0
     try:
         rights = realtime.acquire(50, None)
         tick_ns = case.tick_ms * NS_PER_MS
@@ -126,6 +127,7 @@ def do_round(case: Case, ticks: int) -> Iterator[Step]:
             ns = time.thread_time_ns() - begin_ns
             yield Step(ns, left_of(node.core.budget), page_faults() - faults)
             program.cycle(cycle)
+            if program.received and not told: told=1; print("first", cycle, file=sys.stderr)
             garbage.collect_while_idle(case.tick_ms * IDLE_NS)  # as the scan does
     finally:
         peer.kill()

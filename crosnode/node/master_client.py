@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 PING_NS: Final = 1_000_000_000
 FIRST_RETRY_NS: Final = 20_000_000
 LONGEST_RETRY_NS: Final = 1_000_000_000
+LATE_NS: Final = 20_000_000
+"""Nanoseconds that what is late waits behind the other registrations, for the connections that come
+of them need the steps."""
 
 
 class MasterState(Enum):
@@ -57,6 +60,8 @@ MASTER: Final[Transitions[MasterState, MasterTrigger]] = {
         MasterTrigger.UNREACHABLE: MasterState.MISSED,
     },
 }
+
+_WAITING: Final = (RegistrationState.NEW, RegistrationState.AGAIN, RegistrationState.STALE)
 
 _NEWS: Final = {
     MasterState.FOUND: StatusKind.MASTER_FOUND,
@@ -102,6 +107,7 @@ class MasterClient:
         self._ping: ApiCall | None = None
         self._ping_ns = 0
         self._is_dirty = False
+        self._late_ns = 0
         self._is_closing = False
         self._resting: list[Registration] = []
 
@@ -109,6 +115,11 @@ class MasterClient:
     def is_found(self) -> bool:
         """Whether the master answered, and the connection to it is there."""
         return self.state is MasterState.FOUND
+
+    @property
+    def is_calm(self) -> bool:
+        """Whether the master was found, and what is late need not wait."""
+        return self.is_found and self._now_ns >= self._late_ns
 
     @property
     def is_clean(self) -> bool:
@@ -180,17 +191,26 @@ class MasterClient:
         if not self._backoff.is_due(now_ns):
             return
         if self._is_dirty:
-            self._is_dirty = False
             self._tell_master()
         elif now_ns >= self._ping_ns and self._ping is None and self._registrations:
             self._ping = self.call("lookupNode", [self._name], self._pinged)
 
     def _tell_master(self) -> None:
-        """Make the calls of all registrations that wait for theirs."""
-        waiting = (RegistrationState.NEW, RegistrationState.AGAIN, RegistrationState.STALE)
-        for registration in sorted(self._registrations, key=lambda each: each.is_late):
-            if registration.state in waiting:
-                self._move(registration, RegistrationTrigger.CALLED)
+        """Make the calls of the registrations that wait for theirs, first those that are not late."""
+        waiting = [each for each in self._registrations if each.state in _WAITING]
+        early = [each for each in waiting if not each.is_late]
+        is_early_under_way = any(
+            not each.is_late and each.state is RegistrationState.CALLING
+            for each in self._registrations
+        )
+        if early or is_early_under_way:
+            self._late_ns = self._now_ns + LATE_NS
+        self._is_dirty = False
+        if self._now_ns < self._late_ns:
+            self._is_dirty = len(early) < len(waiting)
+            waiting = early
+        for registration in waiting:
+            self._move(registration, RegistrationTrigger.CALLED)
 
     def _move(self, registration: Registration, trigger: RegistrationTrigger) -> None:
         """Let something happen to a registration, and do what the state that follows asks for."""

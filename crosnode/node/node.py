@@ -31,10 +31,11 @@ from crosnode.node.service_provider import ServiceAcceptor, ServiceProvider
 from crosnode.node.slave_api import SlaveApi
 from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
-from crosnode.transport.budget import StepLimits
+from crosnode.transport.budget import UNPACED, StepBudget, StepLimits
 from crosnode.transport.event_loop import EventLoop
 from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
+from crosnode.xmlrpc.warming import warm_api
 from plcsim.core.statistics import Histogram
 from plcsim.core.traffic import Topic
 from plcsim.library.astcp import tcpERR_INTERFACE
@@ -44,7 +45,6 @@ if TYPE_CHECKING:
 
     from crosnode.graph.arguments import NodeSettings
     from crosnode.messages import MessageType
-    from crosnode.transport.budget import StepBudget
     from crosnode.xmlrpc import Value
     from plcsim.core.context import Context
 
@@ -111,6 +111,7 @@ class CrosNode:
         self._rosout = Rosout(self)
         for key, value in settings.parameters.items():
             self.set_param(key, value)
+        self._connect_master()
 
     def _open(self, master_uri: str) -> None:
         """Open the three ports and make what needs their numbers."""
@@ -134,6 +135,13 @@ class CrosNode:
         master = MasterClient(api, master_uri, self.name, self.uri, self.statuses)
         self.core = NodeCore(self.name, loop, api, master, hosts, options.tcpros, self.statuses)
         self.life = Life(self.core, respawns=options.respawns)
+
+    def _connect_master(self) -> None:
+        """Begin to connect to the master now, in INIT, which has more time than a cycle."""
+        now_ns, core = self._context.release_ns, self.core
+        warm_api(now_ns)
+        core.api.open(core.master.uri, now_ns, StepBudget(UNPACED))
+        core.loop.step(now_ns, StepBudget(UNPACED))
 
     @property
     def now_ns(self) -> int:
@@ -417,8 +425,8 @@ class CrosNode:
             caller.step(now_ns, budget)
         self._rosout.step()
         self._time.step()
-        core.master.step(now_ns)
         core.api.step(now_ns, budget)
+        core.master.step(now_ns)
         core.loop.step_new(now_ns, budget)
         if core.loop.pool.shortages != self._shortages:
             self._tell_shortage(now_ns)

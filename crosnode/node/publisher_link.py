@@ -133,7 +133,7 @@ class PublisherLink:
                 self._ask()
         elif self.state is PublisherState.ASKING and self._call:
             self._take_answer(self._call, now_ns)
-        elif self.state is PublisherState.LOCATED and self._address and budget.start_call():
+        if self.state is PublisherState.LOCATED and self._address and budget.start_call():
             self._connect(self._address, now_ns)
 
     def _ask(self) -> None:

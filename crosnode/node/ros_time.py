@@ -92,7 +92,7 @@ class RosTime:
     def _ask(self) -> None:
         question = self._question
         if question is None:
-            if self._node.core.master.is_found:
+            if self._node.core.master.is_calm:
                 self._question = self._node.get_param("/use_sim_time")
         elif question.state is not CallState.WAITING:
             self._question = None

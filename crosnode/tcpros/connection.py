@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 from crosnode.errors import TcprosError
 from crosnode.tcpros.header import decode_header, encode_header, missing_field, sums_agree
 from crosnode.tcpros.reader import ByteReader
-from crosnode.transport.budget import CONNECTION_WORK, REQUEST_WORK
+from crosnode.transport.budget import HEADER_WORK, REQUEST_WORK
 from crosnode.transport.connection import (
     ConnectionEvent,
     ConnectionState,
@@ -115,7 +115,7 @@ class TcprosConnection(ProtocolConnection):
     def event_price(self) -> int:
         """A header is the price of a new connection."""
         is_new = self.state is ConnectionState.HANDSHAKE
-        return CONNECTION_WORK if is_new else self.MESSAGE_PRICE
+        return HEADER_WORK if is_new else self.MESSAGE_PRICE
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""

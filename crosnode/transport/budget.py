@@ -33,14 +33,38 @@ MESSAGE_WORK: Final = 608
 REQUEST_WORK: Final = 4_096
 """Price of a request or a reply of a service, beside its bytes."""
 
-CONNECTION_WORK: Final = 49_152
-"""Price of a connection that is made, taken, or ended, and of its header."""
+START_WORK: Final = 49_152
+"""Price of a connection that is begun: what it is in this program."""
 
-CALL_WORK: Final = 32_768
-"""Price of an XML-RPC call that is sent."""
+CONNECT_WORK: Final = 98_304
+"""Price of a socket that is opened and begins to connect."""
 
-XMLRPC_WORK: Final = 98_304
-"""Price of an XML-RPC call that is taken and answered, or of an answer."""
+CONNECTED_WORK: Final = 65_536
+"""Price of a connection that is there: it is seen, and the first is said."""
+
+ACCEPT_WORK: Final = 98_304
+"""Price of a connection that is taken."""
+
+OPTION_WORK: Final = 12_288
+"""Price of an option that is set on a socket."""
+
+HEADER_WORK: Final = 65_536
+"""Price of the header of a connection that is read, and answered."""
+
+END_WORK: Final = 65_536
+"""Price of a connection that is ended."""
+
+CALL_WORK: Final = 98_304
+"""Price of an XML-RPC call that is made and written."""
+
+PART_WORK: Final = 57_344
+"""Price of the HTTP head of an XML-RPC call or answer, or of some of its XML."""
+
+ANSWER_WORK: Final = 114_688
+"""Price of an XML-RPC call that is answered, behind what is read of it."""
+
+ANSWERED_WORK: Final = 65_536
+"""Price of an answer that is taken, behind what is read of it."""
 
 ALONE_WORK: Final = 131_072
 """Price of work that has a millisecond of cycle to itself: part of an XML-RPC call whose like was
@@ -90,7 +114,7 @@ class StepBudget:
         large: bytes of large messages that were moved.
     """
 
-    __slots__ = (*StepLimits._fields, "_half", "_untouched", "is_short", "large", "large_share")
+    __slots__ = (*StepLimits._fields, "_untouched", "is_short", "large", "large_share")
 
     bytes_in: int
     bytes_out: int
@@ -104,23 +128,17 @@ class StepBudget:
     def __init__(self, limits: StepLimits, large_share: int = LARGE_SHARE) -> None:
         (self.bytes_in, self.bytes_out, self.bytes_parsed, self.messages, self.accepts,
          self.calls, self.polls, self.work) = limits  # fmt: skip
-        self._half = limits.work // 2
         self._untouched = limits.work - POLL_WORK * limits.polls
         self.is_short = False
         self.large = 0
         self.large_share = large_share
 
     def affords(self, price: int) -> bool:
-        """Whether work of a price may begin: it fits, or half of all work is left.
+        """Whether work of a price may begin: it fits, or nothing but looks was done before.
 
-        So even the dearest work has its turn in a step that begins with it. What is to be alone
-        begins where nothing but looks was done before.
+        So even the dearest work has its turn, in a step that begins with it.
         """
-        if price >= ALONE_WORK:
-            may_begin = self.work - POLL_WORK * self.polls >= self._untouched
-        else:
-            may_begin = self.work > self._half
-        if may_begin or self.work >= price:
+        if self.work >= price or self.work - POLL_WORK * self.polls >= self._untouched:
             return True
         self.is_short = True
         return False
@@ -145,8 +163,8 @@ class StepBudget:
 
     def start_call(self) -> bool:
         """Take the price of starting a connection; False where it must wait."""
-        if self.calls <= 0 or not self.affords(CONNECTION_WORK):
+        if self.calls <= 0 or not self.affords(START_WORK):
             return False
         self.calls -= 1
-        self.work -= CONNECTION_WORK
+        self.work -= START_WORK
         return True

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol, TypeAlias
 
-from crosnode.transport.budget import CONNECTION_WORK, POLL_WORK
+from crosnode.transport.budget import ACCEPT_WORK, POLL_WORK
 from crosnode.transport.caller_share import CallerShare, NodeCallers
 from crosnode.transport.link import LinkState, PeerLink
 from crosnode.transport.tcpip_socket import SocketPool, TcpipSocketState
@@ -94,7 +94,7 @@ class PortListener:
         """Take waiting connections within the budget, where ``news`` has the port's ident."""
         if not self.open(now_ns) or self._socket.ident not in news:
             return
-        while budget.accepts > 0 and budget.affords(CONNECTION_WORK):
+        while budget.accepts > 0 and budget.affords(ACCEPT_WORK):
             client = self._next
             state = self._socket.accept(client, BACKLOG)
             if state is not TcpipSocketState.DONE:
@@ -103,8 +103,7 @@ class PortListener:
                 return
             self._next = self._loop.pool.get()
             budget.accepts -= 1
-            budget.work -= CONNECTION_WORK
-            client.set_options()
+            budget.work -= ACCEPT_WORK
             connection, owner = self._acceptor.accepted(now_ns)
             link = PeerLink(client, connection, owner, now_ns)
             if not connection.IS_PARSED or self._loop.callers.admit(link, now_ns):

@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 from crosnode.graph.uri import make_authority
 from crosnode.transport.budget import (
-    CONNECTION_WORK,
+    CONNECT_WORK,
+    CONNECTED_WORK,
+    END_WORK,
     LARGE_WORK,
+    OPTION_WORK,
     POLL_WORK,
     TRANSFER_WORK,
 )
 from crosnode.transport.connection import ConnectionState, Failed, Progress
 from crosnode.transport.dyn_buffer import DynBuffer
-from crosnode.transport.tcpip_socket import AREA_SIZE, LARGE_PIECE, TcpipSocketState
+from crosnode.transport.tcpip_socket import AREA_SIZE, LARGE_PIECE, OPTIONS, TcpipSocketState
 from crosnode.transport.transitions import Transitions, next_state
 
 if TYPE_CHECKING:
@@ -109,9 +112,9 @@ class PeerLink:
         state: how far it is.
     """
 
-    __slots__ = ("_is_parsed", "_outbox", "_reason", "_resting", "_since_ns", "bytes_in",
-                 "bytes_out", "connection", "has_more", "is_readable", "owner", "peer", "socket",
-                 "state")  # fmt: skip
+    __slots__ = ("_is_parsed", "_options", "_outbox", "_reason", "_resting", "_since_ns",
+                 "bytes_in", "bytes_out", "connection", "has_more", "is_readable", "owner", "peer",
+                 "socket", "state")  # fmt: skip
 
     def __init__(
         self,
@@ -132,6 +135,7 @@ class PeerLink:
         self.has_more = False
         self._is_parsed = connection.IS_PARSED
         self._resting: ConnectionState | None = None
+        self._options = 0  # so many are set
         self.is_readable = True
 
     @property
@@ -170,11 +174,19 @@ class PeerLink:
         """Do what can be done now within the budget."""
         budget.polls -= 1
         budget.work -= POLL_WORK
-        if self.state is LinkState.CONNECTING and not self._connect(now_ns):
+        if self.state is LinkState.CONNECTING and not self._connect(now_ns, budget):
             return
+        if self._options < len(OPTIONS):
+            self._set_options(budget)
         self._exchange(now_ns, budget)
         if self.state is LinkState.OVER:
-            budget.work -= CONNECTION_WORK
+            budget.work -= END_WORK
+
+    def _set_options(self, budget: StepBudget) -> None:
+        """Set options, the first before anything is said, and so many more as are afforded."""
+        self.socket.set_option(self._options)
+        self._options += 1
+        budget.work -= OPTION_WORK
 
     def _exchange(self, now_ns: int, budget: StepBudget) -> None:
         # Who does not read is not heard, unless it has no more to say than that it leaves.
@@ -182,7 +194,7 @@ class PeerLink:
             self._read(now_ns, budget)
         self._send(now_ns, budget)
         if self.connection.state is ConnectionState.CLOSED:
-            self._finish(now_ns)
+            self._finish(now_ns, budget)
 
     def _read(self, now_ns: int, budget: StepBudget) -> None:
         """Take the events that are there, then what the socket has."""
@@ -220,13 +232,20 @@ class PeerLink:
     def _move(self, trigger: LinkTrigger) -> None:
         self.state = next_state(LINK, self.state, trigger, "link")
 
-    def _connect(self, now_ns: int) -> bool:
-        state = self.socket.connect()
-        if state is _IN_PROGRESS:
-            state = self.socket.connect()  # on the own host the connection is there at once
+    def _connect(self, now_ns: int, budget: StepBudget) -> bool:
+        """Begin to connect, and see whether the peer is there; return whether it is."""
+        state = _IN_PROGRESS
+        if not self.socket.is_open:
+            if not budget.affords(CONNECT_WORK):
+                return False
+            budget.work -= CONNECT_WORK
+            self._since_ns = now_ns
+            state = self.socket.connect()
+        if state is _IN_PROGRESS and self.socket.is_open and budget.affords(CONNECTED_WORK):
+            state = self.socket.connect()
+            budget.work -= CONNECTED_WORK if state is _DONE else TRANSFER_WORK
         if state is _DONE:
             self._move(LinkTrigger.CONNECTED)
-            self.socket.set_options()
             return True
         if state is not _IN_PROGRESS:
             self.abort(f"no connection to {self.peer}: AsTCP status {self.socket.status}", now_ns)
@@ -320,8 +339,8 @@ class PeerLink:
             self._fill_outbox()  # what follows is written in the next step; else it can rest now
         if not self._outbox.size:
             connection = self.connection
-            rests = self.state is LinkState.OPEN and connection.wants_data
-            self._resting = connection.state if rests else None
+            is_ready = self.state is LinkState.OPEN and self._options == len(OPTIONS)
+            self._resting = connection.state if is_ready and connection.wants_data else None
 
     def _fill_outbox(self) -> None:
         """Take what the owner and the connection have to say, while little waits."""
@@ -350,11 +369,12 @@ class PeerLink:
         if state not in (_DONE, _IN_PROGRESS):
             self.abort(f"{self.peer} is gone", now_ns)
 
-    def _finish(self, now_ns: int) -> None:
+    def _finish(self, now_ns: int, budget: StepBudget) -> None:
         """End the link when the last bytes are written, or the peer does not take them."""
         if self.state is LinkState.OPEN:
             self._move(LinkTrigger.ENDED)
             self._since_ns = now_ns
         is_late = now_ns - self._since_ns >= CLOSING_NS
-        if self.state is LinkState.CLOSING and (is_late or not self._outbox.size):
+        is_due = self.state is LinkState.CLOSING and (is_late or not self._outbox.size)
+        if is_due and budget.affords(END_WORK):
             self._end(LinkTrigger.WRITTEN, "", now_ns)

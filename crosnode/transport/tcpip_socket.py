@@ -383,12 +383,10 @@ class TcpipSocket:
     write_string = write_buffer
     """Write a DynString from its front."""
 
-    def set_options(self) -> None:
-        """Send small data at once, and probe a silent peer (``OPTIONS``)."""
-        value = adr(self._blocks, "value")
-        for option, number in OPTIONS:
-            self._blocks.value = number
-            self._ioctl(option, value, 4)
+    def set_option(self, place: int) -> None:
+        """Set one of ``OPTIONS``."""
+        option, self._blocks.value = OPTIONS[place]
+        self._ioctl(option, adr(self._blocks, "value"), 4)
 
     @property
     def own_port(self) -> int:

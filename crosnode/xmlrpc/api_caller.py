@@ -147,6 +147,12 @@ class ApiCaller:
             oldest.fail("too many calls wait for this node")
         return call
 
+    def open(self, uri: str, now_ns: int, budget: StepBudget) -> None:
+        """Lay out the connection for calls to a node, which is made when the first one is there."""
+        channel = self._channels.setdefault(uri, _Channel(self._last_call))
+        channel.keep = True
+        self._connect(uri, channel, now_ns, budget)
+
     def step_first(self, now_ns: int, budget: StepBudget) -> None:
         """Go before the connections in every other step, so that these cannot use up all of it."""
         self._is_first = not self._is_first
@@ -215,6 +221,10 @@ class _Channel:
             connection.call(self.calls[0].method, self.calls[0].params, now_ns)
         except MessageValueError as error:
             self.calls.popleft().fail(str(error), was_answered=True)
+        else:
+            if self.link and budget.polls > 0:  # it leaves in this step, not in the next
+                budget.polls -= 1
+                self.link.flush(now_ns, budget)
 
     def fail_all(self, reason: str) -> None:
         """End all calls."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum, auto
 from functools import lru_cache
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
 import h11
 
 from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
-from crosnode.transport.budget import ALONE_WORK, XMLRPC_WORK
+from crosnode.transport.budget import ALONE_WORK, ANSWER_WORK, ANSWERED_WORK, PART_WORK
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -137,6 +138,16 @@ def _response(status: int, size: int, headers: tuple[tuple[str, str], ...]) -> h
     return h11.Response(status_code=status, headers=[_CONTENT_TYPE, length, *headers])
 
 
+class _Part(Enum):
+    """What of a document was taken."""
+
+    NOTHING = auto()
+    BEGUN = auto()
+    """It has bytes, or its HTTP head is read."""
+    XML = auto()
+    """Some of it, at least."""
+
+
 class LastUse:
     """When documents were last read, or written, by any of the connections that share it."""
 
@@ -144,11 +155,8 @@ class LastUse:
         self._at_ns: int | None = None
 
     def is_long_ago(self, now_ns: int) -> bool:
-        """Return whether the last use is too long ago for warm caches.
-
-        Before the first it is not: what a node does at its start shall not take longer.
-        """
-        return self._at_ns is not None and now_ns - self._at_ns > WARM_NS
+        """Return whether the last use is too long ago for warm caches, or there was none."""
+        return self._at_ns is None or now_ns - self._at_ns > WARM_NS
 
     def note(self, now_ns: int) -> bool:
         """Note a use; return whether the one before is too long ago."""
@@ -168,6 +176,8 @@ class XmlRpcConnection(ProtocolConnection):
     """
 
     IS_PARSED: ClassVar[bool] = True
+    END_PRICE: ClassVar[int]
+    """What it costs to take a document of which all is read."""
 
     def __init__(
         self,
@@ -183,12 +193,15 @@ class XmlRpcConnection(ProtocolConnection):
         self._values = ValueParser(limits.values)
         self._unparsed = b""
         self._last_use = last_use or LastUse()
-        self._is_begun = self._is_in_parts = False
+        self._part = _Part.NOTHING
+        self._is_cold = False
 
     @property
     def event_price(self) -> int:
-        """A call that is taken and answered, an answer, or a part of either."""
-        return ALONE_WORK if self._is_in_parts else XMLRPC_WORK
+        """A part of a document that is read, or what follows of it."""
+        if self._is_cold:
+            return ALONE_WORK
+        return self.END_PRICE if self._part is _Part.XML and not self._unparsed else PART_WORK
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
@@ -216,15 +229,16 @@ class XmlRpcConnection(ProtocolConnection):
             raise LocalProtocolError(str(error)) from error
 
     def _next_event(self, now_ns: int) -> ConnectionEvent | None:
-        """Do what the next HTTP events say, until one of ours comes of them."""
+        """Do what the next HTTP events say, until one of ours comes of them, or a part is done."""
         try:
             while True:
                 if self._unparsed:
                     self._unparsed = self._values.feed_part(self._unparsed)
-                    if self._unparsed or self._is_in_parts:
+                    self._part = _Part.XML
+                    if self._unparsed or self._is_cold:
                         self._since_ns = now_ns
-                        return Progress()
-                if self._begins_in_parts(now_ns):
+                    return Progress()
+                if self._begins_cold(now_ns):
                     return Progress()
                 http_event = self._http.next_event()
                 if http_event in (h11.NEED_DATA, h11.PAUSED):
@@ -236,20 +250,20 @@ class XmlRpcConnection(ProtocolConnection):
         except XmlRpcError as error:
             return self._refuse(str(error), http_status=200)
 
-    def _begins_in_parts(self, now_ns: int) -> bool:
-        """Whether a document begins that is taken in parts, for its like was long ago."""
-        if self._is_begun or not self._http.trailing_data[0]:
+    def _begins_cold(self, now_ns: int) -> bool:
+        """Whether a document begins whose parts have a step each, for its like was long ago."""
+        if self._part is not _Part.NOTHING or not self._http.trailing_data[0]:
             return False
-        self._is_begun = True
-        self._is_in_parts = self._last_use.note(now_ns)
-        return self._is_in_parts
+        self._part = _Part.BEGUN
+        self._is_cold = self._last_use.note(now_ns)
+        return self._is_cold
 
     def _handle(self, http_event: object, now_ns: int) -> ConnectionEvent | None:
         if isinstance(http_event, h11.Data):
             self._unparsed = bytes(http_event.data)
             return None
         if isinstance(http_event, h11.EndOfMessage):
-            self._is_begun = self._is_in_parts = False
+            self._part, self._is_cold = _Part.NOTHING, False
             document = self._values.close()
             self._values = ValueParser(self.limits.values)
             return self._document(document, now_ns)
@@ -257,7 +271,7 @@ class XmlRpcConnection(ProtocolConnection):
             self.close()
             return Closed()
         self._head(http_event)
-        return Progress() if self._is_in_parts else None
+        return Progress()
 
     def _head(self, http_event: object) -> None:
         """Check a request or status line."""
@@ -294,6 +308,7 @@ class XmlRpcServerConnection(XmlRpcConnection):
     """
 
     TABLE: ClassVar[Table] = SERVER
+    END_PRICE: ClassVar[int] = ANSWER_WORK
     PAUSED: ClassVar[frozenset[ConnectionState]] = frozenset(
         {ConnectionState.REPLY, ConnectionState.CLOSED}
     )
@@ -304,6 +319,11 @@ class XmlRpcServerConnection(XmlRpcConnection):
         self._is_idle = False
         self._host_field = HostField()
         self._writer: ResponseWriter | None = None
+
+    @property
+    def event_price(self) -> int:
+        """As in ``XmlRpcConnection``; a part of a long answer costs what a short one does."""
+        return super().event_price if self._writer is None else ANSWER_WORK
 
     @property
     def deadline_ns(self) -> int | None:
@@ -420,6 +440,7 @@ class XmlRpcClientConnection(XmlRpcConnection):
     """
 
     TABLE: ClassVar[Table] = CLIENT
+    END_PRICE: ClassVar[int] = ANSWERED_WORK
     TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REPLY})
 
     def __init__(
