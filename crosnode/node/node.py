@@ -33,6 +33,7 @@ from crosnode.node.status import Status, StatusKind
 from crosnode.node.subscriber import Subscriber
 from crosnode.transport.budget import UNPACED, StepBudget, StepLimits
 from crosnode.transport.event_loop import EventLoop
+from crosnode.transport.tcpip_socket import OPTIONS
 from crosnode.xmlrpc.acceptor import ApiAcceptor
 from crosnode.xmlrpc.api_caller import ApiCall, ApiCaller, CallState
 from crosnode.xmlrpc.warming import warm_api
@@ -141,7 +142,9 @@ class CrosNode:
         now_ns, core = self._context.release_ns, self.core
         warm_api(now_ns)
         core.api.open(core.master.uri, now_ns, StepBudget(UNPACED))
-        core.loop.step(now_ns, StepBudget(UNPACED))
+        for _ in OPTIONS:
+            core.loop.step(now_ns, StepBudget(UNPACED))
+            core.loop.step_new(now_ns, StepBudget(UNPACED))
 
     @property
     def now_ns(self) -> int:

@@ -111,8 +111,7 @@ class TcprosConnection(ProtocolConnection):
         self._reader = ByteReader()
         self._parser = self._parse()
 
-    @property
-    def event_price(self) -> int:
+    def event_price(self, now_ns: int) -> int:
         """A header is the price of a new connection."""
         is_new = self.state is ConnectionState.HANDSHAKE
         return HEADER_WORK if is_new else self.MESSAGE_PRICE
@@ -132,6 +131,11 @@ class TcprosConnection(ProtocolConnection):
     def room(self) -> memoryview | None:
         """Where the rest of a large message goes."""
         return self._reader.room
+
+    @property
+    def is_room_fresh(self) -> bool:
+        """Whether its pages are laid out as they are filled."""
+        return self._reader.is_room_fresh
 
     def filled(self, size: int) -> None:
         """Note bytes of a large message."""

@@ -34,12 +34,16 @@ class BlockMemory:
 
     A memory is used again when nobody has a view of it, so a stream of images costs page faults
     for the first ones only, and gives nothing back.
+
+    Attributes:
+        is_fresh: whether the system has yet to lay out the pages of what was taken last.
     """
 
-    __slots__ = ("_kept",)
+    __slots__ = ("_kept", "is_fresh")
 
     def __init__(self) -> None:
         self._kept: list[mmap.mmap] = []
+        self.is_fresh = True
 
     def take(self, size: int) -> mmap.mmap:
         """Return memory of at least ``size`` bytes, of whatever was there before."""
@@ -47,10 +51,12 @@ class BlockMemory:
         for place in reversed(range(len(kept))):  # what was used last is still in the caches
             if len(kept[place]) >= size and getrefcount(kept[place]) == _UNUSED:
                 kept.append(kept.pop(place))
+                self.is_fresh = False
                 return kept[-1]
         # Private: pages of shared memory cost more.
         kept.append(mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS))
         del kept[:-KEPT]
+        self.is_fresh = True
         return kept[-1]
 
 
@@ -124,6 +130,11 @@ class ByteReader:
         """Where the rest of a large block goes, None where none is being filled."""
         large = self._large
         return None if large is None or large.is_full else large.data[large.have :]
+
+    @property
+    def is_room_fresh(self) -> bool:
+        """Whether the system lays out the pages of ``room`` as they are filled."""
+        return self._memory.is_fresh
 
     def filled(self, size: int) -> None:
         """Note that bytes of a large block lie in their ``room``."""

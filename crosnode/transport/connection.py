@@ -115,9 +115,8 @@ class ProtocolConnection(ABC):
         self._is_drained = True
         self.outbox: list[bytes | memoryview] = []
 
-    @property
     @abstractmethod
-    def event_price(self) -> int:
+    def event_price(self, now_ns: int) -> int:
         """What the next event costs of the work of a step, at the prices of `StepLimits`."""
 
     @abstractmethod
@@ -133,6 +132,11 @@ class ProtocolConnection(ABC):
     def room(self) -> memoryview | None:
         """Where the bytes of a large message are to be written; None where none is expected."""
         return None
+
+    @property
+    def is_room_fresh(self) -> bool:
+        """Whether the system lays out the pages of ``room`` as they are filled."""
+        return False
 
     def filled(self, size: int) -> None:
         """Note that bytes were written to ``room``; then call ``next_event`` as for bytes."""

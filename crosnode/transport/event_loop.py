@@ -90,9 +90,13 @@ class PortListener:
             self._next.close()
         return True
 
-    def step(self, now_ns: int, budget: StepBudget, news: set[int]) -> None:
-        """Take waiting connections within the budget, where ``news`` has the port's ident."""
-        if not self.open(now_ns) or self._socket.ident not in news:
+    def has_work(self, news: set[int]) -> bool:
+        """Whether the port is to be opened, or somebody is there: ``news`` has its ident."""
+        return not self._socket.is_open or self._socket.ident in news
+
+    def step(self, now_ns: int, budget: StepBudget) -> None:
+        """Take waiting connections within the budget."""
+        if not self.open(now_ns):
             return
         while budget.accepts > 0 and budget.affords(ACCEPT_WORK):
             client = self._next
@@ -180,9 +184,7 @@ class EventLoop:
         turns. The next step begins with the first link that had to wait.
         """
         news = self.pool.look()
-        if self.listeners:  # one in each step, so that a flood of connections leaves links theirs
-            self._listener_turn = (self._listener_turn + 1) % len(self.listeners)
-            self.listeners[self._listener_turn].step(now_ns, budget, news)
+        self._listen(now_ns, budget, news)
         budget.is_short = False
         self._turn = self._go_round(now_ns, budget, news)
         while not budget.is_short and (busy := [link for link in self.links if link.has_more]):
@@ -190,6 +192,16 @@ class EventLoop:
                 self._give_turn(link, now_ns, budget)
         if LinkState.OVER in [link.state for link in self.links]:
             self._remove_ended()
+
+    def _listen(self, now_ns: int, budget: StepBudget, news: set[int]) -> None:
+        """Let the next listener with news have its turn: one, so that a flood leaves links theirs."""
+        count = len(self.listeners)
+        for turn in range(self._listener_turn + 1, self._listener_turn + 1 + count):
+            listener = self.listeners[turn % count]
+            if listener.has_work(news):
+                self._listener_turn = turn % count
+                listener.step(now_ns, budget)
+                return
 
     def step_new(self, now_ns: int, budget: StepBudget) -> None:
         """Give links that were added in this step their first turn, at the end of it."""
@@ -209,6 +221,7 @@ class EventLoop:
     def _go_round(self, now_ns: int, budget: StepBudget, news: set[int]) -> int:
         """Give links their turn while the budget lasts; return where the next step begins."""
         links, count = self.links, len(self.links)
+        ending: list[PeerLink] = []
         start = self._turn if self._turn < count else 0
         self._round += 1
         for turn in range(start, start + count):
@@ -221,10 +234,15 @@ class EventLoop:
                 continue
             if budget.polls <= 0:
                 return place
+            if link.may_wait(now_ns):
+                ending.append(link)
+                continue
             link.step(now_ns, budget)
             if budget.is_short:  # a link that could do nothing goes first, another goes last
                 had_to_wait = work - budget.work <= POLL_WORK
                 return place if had_to_wait else (turn + 1) % count
+        for link in ending:
+            self._give_turn(link, now_ns, budget)
         return (start + 1) % max(1, count)
 
     def _remove_ended(self) -> None:

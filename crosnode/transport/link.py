@@ -35,6 +35,9 @@ OUTBOX_MAX: Final = 1 << 30
 CLOSING_NS: Final = 5_000_000_000
 """Nanoseconds that a peer has to read what is left to say to it."""
 
+PATIENT_NS: Final = 20_000_000
+"""Nanoseconds that a link which has but to end lets others go first."""
+
 CONNECT_NS: Final = 2_000_000_000
 """Nanoseconds after which a peer that does not answer counts as absent."""
 
@@ -165,6 +168,10 @@ class PeerLink:
         """Have a turn in the next step: the owner has something to say."""
         self._resting = None
 
+    def may_wait(self, now_ns: int) -> bool:
+        """Whether others go first: the link has but to end, and not for long."""
+        return self.state is LinkState.CLOSING and now_ns - self._since_ns < PATIENT_NS
+
     def check_time(self, now_ns: int) -> None:
         """End the connection where the peer has had its time."""
         if self.state is not LinkState.OVER and (failed := self.connection.handle_timer(now_ns)):
@@ -176,14 +183,14 @@ class PeerLink:
         budget.work -= POLL_WORK
         if self.state is LinkState.CONNECTING and not self._connect(now_ns, budget):
             return
-        if self._options < len(OPTIONS):
-            self._set_options(budget)
+        if self._options == 0 or (self._options < len(OPTIONS) and not self.is_readable):
+            self._set_option(budget)
         self._exchange(now_ns, budget)
         if self.state is LinkState.OVER:
             budget.work -= END_WORK
 
-    def _set_options(self, budget: StepBudget) -> None:
-        """Set options, the first before anything is said, and so many more as are afforded."""
+    def _set_option(self, budget: StepBudget) -> None:
+        """Set the next option: the first before anything is said, others while nothing comes."""
         self.socket.set_option(self._options)
         self._options += 1
         budget.work -= OPTION_WORK
@@ -287,14 +294,15 @@ class PeerLink:
 
     def _fill_message(self, room: memoryview, now_ns: int, budget: StepBudget) -> bool:
         """Read the bytes of a large message to their place; return whether there may be more."""
-        size = budget.at_most_large(min(len(room), budget.bytes_in))
+        is_fresh = self.connection.is_room_fresh
+        size = budget.at_most_large(min(len(room), budget.bytes_in), is_fresh=is_fresh)
         if size <= 0:
             return False
         state, received = self.socket.read_into(room[:size])
         if state is _DONE:
             self.bytes_in += received
             budget.bytes_in -= received
-            budget.take_large(received)
+            budget.take_large(received, is_fresh=is_fresh)
             self.connection.filled(received)
             self._take_events(now_ns, budget)
         else:
@@ -311,7 +319,7 @@ class PeerLink:
 
     def _take_events(self, now_ns: int, budget: StepBudget) -> None:
         connection = self.connection
-        while budget.messages > 0 and budget.affords(price := connection.event_price):
+        while budget.messages > 0 and budget.affords(price := connection.event_price(now_ns)):
             connection.most = min(budget.messages, max(1, budget.work // price))
             event = connection.next_event(now_ns)
             if event is None:
@@ -374,6 +382,7 @@ class PeerLink:
         if self.state is LinkState.OPEN:
             self._move(LinkTrigger.ENDED)
             self._since_ns = now_ns
+            return
         is_late = now_ns - self._since_ns >= CLOSING_NS
         is_due = self.state is LinkState.CLOSING and (is_late or not self._outbox.size)
         if is_due and budget.affords(END_WORK):

@@ -7,8 +7,9 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import HostPendingError, InvalidNameError, MessageValueError
-from crosnode.transport.budget import ALONE_WORK, CALL_WORK
+from crosnode.transport.budget import ALONE_WORK, CALL_WORK, TRANSFER_WORK
 from crosnode.transport.connection import ConnectionState
+from crosnode.transport.link import LinkState
 from crosnode.xmlrpc import (
     FaultReceived,
     LastUse,
@@ -141,14 +142,19 @@ class ApiCaller:
         channel.keep = channel.keep or keep
         channel.calls.append(call)
         if len(channel.calls) > MAX_WAITING:
-            index = 1 if channel.link else 0
+            index = 1 if channel.is_calling else 0
             oldest = channel.calls[index]
             del channel.calls[index]
             oldest.fail("too many calls wait for this node")
         return call
 
     def open(self, uri: str, now_ns: int, budget: StepBudget) -> None:
-        """Lay out the connection for calls to a node, which is made when the first one is there."""
+        """Begin a connection for calls to a node before there are any, in INIT.
+
+        What calls and answers take is warm then, by `crosnode.xmlrpc.warming.warm_api`.
+        """
+        self._last_use.note(now_ns)
+        self._last_call.note(now_ns)
         channel = self._channels.setdefault(uri, _Channel(self._last_call))
         channel.keep = True
         self._connect(uri, channel, now_ns, budget)
@@ -202,10 +208,18 @@ class _Channel:
         self.connection: XmlRpcClientConnection | None = None
         self.keep = False
 
+    @property
+    def is_calling(self) -> bool:
+        """Whether the first call runs, or failed and is about to end."""
+        connection = self.connection
+        return connection is not None and connection.state is not ConnectionState.IDLE
+
     def advance(self, now_ns: int, budget: StepBudget) -> None:
         """Send the next call, or close a connection that is needed no more."""
         connection = self.connection
         if connection is None or connection.state is not ConnectionState.IDLE:
+            return
+        if self.link and self.link.state is LinkState.CONNECTING:
             return
         if not self.calls:
             if not self.keep and self.link:
@@ -222,8 +236,7 @@ class _Channel:
         except MessageValueError as error:
             self.calls.popleft().fail(str(error), was_answered=True)
         else:
-            if self.link and budget.polls > 0:  # it leaves in this step, not in the next
-                budget.polls -= 1
+            if self.link and budget.work >= TRANSFER_WORK:  # it leaves in this step
                 self.link.flush(now_ns, budget)
 
     def fail_all(self, reason: str) -> None:

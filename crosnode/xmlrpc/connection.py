@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 import h11
 
 from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
-from crosnode.transport.budget import ALONE_WORK, ANSWER_WORK, ANSWERED_WORK, PART_WORK
+from crosnode.transport.budget import (
+    ALONE_WORK,
+    ANSWER_WORK,
+    ANSWERED_WORK,
+    COLD_PART_WORK,
+    PART_WORK,
+)
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -196,12 +202,13 @@ class XmlRpcConnection(ProtocolConnection):
         self._part = _Part.NOTHING
         self._is_cold = False
 
-    @property
-    def event_price(self) -> int:
+    def event_price(self, now_ns: int) -> int:
         """A part of a document that is read, or what follows of it."""
-        if self._is_cold:
-            return ALONE_WORK
-        return self.END_PRICE if self._part is _Part.XML and not self._unparsed else PART_WORK
+        if self._part is _Part.NOTHING:
+            return COLD_PART_WORK if self._last_use.is_long_ago(now_ns) else PART_WORK
+        if self._part is _Part.XML and not self._unparsed:
+            return self.END_PRICE
+        return ALONE_WORK if self._is_cold else PART_WORK
 
     def receive_data(self, data: bytes | bytearray | memoryview) -> None:
         """Take received bytes; then call ``next_event`` until it gives None."""
@@ -238,8 +245,7 @@ class XmlRpcConnection(ProtocolConnection):
                     if self._unparsed or self._is_cold:
                         self._since_ns = now_ns
                     return Progress()
-                if self._begins_cold(now_ns):
-                    return Progress()
+                self._begin(now_ns)
                 http_event = self._http.next_event()
                 if http_event in (h11.NEED_DATA, h11.PAUSED):
                     return None
@@ -250,13 +256,11 @@ class XmlRpcConnection(ProtocolConnection):
         except XmlRpcError as error:
             return self._refuse(str(error), http_status=200)
 
-    def _begins_cold(self, now_ns: int) -> bool:
-        """Whether a document begins whose parts have a step each, for its like was long ago."""
-        if self._part is not _Part.NOTHING or not self._http.trailing_data[0]:
-            return False
-        self._part = _Part.BEGUN
-        self._is_cold = self._last_use.note(now_ns)
-        return self._is_cold
+    def _begin(self, now_ns: int) -> None:
+        """Note that a document begins, where one does, and whether its like was long ago."""
+        if self._part is _Part.NOTHING and self._http.trailing_data[0]:
+            self._part = _Part.BEGUN
+            self._is_cold = self._last_use.note(now_ns)
 
     def _handle(self, http_event: object, now_ns: int) -> ConnectionEvent | None:
         if isinstance(http_event, h11.Data):
@@ -271,6 +275,7 @@ class XmlRpcConnection(ProtocolConnection):
             self.close()
             return Closed()
         self._head(http_event)
+        self._since_ns = now_ns
         return Progress()
 
     def _head(self, http_event: object) -> None:
@@ -320,10 +325,9 @@ class XmlRpcServerConnection(XmlRpcConnection):
         self._host_field = HostField()
         self._writer: ResponseWriter | None = None
 
-    @property
-    def event_price(self) -> int:
+    def event_price(self, now_ns: int) -> int:
         """As in ``XmlRpcConnection``; a part of a long answer costs what a short one does."""
-        return super().event_price if self._writer is None else ANSWER_WORK
+        return ANSWER_WORK if self._writer else super().event_price(now_ns)
 
     @property
     def deadline_ns(self) -> int | None:

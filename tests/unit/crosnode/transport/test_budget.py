@@ -3,18 +3,19 @@ from hypothesis import strategies as st
 
 from crosnode.transport.budget import (
     ALONE_WORK,
+    ANSWER_WORK,
     CALL_WORK,
-    CONNECTION_WORK,
+    CONNECT_WORK,
     MESSAGE_WORK,
     POLL_WORK,
     REQUEST_WORK,
+    START_WORK,
     UNPACED,
-    XMLRPC_WORK,
     StepBudget,
     StepLimits,
 )
 
-PRICES = (MESSAGE_WORK, REQUEST_WORK, CONNECTION_WORK, CALL_WORK, XMLRPC_WORK, ALONE_WORK)
+PRICES = (MESSAGE_WORK, REQUEST_WORK, CONNECT_WORK, CALL_WORK, ANSWER_WORK, ALONE_WORK)
 
 
 def test_a_budget_starts_with_all_limits() -> None:
@@ -69,4 +70,4 @@ def test_bytes_stop_where_the_work_ends() -> None:
 def test_starting_a_connection_takes_its_price() -> None:
     budget = StepBudget(StepLimits(calls=2))
     assert [budget.start_call() for _ in range(3)] == [True, True, False]
-    assert budget.work == StepLimits().work - 2 * CONNECTION_WORK
+    assert budget.work == StepLimits().work - 2 * START_WORK

@@ -18,7 +18,7 @@ def port(node: CrosNode) -> int:
 def ask(world: World, socket: Socket) -> bool:
     """Call getPid; return whether it is answered."""
     socket.send(HEAD + REQUEST)
-    return b"HTTP/1.1 200" in world.receive(socket, 5)
+    return b"HTTP/1.1 200" in world.receive(socket, 12)
 
 
 def test_a_hundred_and_eighteen_callers_that_stay_take_no_topic_its_ident() -> None:
@@ -63,10 +63,10 @@ def test_where_none_is_idle_the_newcomer_goes() -> None:
         socket.send(HEAD)  # half of a request
     world.run(30)
     late = world.dial(PLC_IP, port(node))
-    world.run(5)
+    world.run(12)
     assert late.recv(10).outcome is Outcome.CLOSED
     sockets[0].send(REQUEST)
-    assert b"HTTP/1.1 200" in world.receive(sockets[0], 5)
+    assert b"HTTP/1.1 200" in world.receive(sockets[0], 12)
 
 
 def test_the_share_is_that_of_all_nodes_of_a_controller() -> None:

@@ -52,7 +52,7 @@ def test_calls_of_many_nodes_at_once_are_spread_over_steps() -> None:
     for socket in sockets:
         socket.send(4 * (head + request))
     answered = []
-    for _ in range(90):
+    for _ in range(190):  # each takes two steps: reading it, and answering
         world.run(1)
         answered.append(sum(socket.recv(65_536).data.count(b"HTTP/1.1 200") for socket in sockets))
     assert sum(answered) == 80
@@ -83,7 +83,7 @@ def test_a_flood_of_calls_leaves_a_topic_its_turn_and_the_other_way_round() -> N
     _, alone = flood(0)
     answered, beside = flood(4)
     assert beside >= alone // 5 > 3  # one link of five, and calls come over new connections
-    assert answered > 100
+    assert answered > 60
 
 
 def test_a_call_for_much_is_answered_over_many_steps() -> None:

@@ -35,7 +35,9 @@ class Lines(ProtocolConnection):
         ConnectionState.CLOSED: {},
     }
     IS_PARSED: ClassVar[bool] = False
-    event_price = 1
+    def event_price(self, now_ns: int) -> int:
+        return 1
+
 
     def __init__(self, farewell: bytes = b"") -> None:
         super().__init__(ConnectionState.STREAMING, 0, 0)
@@ -178,7 +180,9 @@ def test_a_port_where_nobody_listens() -> None:
 def test_a_peer_that_does_not_answer() -> None:
     wire = Wire()
     wire.network.faults.silence(PEER_IP)
-    wire.now_ns = CONNECT_NS
+    wire.now_ns = 3 * CONNECT_NS  # it was laid out long before
+    wire.step()
+    wire.now_ns += CONNECT_NS
     wire.step()
     assert wire.told.reasons == [f"{PEER_IP}:99 does not answer"]
 
