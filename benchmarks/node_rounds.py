@@ -38,7 +38,7 @@ from _outcome import (
 )
 from _ports import free_port
 from _ros_peer import TIME_BYTES, make_node
-from node_step import CASES, NS_PER_MS, Case, Program, ordinary
+from node_step import CASES, NS_PER_MS, Case, Program, loop_ns, ordinary
 
 from plcsim.host import garbage, realtime
 
@@ -190,6 +190,7 @@ def main() -> int:
     found = {}
     for case in cases:
         found[case.name] = run_rounds(case, options.rounds, options.ticks)
+        print(case.name, "loop", loop_ns()/1000)
     hosts.append(print_machine("after"))
     table = figures_table("load", "steps", "unlike", "p50 us", "p99", "longest", "its number", "most of it",
                           "over", "over in a round")

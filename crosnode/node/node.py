@@ -110,9 +110,9 @@ class CrosNode:
         self._open(settings.master_uri)
         self._time = RosTime(self, self.options.epoch or Epoch())
         self._rosout = Rosout(self)
+        self._connect_master()
         for key, value in settings.parameters.items():
             self.set_param(key, value)
-        self._connect_master()
 
     def _open(self, master_uri: str) -> None:
         """Open the three ports and make what needs their numbers."""
@@ -138,7 +138,7 @@ class CrosNode:
         self.life = Life(self.core, respawns=options.respawns)
 
     def _connect_master(self) -> None:
-        """Begin to connect to the master now, in INIT, which has more time than a cycle."""
+        """Connect to the master now, where it is there: INIT has more time than a cycle."""
         now_ns, core = self._context.release_ns, self.core
         warm_api(now_ns)
         core.api.open(core.master.uri, now_ns, StepBudget(UNPACED))
@@ -428,8 +428,8 @@ class CrosNode:
             caller.step(now_ns, budget)
         self._rosout.step()
         self._time.step()
-        core.api.step(now_ns, budget)
         core.master.step(now_ns)
+        core.api.step(now_ns, budget)
         core.loop.step_new(now_ns, budget)
         if core.loop.pool.shortages != self._shortages:
             self._tell_shortage(now_ns)

@@ -28,7 +28,7 @@ first of a connection. A page takes 5 to 10 us on a virtual machine."""
 LARGE_WORK: Final = 49_152
 """Price of a large message that was not expected: its length is read apart, and it gets room."""
 
-TRANSFER_WORK: Final = 8_192
+TRANSFER_WORK: Final = 12_288
 """Price of a read that gave bytes and of a write, beside the bytes."""
 
 MESSAGE_WORK: Final = 608
@@ -49,7 +49,7 @@ CONNECTED_WORK: Final = 40_960
 ACCEPT_WORK: Final = 57_344
 """Price of a connection that is taken."""
 
-OPTION_WORK: Final = 8_192
+OPTION_WORK: Final = 16_384
 """Price of an option that is set on a socket."""
 
 HEADER_WORK: Final = 65_536
@@ -58,7 +58,7 @@ HEADER_WORK: Final = 65_536
 END_WORK: Final = 49_152
 """Price of a connection that is ended."""
 
-CALL_WORK: Final = 65_536
+CALL_WORK: Final = 57_344
 """Price of an XML-RPC call that is made, beside its writing."""
 
 PART_WORK: Final = 57_344

@@ -149,12 +149,7 @@ class ApiCaller:
         return call
 
     def open(self, uri: str, now_ns: int, budget: StepBudget) -> None:
-        """Begin a connection for calls to a node before there are any, in INIT.
-
-        What calls and answers take is warm then, by `crosnode.xmlrpc.warming.warm_api`.
-        """
-        self._last_use.note(now_ns)
-        self._last_call.note(now_ns)
+        """Begin a connection for calls to a node before there are any, in INIT."""
         channel = self._channels.setdefault(uri, _Channel(self._last_call))
         channel.keep = True
         self._connect(uri, channel, now_ns, budget)

@@ -136,7 +136,7 @@ def test_the_check_of_the_master_shares_no_step_with_messages() -> None:
         world.run(1)
         if node.core.budget.work <= 0:
             received_beside.append(subscriber.queue.pushed - before)
-    assert len(received_beside) >= 3 * 4
+    assert len(received_beside) >= 3 * 2  # the call, and the XML of its answer
     assert set(received_beside) == {0}
     world.run(10)
     assert subscriber.queue.pushed == 3_000
