@@ -2,8 +2,9 @@
 
     python _ros_peer.py PORT talk TOPIC TYPE RATE SIZE | idle COUNT | echo TOPIC | call COUNT
 
-It runs unpaced, so that the measured side is the one that limits. Behind `in-step PORT` it does what
-is due whenever a time comes on its standard input, 8 bytes of nanoseconds, and answers a byte.
+It runs unpaced, so that the measured side is the one that limits. With `in-step` before PORT it
+does what is due whenever a time comes on its standard input, 8 bytes of nanoseconds, and answers a
+byte.
 """
 
 from __future__ import annotations

@@ -1,18 +1,19 @@
-"""The longest steps of a node that are its own: the same steps again and again, least of all rounds.
+"""The longest steps of a node that are its own: the same steps again, and the least of all rounds.
 
     python benchmarks/node_rounds.py [--rounds 7] [--ticks 2200] [--only TEXT ...] [--json FILE]
 
 A host of virtual machines takes time from a step without a word, and the thread's CPU clock runs on
-meanwhile: an empty step of 900 us is not the node's. A host can only add. So the same steps are done
-in several rounds, and what a step takes in the round in which it takes least is the most that can
-be the node's own.
+meanwhile: an empty step of 900 us is not the node's. A host can only add. So the same steps are
+done in several rounds, and what a step takes in the round in which it takes least is the most that
+can be the node's own.
 
 Each round is a process of its own, from the first step of a node on: master and peers are another
 process, which does what is due before a step and says so; then the step is done, with a time that
-is counted, not read. So a step finds in its sockets what it found in the other rounds, byte by byte.
-All else is as in a scan: rights, memory, and Python's collector, which runs between the steps. A step
-of one round is compared with those alone that had as much to do: that left as much of each part of
-their budget, and for which about as many pages were laid out. One that has no like counts as it is.
+is counted, not read. So a step finds in its sockets what it found in the other rounds, byte by
+byte. All else is as in a scan: rights, memory, and Python's collector, which runs between steps. A
+step of a round is compared with those alone that had as much to do: that left as much of each part
+of their budget, and for which about as many pages were laid out. One that has no like counts as it
+is.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from _outcome import (
 )
 from _ports import free_port
 from _ros_peer import TIME_BYTES, make_node
-from node_step import CASES, NS_PER_MS, Case, Program, loop_ns, ordinary
+from node_step import CASES, NS_PER_MS, Case, Program, ordinary
 
 from plcsim.host import garbage, realtime
 
@@ -55,6 +56,10 @@ FAULTS = 16
 """Pages laid out within a step that may differ where steps are the same."""
 
 LATER_NS = 3_600_000_000_000
+"""By which the counted time is ahead of the clock, which a peer has read at its start."""
+
+SHOWN = 8
+"""Numbers of steps over their budget in a row of the table."""
 
 IDLE_NS = 700_000
 """Of a millisecond of cycle, in which Python's garbage may be collected."""
@@ -95,6 +100,20 @@ class Place(NamedTuple):
     likes: int
 
 
+class Figures(NamedTuple):
+    """What a case came to.
+
+    Attributes:
+        places: of all steps, by the least of their rounds.
+        over: numbers of the steps that are above budget and a fifth by themselves.
+        by_host: steps of single rounds that are so, though the same step is not in another.
+    """
+
+    places: list[Place]
+    over: list[int]
+    by_host: int
+
+
 def do_round(case: Case, ticks: int) -> Iterator[Step]:
     """Do the steps of a round in this process, with a peer beside it."""
     port = free_port()
@@ -103,7 +122,6 @@ def do_round(case: Case, ticks: int) -> Iterator[Step]:
                             preexec_fn=ordinary)  # noqa: PLW1509  # no threads here  # fmt: skip
     assert peer.stdin
     assert peer.stdout
-    told=0
     try:
         rights = realtime.acquire(50, None)
         tick_ns = case.tick_ms * NS_PER_MS
@@ -111,7 +129,9 @@ def do_round(case: Case, ticks: int) -> Iterator[Step]:
         for cycle in range(-BEFORE, ticks):
             now_ns += tick_ns
             for part in range(case.tick_ms):  # a peer has steps of a millisecond
-                peer.stdin.write((now_ns - tick_ns + part * NS_PER_MS).to_bytes(TIME_BYTES, "little"))
+                peer.stdin.write(
+                    (now_ns - tick_ns + part * NS_PER_MS).to_bytes(TIME_BYTES, "little")
+                )
                 peer.stdin.flush()
                 assert peer.stdout.read(1)
             if cycle < 0:
@@ -127,7 +147,6 @@ def do_round(case: Case, ticks: int) -> Iterator[Step]:
             ns = time.thread_time_ns() - begin_ns
             yield Step(ns, left_of(node.core.budget), page_faults() - faults)
             program.cycle(cycle)
-            if program.received and not told: told=1; print("first", cycle, file=sys.stderr)
             garbage.collect_while_idle(case.tick_ms * IDLE_NS)  # as the scan does
     finally:
         peer.kill()
@@ -171,6 +190,14 @@ def run_rounds(case: Case, rounds: int, ticks: int) -> list[list[Step]]:
     return found
 
 
+def figures_of(case: Case, rounds: list[list[Step]]) -> Figures:
+    """Return what the rounds of a case came to."""
+    places = sorted(places_of(rounds), key=lambda place: place.least_ns)
+    over = sorted(place.number for place in places if place.least_ns > case.limit_ns)
+    added = sum(step.ns > case.limit_ns for steps in rounds for step in steps)
+    return Figures(places, over, added - len(over) * len(rounds))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=number_above_0, default=7)
@@ -189,26 +216,37 @@ def main() -> int:
     cases = [case for case in CASES if any(text in case.name for text in options.only)]
     found = {}
     for case in cases:
-        found[case.name] = run_rounds(case, options.rounds, options.ticks)
-        print(case.name, "loop", loop_ns()/1000)
+        found[case.name] = figures_of(case, run_rounds(case, options.rounds, options.ticks))
     hosts.append(print_machine("after"))
-    table = figures_table("load", "steps", "unlike", "p50 us", "p99", "longest", "its number", "most of it",
-                          "over", "over in a round")
-    made = []
-    for case in cases:
-        places = places_of(found[case.name])
-        ordered = sorted(places, key=lambda each: each.least_ns)
-        longest = ordered[-1]
-        over = [each for each in places if each.least_ns > case.limit_ns]
-        by_host = sum(step.ns > case.limit_ns for steps in found[case.name] for step in steps)
-        at = lambda share: f"{ordered[int(share*len(ordered))].least_ns/1e3:.0f}"
-        table.add_row(case.name, str(len(places)), str(sum(p.likes > 1 for p in places)), at(.5), at(.99),
-          f"{longest.least_ns/1e3:.0f}", str(longest.number), f"{longest.most_ns/1e3:.0f}", str(len(over)), str(by_host))
-        for each in places:
-            if each.least_ns > case.limit_ns or each.number < 3:
-                print(case.name, each.number, each.least_ns//1000, each.most_ns//1000, each.likes, [(s[each.number].left,s[each.number].faults) for s in found[case.name]][0])
+    made = [
+        Target(
+            f"{case.name}: own steps over {case.limit_ns / 1e3:,.0f} us", len(f.over), 0, "steps"
+        )
+        for case, f in zip(cases, found.values(), strict=True)
+    ]
+    print_figures(found)
+    print_targets(made)
+    rows = {name: [place._asdict() for place in f.places] for name, f in found.items()}
+    write_json(options.json, hosts, made, steps=rows)
+    return 0 if all(target.met for target in made) else 1
+
+
+def print_figures(found: dict[str, Figures]) -> None:
+    """Print a row for each case: the least of the rounds, and what the host adds."""
+    table = figures_table(
+        "load (least CPU time of a step)", "steps", "unlike", "p50 us", "p99", "longest", "number",
+        "most", "own over", "by host", "which",
+    )  # fmt: skip
+    for name, f in found.items():
+        places, longest = f.places, f.places[-1]
+        shares = [places[int(share * len(places))] for share in (0.5, 0.99)]
+        table.add_row(
+            name, str(len(places)), str(sum(place.likes > 1 for place in places)),
+            *(f"{each.least_ns / 1e3:.0f}" for each in (*shares, longest)),
+            str(longest.number), f"{longest.most_ns / 1e3:.0f}", str(len(f.over)), str(f.by_host),
+            " ".join(map(str, f.over[:SHOWN])),
+        )  # fmt: skip
     console.print(table)
-    return 0
 
 
 if __name__ == "__main__":

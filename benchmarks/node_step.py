@@ -11,7 +11,8 @@ the same 500 String/s in and out, where rospy is installed; and in each cycle, h
 the step and after a sleep of its own, other work in Python, of the standard library and of much
 code as a step is, that takes as long as the median of the steps in one cycle, and as long as their
 longest twentieth in the next. Where that is too long it is the host, which is expected to do the
-same to the steps ("host"); two such counts differ by chance.
+same to the steps ("host"); two such counts differ by chance. `node_rounds.py` says which long steps
+are the node's own.
 """
 
 from __future__ import annotations
@@ -161,6 +162,11 @@ class Program:
             else:
                 node.register_publisher(f"/idle{number}", STRING)
 
+    @property
+    def is_connected(self) -> bool:
+        """Whether a publisher of what it subscribes to is connected."""
+        return self._subscriber is not None and self._subscriber.publishers > 0
+
     def cycle(self, cycle: int) -> None:
         """Do what the program does in a cycle."""
         if self._subscriber:
@@ -179,14 +185,15 @@ class Figures(NamedTuple):
     Attributes:
         steps_ns: of the node.
         others_ns: of other work in between, as long as the median, and as the longest twentieth.
-        first_tick: cycle in which the first message was there.
+        connected_tick: cycle in which the publisher was connected; its first message comes when it
+            has one to say.
     """
 
     case: Case
     steps_ns: list[int]
     received_per_s: float
     lost: int
-    first_tick: int | None
+    connected_tick: int | None
     cpu_share: float
     others_ns: tuple[list[int], list[int]]
 
@@ -252,7 +259,7 @@ def run(case: Case, seconds: int, rights: realtime.Rights) -> Figures:
         program = Program(case, node)
         realtime.settle(rights)  # as the scan does
         tick_ns = case.tick_ms * NS_PER_MS
-        release_ns, first, start, cpu_ns = time.monotonic_ns(), None, program.received, 0
+        release_ns, connected, start, cpu_ns = time.monotonic_ns(), None, program.received, 0
         steps_ns: list[int] = []
         others_ns: tuple[list[int], list[int]] = [], []
         pieces, counts = itertools.cycle(PIECES), as_long([], [])
@@ -271,8 +278,10 @@ def run(case: Case, seconds: int, rights: realtime.Rights) -> Figures:
             node.do_events_loop()
             steps_ns.append(time.thread_time_ns() - begin_ns)
             program.cycle(cycle)
-            if first is None and program.received:
-                first, begin = cycle + 1, cycle + ticks
+            if connected is None and program.is_connected:
+                connected = cycle + 1
+            if not begin and program.received:
+                begin = cycle + ticks
             release_ns += tick_ns
             rest_ns = release_ns - tick_ns // 2 - time.monotonic_ns()
             if rest_ns > 0:
@@ -290,7 +299,7 @@ def run(case: Case, seconds: int, rights: realtime.Rights) -> Figures:
         peer.kill()
         peer.wait()
     share = cpu_ns / (seconds * 1e9)
-    return Figures(case, sorted(steps_ns), received, program.lost, first, share, others_ns)
+    return Figures(case, sorted(steps_ns), received, program.lost, connected, share, others_ns)
 
 
 def ordinary() -> None:
@@ -332,9 +341,9 @@ def targets(found: dict[str, Figures]) -> list[Target]:
     if STRINGS in found and NOTHING in found:
         ratio = found[STRINGS].at(0.5) / found[NOTHING].at(0.5)
         made.append(Target(f"{STRINGS}: median / empty step", ratio, 2.5, "x"))
-    ticks = [f.first_tick or 0 for f in found.values() if f.case.tick_ms == 1]
+    ticks = [f.connected_tick or 0 for f in found.values() if f.case.tick_ms == 1]
     if any(ticks):
-        made.append(Target("first message", max(ticks), 20, "ticks"))
+        made.append(Target("publisher connected", max(ticks), 20, "ticks"))
     for name, figures in found.items():
         if "talk" not in figures.case.peer:
             continue
@@ -380,7 +389,7 @@ def main() -> int:
         table.add_row(
             name, f"{median / 1e3:.0f}", f"{median / empty_ns:.2f} x" if empty_ns else "",
             f"{median / least_ns:.2f} x", *times, str(f.over), str(f.by_host),
-            f"{f.received_per_s:.0f}", str(f.lost), str(f.first_tick or ""),
+            f"{f.received_per_s:.0f}", str(f.lost), str(f.connected_tick or ""),
             f"{100 * f.cpu_share:.1f}",
         )  # fmt: skip
     console.print(table)

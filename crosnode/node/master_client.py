@@ -196,7 +196,7 @@ class MasterClient:
             self._ping = self.call("lookupNode", [self._name], self._pinged)
 
     def _tell_master(self) -> None:
-        """Make the calls of the registrations that wait for theirs, first those that are not late."""
+        """Make the calls of the registrations that wait for theirs; what is late waits longer."""
         waiting = [each for each in self._registrations if each.state in _WAITING]
         early = [each for each in waiting if not each.is_late]
         is_early_under_way = any(

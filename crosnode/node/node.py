@@ -104,6 +104,7 @@ class CrosNode:
         step = self.options.step
         self.pace = Pace(step._asdict() if isinstance(step, StepLimits) else step)
         self._shortages = 0
+        self._is_first = True
         self._next_shortage_ns = 0
         self._context = context
         self._names = settings.names
@@ -415,6 +416,9 @@ class CrosNode:
     def _step(self, now_ns: int, budget: StepBudget) -> None:
         core = self.core
         core.now_ns, core.budget = now_ns, budget
+        if self._is_first:
+            self._is_first = False
+            core.api.settle(now_ns)
         self._resolver.step()
         core.api.step_first(now_ns, budget)
         core.loop.step(now_ns, budget)
@@ -428,8 +432,8 @@ class CrosNode:
             caller.step(now_ns, budget)
         self._rosout.step()
         self._time.step()
-        core.master.step(now_ns)
         core.api.step(now_ns, budget)
+        core.master.step(now_ns)
         core.loop.step_new(now_ns, budget)
         if core.loop.pool.shortages != self._shortages:
             self._tell_shortage(now_ns)

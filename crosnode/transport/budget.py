@@ -37,28 +37,28 @@ MESSAGE_WORK: Final = 608
 REQUEST_WORK: Final = 4_096
 """Price of a request or a reply of a service, beside its bytes."""
 
-START_WORK: Final = 49_152
+START_WORK: Final = 57_344
 """Price of a connection that is begun: what it is in this program."""
 
-CONNECT_WORK: Final = 98_304
+CONNECT_WORK: Final = 114_688
 """Price of a socket that is opened and begins to connect."""
 
-CONNECTED_WORK: Final = 40_960
+CONNECTED_WORK: Final = 57_344
 """Price of a connection that is seen to be there."""
 
-ACCEPT_WORK: Final = 57_344
+ACCEPT_WORK: Final = 65_536
 """Price of a connection that is taken."""
 
-OPTION_WORK: Final = 16_384
+OPTION_WORK: Final = 20_480
 """Price of an option that is set on a socket."""
 
-HEADER_WORK: Final = 65_536
+HEADER_WORK: Final = 81_920
 """Price of the header of a connection that is read, and answered."""
 
-END_WORK: Final = 49_152
+END_WORK: Final = 65_536
 """Price of a connection that is ended."""
 
-CALL_WORK: Final = 57_344
+CALL_WORK: Final = 81_920
 """Price of an XML-RPC call that is made, beside its writing."""
 
 PART_WORK: Final = 57_344
@@ -162,7 +162,8 @@ class StepBudget:
             size: bytes.
             is_fresh: whether they go to memory that is yet to be laid out.
         """
-        most = self.work // FRESH_WORK if is_fresh else self.work * self.large_share
+        work = self.work - TRANSFER_WORK if self.work > 2 * TRANSFER_WORK else self.work
+        most = work // FRESH_WORK if is_fresh else work * self.large_share
         return self._allowed(min(size, most))
 
     def take_large(self, size: int, *, is_fresh: bool = False) -> None:

@@ -194,7 +194,7 @@ class EventLoop:
             self._remove_ended()
 
     def _listen(self, now_ns: int, budget: StepBudget, news: set[int]) -> None:
-        """Let the next listener with news have its turn: one, so that a flood leaves links theirs."""
+        """Let one listener with news have its turn, so that a flood leaves links theirs."""
         count = len(self.listeners)
         for turn in range(self._listener_turn + 1, self._listener_turn + 1 + count):
             listener = self.listeners[turn % count]

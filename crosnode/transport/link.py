@@ -18,6 +18,8 @@ from crosnode.transport.budget import (
     OPTION_WORK,
     POLL_WORK,
     TRANSFER_WORK,
+    UNPACED,
+    StepBudget,
 )
 from crosnode.transport.connection import ConnectionState, Failed, Progress
 from crosnode.transport.dyn_buffer import DynBuffer
@@ -25,7 +27,6 @@ from crosnode.transport.tcpip_socket import AREA_SIZE, LARGE_PIECE, OPTIONS, Tcp
 from crosnode.transport.transitions import Transitions, next_state
 
 if TYPE_CHECKING:
-    from crosnode.transport.budget import StepBudget
     from crosnode.transport.connection import ConnectionEvent, ProtocolConnection
     from crosnode.transport.tcpip_socket import TcpipSocket
 
@@ -238,6 +239,12 @@ class PeerLink:
 
     def _move(self, trigger: LinkTrigger) -> None:
         self.state = next_state(LINK, self.state, trigger, "link")
+
+    def is_there(self, now_ns: int) -> bool:
+        """Whether the peer is connected, as seen now."""
+        if self.state is LinkState.CONNECTING:
+            self._connect(now_ns, StepBudget(UNPACED))
+        return self.state is LinkState.OPEN
 
     def _connect(self, now_ns: int, budget: StepBudget) -> bool:
         """Begin to connect, and see whether the peer is there; return whether it is."""

@@ -154,6 +154,16 @@ class ApiCaller:
         channel.keep = True
         self._connect(uri, channel, now_ns, budget)
 
+    def settle(self, now_ns: int) -> None:
+        """In the first step, end what ``open`` began and is not there yet: calls connect anew."""
+        for channel in self._channels.values():
+            link, channel.link = channel.link, None
+            if link is not None and link.is_there(now_ns):
+                channel.link = link
+            elif link is not None:
+                channel.connection = None
+                link.abort("", now_ns)
+
     def step_first(self, now_ns: int, budget: StepBudget) -> None:
         """Go before the connections in every other step, so that these cannot use up all of it."""
         self._is_first = not self._is_first

@@ -26,8 +26,8 @@ def test_what_a_node_publishes_another_receives() -> None:
     assert words(subscriber.pop) == [f"Hello {number}" for number in range(5)]
 
 
-def test_the_first_message_is_there_within_twenty_two_ticks() -> None:
-    """Master and talker have a step a millisecond here; with real ones it is there within twenty."""
+def test_the_first_message_is_there_within_twenty_four_ticks() -> None:
+    """Master and talker have a step a millisecond too; beside real ones it takes twenty at most."""
     world = World()
     talker = world.node("talker")
     publisher = talker.register_publisher("/chatter", STRING, loop_period_ns=MS)
@@ -39,7 +39,7 @@ def test_the_first_message_is_there_within_twenty_two_ticks() -> None:
             publisher.send(message)
         world.run(1)
         ticks += 1
-    assert ticks <= 22
+    assert ticks <= 24
 
 
 def test_a_run_repeats_itself_exactly() -> None:

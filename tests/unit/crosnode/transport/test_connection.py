@@ -35,9 +35,9 @@ class Example(ProtocolConnection):
     )
     TIMED: ClassVar[frozenset[ConnectionState]] = frozenset({ConnectionState.REQUEST})
     IS_PARSED: ClassVar[bool] = False
+
     def event_price(self, now_ns: int) -> int:
         return 1
-
 
     def receive_data(self, data: Data) -> None:
         raise NotImplementedError

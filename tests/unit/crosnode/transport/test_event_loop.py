@@ -83,7 +83,7 @@ def test_a_flood_of_calls_leaves_a_topic_its_turn_and_the_other_way_round() -> N
     _, alone = flood(0)
     answered, beside = flood(4)
     assert beside >= alone // 5 > 3  # one link of five, and calls come over new connections
-    assert answered > 60
+    assert answered > 20  # each in some six parts, between which the topic has its turn
 
 
 def test_a_call_for_much_is_answered_over_many_steps() -> None:

@@ -35,9 +35,9 @@ class Lines(ProtocolConnection):
         ConnectionState.CLOSED: {},
     }
     IS_PARSED: ClassVar[bool] = False
+
     def event_price(self, now_ns: int) -> int:
         return 1
-
 
     def __init__(self, farewell: bytes = b"") -> None:
         super().__init__(ConnectionState.STREAMING, 0, 0)

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crosnode.errors import LocalProtocolError, MessageValueError
+from crosnode.transport.budget import ALONE_WORK, ANSWER_WORK, COLD_PART_WORK, PART_WORK
 from crosnode.transport.connection import (
     Closed,
     ConnectionEvent,
@@ -408,9 +409,10 @@ def test_a_caller_that_names_no_host_is_served_again_and_again() -> None:
         assert sent(theirs).startswith(b"HTTP/1.1 200")
 
 
-def test_a_document_is_taken_in_three_parts_and_after_a_while_in_four() -> None:
+def test_a_document_is_taken_in_three_parts() -> None:
     ours, theirs = client_and_server_in_time()
-    for now_ns, parts in ((0, 3), (WARM_NS, 2), (3 * WARM_NS, 3), (3 * WARM_NS + 1, 2)):
+    parts = 2  # and what follows of it
+    for now_ns in (0, WARM_NS, 3 * WARM_NS, 3 * WARM_NS + 1):
         ours.call("getPid", ["/n"], now_ns)
         theirs.receive_data(sent(ours))
         assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
@@ -436,10 +438,15 @@ def test_a_document_in_parts_that_comes_byte_by_byte() -> None:
 
 def test_connections_that_share_their_last_use_warm_each_other() -> None:
     last_use = LastUse()
-    for now_ns, parts in ((0, 3), (2 * WARM_NS, 3), (2 * WARM_NS + 1, 2)):
+    cold, warm = (COLD_PART_WORK, ALONE_WORK), (PART_WORK, PART_WORK)
+    for now_ns, prices in ((0, cold), (2 * WARM_NS, cold), (2 * WARM_NS + 1, warm)):
         theirs = XmlRpcServerConnection(XmlRpcLimits(), now_ns, last_use)
         theirs.receive_data(request(GET_PID))
-        assert progress_then(theirs, now_ns) == (parts, CallReceived("getPid", ["/n"]))
+        for price in prices:
+            assert theirs.event_price(now_ns) == price
+            assert theirs.next_event(now_ns) == Progress()
+        assert theirs.event_price(now_ns) == ANSWER_WORK
+        assert theirs.next_event(now_ns) == CallReceived("getPid", ["/n"])
 
 
 def client_and_server_in_time() -> tuple[XmlRpcClientConnection, XmlRpcServerConnection]:
