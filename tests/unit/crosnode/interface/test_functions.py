@@ -110,6 +110,7 @@ def test_a_service_is_answered_and_called(site: Site) -> None:
     type_name = site.text("std_srvs/SetBool")
     ours = nodes.register_provider(context, site.node, site.text("/ours"), type_name)
     caller = site.other.register_service_caller("/ours", "std_srvs/SetBool")
+    world.run(50)  # the master knows the service
     caller.call(caller.new(data=True))
     request = 0
     for _ in range(200):
