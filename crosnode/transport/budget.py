@@ -49,10 +49,13 @@ CONNECTED_WORK: Final = 57_344
 ACCEPT_WORK: Final = 65_536
 """Price of a connection that is taken."""
 
+QUIET_WORK: Final = 98_304
+"""Work that a step has left where it does what has time, such as options behind the first."""
+
 OPTION_WORK: Final = 20_480
 """Price of an option that is set on a socket."""
 
-HEADER_WORK: Final = 81_920
+HEADER_WORK: Final = 98_304
 """Price of the header of a connection that is read, and answered."""
 
 END_WORK: Final = 65_536
@@ -68,7 +71,7 @@ COLD_PART_WORK: Final = 114_688
 """The same of the first part of one whose like was long ago: the processor reads the code for it
 from memory."""
 
-ANSWER_WORK: Final = 114_688
+ANSWER_WORK: Final = 131_072
 """Price of an XML-RPC call that is answered, behind what is read of it."""
 
 ANSWERED_WORK: Final = 65_536
@@ -146,10 +149,14 @@ class StepBudget:
 
         So even the dearest work has its turn, in a step that begins with it.
         """
-        if self.work >= price or self.work - POLL_WORK * self.polls >= self._untouched:
+        if self.may_begin(price):
             return True
         self.is_short = True
         return False
+
+    def may_begin(self, price: int) -> bool:
+        """As ``affords``, for work that is not missed where it may not."""
+        return self.work >= price or self.work - POLL_WORK * self.polls >= self._untouched
 
     def at_most(self, size: int) -> int:
         """Return how many of ``size`` bytes may be moved, by the work that is left."""

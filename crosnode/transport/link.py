@@ -17,6 +17,7 @@ from crosnode.transport.budget import (
     LARGE_WORK,
     OPTION_WORK,
     POLL_WORK,
+    QUIET_WORK,
     TRANSFER_WORK,
     UNPACED,
     StepBudget,
@@ -184,14 +185,16 @@ class PeerLink:
         budget.work -= POLL_WORK
         if self.state is LinkState.CONNECTING and not self._connect(now_ns, budget):
             return
-        if self._options == 0 or (self._options < len(OPTIONS) and not self.is_readable):
+        if self._options == 0:
             self._set_option(budget)
         self._exchange(now_ns, budget)
         if self.state is LinkState.OVER:
             budget.work -= END_WORK
+        elif self._options < len(OPTIONS) and budget.may_begin(QUIET_WORK):
+            self._set_option(budget)
 
     def _set_option(self, budget: StepBudget) -> None:
-        """Set the next option: the first before anything is said, others while nothing comes."""
+        """Set the next option: the first before anything is said, others where there is time."""
         self.socket.set_option(self._options)
         self._options += 1
         budget.work -= OPTION_WORK
