@@ -139,7 +139,7 @@ def test_a_subscriber_that_does_not_read_holds_nobody() -> None:
 def test_the_queue_drops_the_oldest() -> None:
     world = World()
     publisher = world.node("talker").register_publisher("/x", STRING, queue_size=3)
-    subscriber = world.node("listener", OTHER_IP).register_subscriber("/x", STRING)
+    subscriber = world.node("listener", OTHER_IP).register_subscriber("/x", STRING, queue_size=100)
     world.until(lambda: publisher.subscribers)
     world.run(10)  # until a step has its budget left
     for number in range(20):
