@@ -68,7 +68,8 @@ class ActionClient:
     @property
     def is_connected(self) -> bool:
         """Whether a server hears goals and cancels, and is heard."""
-        heard = self._status_in.publishers and self._result_in.publishers
+        inwards = (self._status_in, self._feedback_in, self._result_in)
+        heard = all(subscriber.publishers for subscriber in inwards)
         return bool(self._goal_out.subscribers and self._cancel_out.subscribers and heard)
 
     def send(self, **goal: object) -> ClientGoal:
