@@ -29,6 +29,7 @@ from plcsim.program.structured_text.syntax.tree import (
     StepUnit,
     TransitionUnit,
 )
+from st_types.syntax.collector import collector_paused
 from st_types.syntax.tree import VariableBlock
 
 if TYPE_CHECKING:
@@ -56,7 +57,8 @@ def with_charts(file: StructuredTextFile) -> StructuredTextFile:
     Findings go to its ``diagnostics``.
     """
     hidden = [*file.hidden]
-    units = [_without_chart(unit, file, hidden) for unit in file.units]
+    with collector_paused():
+        units = [_without_chart(unit, file, hidden) for unit in file.units]
     return replace(file, units=units, hidden=hidden)
 
 
@@ -133,7 +135,8 @@ class Chart:
         known = [
             each
             for each in by_priority
-            if all(name.name in self._numbers for name in (*each.sources, *each.targets))
+            if each.sources
+            and all(name.name in self._numbers for name in (*each.sources, *each.targets))
         ]
         self._transitions = known
         named = {each.name for each in actions if isinstance(each, ActionUnit)}
@@ -152,6 +155,7 @@ class Chart:
             "Now": make.type("TIME"),
             "Elapsed": make.type("TIME"),
             "Was": make.array(len(self._steps) or 1, "BOOL"),
+            "Left": make.array(len(self._steps) or 1, "BOOL"),
             "Fires": make.array(len(self._transitions) or 1, "BOOL"),
             **self._actions.members(make),
         }
@@ -191,8 +195,9 @@ class Chart:
 
     def _evolution(self) -> Iterator[Statement]:
         """Yield what evaluates the transitions, and fires them together."""
-        for step in self._steps:
+        for number, step in enumerate(self._steps):
             make = NodeMaker(step.at)
+            yield make.assignment(self._left(number, make), make.literal("FALSE"))
             time = make.member(step.name, "T")
             later = make.binary("+", time, make.member(self._state, "Elapsed"))
             yield make.condition(_flag(step), [make.assignment(time, later)])
@@ -204,18 +209,17 @@ class Chart:
             yield self._set(number, each, each.targets, "TRUE")
 
     def _evaluated(self, number: int, transition: TransitionUnit) -> Iterator[Statement]:
-        make, sources = NodeMaker(transition.at), _names(transition.sources)
-        earlier = [
-            other
-            for other, each in enumerate(self._transitions[:number])
-            if sources & _names(each.sources)
-        ]
-        active = [make.member(name, "X") for name in sorted(sources)]
-        free = [make.negated(self._fires(other, make)) for other in earlier]
+        """Yield what evaluates a transition, if no earlier one leaves a step that it leaves."""
+        make = NodeMaker(transition.at)
+        names = [step.name for step in transition.sources]
+        left = [self._left(self._numbers[name], make) for name in names]
+        active = [make.member(name, "X") for name in names]
+        free = [make.negated(each) for each in left]
         fires = self._fires(number, make)
+        leave = [make.assignment(each, make.literal("TRUE")) for each in left]
+        evaluate = [make.assignment(fires, transition.condition), make.condition(fires, leave)]
         yield make.assignment(fires, make.literal("FALSE"))
-        enabled = make.joined("AND", [*active, *free])
-        yield make.condition(enabled, [make.assignment(fires, transition.condition)])
+        yield make.condition(make.joined("AND", [*active, *free]), evaluate)
 
     def _set(
         self, number: int, transition: TransitionUnit, steps: Sequence[Name], value: str
@@ -250,6 +254,10 @@ class Chart:
         make = NodeMaker(self._steps[number].at)
         return make.element(make.member(self._state, "Was"), number)
 
+    def _left(self, number: int, make: NodeMaker) -> Expression:
+        """Return whether a transition leaves a step in this cycle."""
+        return make.element(make.member(self._state, "Left"), number)
+
     def _fires(self, number: int, make: NodeMaker) -> Expression:
         return make.element(make.member(self._state, "Fires"), number)
 
@@ -272,7 +280,3 @@ def _call(step: StepUnit, part: str) -> Statement:
 
 def _flag(step: StepUnit) -> Expression:
     return NodeMaker(step.at).member(step.name, "X")
-
-
-def _names(steps: Sequence[Name]) -> set[str]:
-    return {step.name for step in steps}

@@ -59,21 +59,26 @@ class StepActions:
         return {
             "Stored": make.array(self._count, "BOOL"),
             "Time": make.array(self._count, "TIME"),
+            "Reset": make.array(len(self._uses), "BOOL"),
             "Q": make.array(len(self._uses), "BOOL"),
             "WasQ": make.array(len(self._uses), "BOOL"),
         }
 
     def statements(self) -> Iterator[Statement]:
         """Yield what stores and times them, and then runs them, in the order of the text."""
-        for uses in self._uses.values():
+        for number, uses in enumerate(self._uses.values()):
+            make = _at(uses[0])
             resets = [_flag(use) for use in uses if use.association.qualifier == "R"]
+            reset = self._of("Reset", number, make)
+            if resets:
+                yield make.assignment(reset, make.joined("OR", resets))
             for use in uses:
                 if use.association.qualifier in _STORED:
-                    yield from self._stored(use, resets)
+                    yield from self._stored(use, reset)
         for number, (name, uses) in enumerate(self._uses.items()):
             yield from self._run(number, name, uses)
 
-    def _stored(self, use: _Use, resets: Sequence[Expression]) -> Iterator[Statement]:
+    def _stored(self, use: _Use, reset: Expression) -> Iterator[Statement]:
         """Yield what stores an action until it is reset, and counts the time since then."""
         make = _at(use)
         stored, time = self._of("Stored", use.number, make), self._of("Time", use.number, make)
@@ -90,9 +95,7 @@ class StepActions:
             make.assignment(time, make.literal("T#0s")),
         ]
         yield make.condition(make.binary("AND", begins, make.negated(stored)), begin)
-        if resets:
-            end = make.assignment(stored, make.literal("FALSE"))
-            yield make.condition(make.joined("OR", resets), [end])
+        yield make.condition(reset, [make.assignment(stored, make.literal("FALSE"))])
 
     def _run(self, number: int, name: str, uses: Sequence[_Use]) -> Iterator[Statement]:
         make = _at(uses[0])

@@ -190,3 +190,20 @@ def test_what_is_no_chart(text: str, expected: str) -> None:
     file = with_charts(parse_structured_text(source))
     found = [f"{each.line}:{each.column} {each.message}" for each in file.diagnostics.records]
     assert expected in found
+
+
+def test_a_transition_that_cannot_be_read_leaves_the_rest() -> None:
+    text = "PROGRAM p INITIAL_STEP A: END_STEP TRANSITION ( FROM A; END_TRANSITION END_PROGRAM"
+    file = with_charts(parse_structured_text(Source("a.st", text)))
+    assert file.diagnostics.records
+
+
+def test_many_transitions_take_memory_in_proportion() -> None:
+    transition = "TRANSITION FROM A TO A := x; END_TRANSITION\n"
+
+    def count(number: int) -> int:
+        text = f"PROGRAM p INITIAL_STEP A: END_STEP {transition * number} END_PROGRAM"
+        file = with_charts(parse_structured_text(Source("a.st", text)))
+        return repr(file.units).count("Name(")
+
+    assert count(200) < 2.5 * count(100)
