@@ -165,6 +165,11 @@ def test_functions(run):
     assert after(run("SEL(G := a, IN0 := 3, IN1 := 4)", "ST j"), "j", a=1) == 4
 
 
+def test_an_edge_of_an_edge(run):
+    running = run("LD a", "EDGEPOS", "ANDN b", "EDGEPOS", "ST x")
+    assert [after(running, "x", a=a) for a in (0, 1, 1, 0, 1)] == [0, 1, 0, 0, 1]
+
+
 def test_edges_are_functions(run):
     running = run("LD a", "EDGEPOS", "ST x")
     assert [after(running, "x", a=a) for a in (0, 1, 1, 0, 1)] == [0, 1, 0, 0, 1]

@@ -155,6 +155,12 @@ def test_edges_of_contacts_and_coils(run, kind, expected):
     assert found == [(each, each) for each in expected]
 
 
+def test_an_edge_of_an_edge(run):
+    rung = [contact("a", "positive transition"), coil("x", "positive transition")]
+    running = run(network(rung))
+    assert [cycle(running, "x", a=a) for a in (0, 1, 1, 0, 1)] == [0, 1, 0, 0, 1]
+
+
 def test_an_edge_is_seen_while_the_rung_is_open(run):
     """Each contact looks at its variable in every cycle, whatever leads to it."""
     running = run(network([contact("b"), contact("a", "positive transition"), coil("x")]))
