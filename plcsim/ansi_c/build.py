@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 from plcsim.ansi_c.inline_assembly import overlay_without_rdtsc
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
 from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
+from plcsim.ansi_c.undeclared import declarations, undeclared
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -224,6 +225,8 @@ class _Object:
         self.files: frozenset[str] = frozenset()
         self.toolchain = toolchain
         self._work = work
+        self._sources = order.sources
+        self._declared: tuple[str, ...] = ()
         self._folders = order.folders
         self._made = "\0" if order.made is None else f"{order.made}{os.sep}"
         self.command = [
@@ -240,7 +243,7 @@ class _Object:
         self._rounds = [*_ROUNDS, "-mllvm", f"-unroll-count={toolchain.rounds}"]
         self._options = order.options
         ways = [*self._rounds, *_NO_PASSES]
-        self._manifest = _key("manifest", toolchain.identity, *self.command, *ways)
+        self._manifest = _key("manifest 2", toolchain.identity, *self.command, *ways)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""
@@ -286,7 +289,7 @@ class _Object:
     def _whole_command(self) -> list[str]:
         overlay = overlay_without_rdtsc(self.source, self._work.folder)
         read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
-        return [*self.command, *read, "-MD", "-MF", str(self._dependencies)]
+        return [*self.command, *self._declared, *read, "-MD", "-MF", str(self._dependencies)]
 
     def take(self, code: int, told: str) -> None:
         """Take what a run of the compiler has told."""
@@ -302,10 +305,32 @@ class _Object:
             if not self.errors:
                 self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
 
+    def declares(self) -> bool:
+        """Declare functions that the file calls undeclared, so it can be compiled again.
+
+        Returns False where it calls none that have to be declared.
+        """
+        names = undeclared(self.warnings)
+        text = declarations(names, self._sources) if names and self._is_c else ""
+        if not text:
+            return False
+        self._header.write_text(text, "utf-8")
+        self._declared = ("-include", str(self._header))
+        self.warnings = [each for each in self.warnings if undeclared([each])]
+        self.errors = []
+        return True
+
+    @property
+    def _header(self) -> Path:
+        return self.file.with_suffix(".h")
+
     def finish(self) -> None:
         """Take what the compiler has made."""
         self.content = self.file.read_bytes()
-        self.files = frozenset([str(self.source), *_read_dependencies(self._dependencies)])
+        read = {str(self.source), *_read_dependencies(self._dependencies)}
+        if undeclared(self.warnings):
+            read |= {str(source) for source in self._sources}
+        self.files = frozenset(read - {str(self._header)})
 
     def _hash(self, file: str) -> str:
         """Return the hash of a file; "" where its name says already what is in it."""
@@ -326,6 +351,7 @@ class _Object:
 def _compile(objects: Sequence[_Object]) -> None:
     """Compile files."""
     _run(objects, _Object.command_to_bitcode)
+    _run([each for each in objects if each.declares()], _Object.command_to_bitcode)
     right = [each for each in objects if not each.errors]
     _run(right, _Object.command_to_object)
     _run([each for each in right if each.errors], _Object.command_that_tells)

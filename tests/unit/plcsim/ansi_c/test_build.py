@@ -72,6 +72,34 @@ def test_what_the_controller_s_compiler_takes_is_taken(each_toolchain, source, t
     build(BuildOrder("p", [source("a.c", text)], []), each_toolchain, CodeCache(None))
 
 
+UNDECLARED = """
+static int compare(const void *a, const void *b) { return *(const int *)a - *(const int *)b; }
+int run(char *text)
+{
+  int list[] = {3, 1, 2};
+  qsort(list, 3, sizeof(int), compare);
+  later(list[0]);
+  other(list[1]);
+  sprintf(text, "%d %s", list[0], text);
+  return (int)(2 * atof(text)) + twice(1);
+}
+void later(long x) { }
+int twice(int x) { return 2 * x; }
+"""
+
+
+def test_functions_that_are_not_declared_have_the_result_that_they_have(each_toolchain, source):
+    files = [source("a.c", UNDECLARED), source("b.c", "void other(int x) { }")]
+    built = build(BuildOrder("p", files, [INCLUDE]), each_toolchain, CodeCache(None))
+    called = read_shared(built.wasm).called
+    assert {name: (len(type_.params), type_.results) for name, type_ in called.items()} == {
+        "atof": (1, "d"),
+        "qsort": (4, ""),
+        "sprintf": (3, "i"),
+    }
+    assert any("'later'" in line for line in built.warnings)
+
+
 def test_warnings_are_kept_with_their_places(source, toolchain, tmp_path):
     file = source("a.c", "int f(void) { return undeclared(); }")
     cache = CodeCache(tmp_path / "cache")

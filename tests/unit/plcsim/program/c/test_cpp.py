@@ -89,3 +89,64 @@ def test_new_without_room_is_a_fault_with_its_line(run):
     line = next(n for n, each in enumerate(text.splitlines(), 1) if "new int[10]" in each)
     assert controller.fault.location.endswith(f"main/Main.cpp:{line}")
     assert controller.fault.reason == "the heap has no room for what new asks for"
+
+
+LIBRARY = """
+#include <bur/plctypes.h>
+#ifdef _DEFAULT_INCLUDES
+	#include <AsDefault.h>
+#endif
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+unsigned long bur_heap_size = 0xFFFF;
+static int alive;
+struct Part {
+	Part() { alive++; }
+	~Part() { alive--; }
+};
+
+void _INIT ProgramInit(void)
+{
+	std::unordered_map<std::string, int> found;
+	for (int i = 0; i < 100; i++)
+		found[std::to_string(i)] = i;
+	sum = found["7"] + found["99"] + (int)found.size();
+	std::string told = std::to_string(-4.5) + " " + std::to_string(0xFFFFFFFFu);
+	told.copy(text, sizeof text - 1);
+	size_t read;
+	number = std::stoi("12 parts", &read) + 100 * (int)read;
+	real = std::stod("2.5e2") + std::stoul("ff", nullptr, 16);
+
+	std::weak_ptr<Part> watch;
+	{
+		auto one = std::make_shared<Part>();
+		auto other = one;
+		watch = other;
+		one.reset();
+		held = watch.lock() != nullptr && alive == 1;
+	}
+	gone = watch.lock() == nullptr && alive == 0;
+}
+void _CYCLIC ProgramCyclic(void) { number = std::stoi("none"); }
+"""
+LIBRARY_VARIABLES = """
+VAR
+	sum : DINT; text : STRING[40]; number : DINT; real : LREAL; held : BOOL; gone : BOOL;
+END_VAR
+"""
+
+
+def test_containers_texts_and_owners_of_the_standard_library(run, value):
+    if not find_toolchain().cpp_options:
+        pytest.skip("this compiler has no standard library of C++")
+    files = {"main/Main.cpp": LIBRARY, "main/V.var": LIBRARY_VARIABLES}
+    controller = run(files, cycles=2)
+    assert controller.state is State.SERVICE
+    assert "none is no number" in str(controller.fault)
+    names = ("sum", "text", "number", "real", "held", "gone")
+    assert [value(controller, f"main.{name}") for name in names] == [
+        *(206, "-4.500000 4294967295", 212, 505.0),
+        *(True, True),
+    ]
