@@ -35,7 +35,7 @@ def desk() -> Desk:
             publisher.send(message)
 
     desk.world.steps.append(speak)
-    desk.world.until(lambda: publisher.subscribers)
+    desk.world.until(lambda: publisher.subscribers and talker.is_registered)
     return desk
 
 
