@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plcsim.ansi_c.inline_assembly import overlay_without_rdtsc
+from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
 from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
 from plcsim.ansi_c.undeclared import declarations, undeclared
@@ -271,6 +272,20 @@ class _Object:
     def _bitcode(self) -> Path:
         return self.file.with_suffix(".bc")  # the suffix tells the compiler what it is
 
+    @cached_property
+    def is_made_at_once(self) -> bool:
+        """Whether the first run of the compiler makes the object."""
+        try:
+            return self._is_c and seems_without_loops(self.source.read_text("latin-1"))
+        except OSError:  # the compiler will tell
+            return False
+
+    def first_command(self) -> list[str]:
+        """Return what compiles the source, to an object where no second run is expected."""
+        if self.is_made_at_once:
+            return self.command_that_tells()
+        return self.command_to_bitcode()
+
     def command_to_bitcode(self) -> list[str]:
         """Return what compiles the source."""
         return [*self._whole_command(), *_TO_BITCODE, "-o", str(self._bitcode)]
@@ -316,9 +331,24 @@ class _Object:
             return False
         self._header.write_text(text, "utf-8")
         self._declared = ("-include", str(self._header))
-        self.warnings = [each for each in self.warnings if undeclared([each])]
-        self.errors = []
+        self._begin_again()
         return True
+
+    def keeps_loops(self) -> bool:
+        """Return whether there are loops in an object that was made at once.
+
+        The file then goes through the compiler twice.
+        """
+        if self.errors or not self.is_made_at_once or not may_have_loops(self.file.read_bytes()):
+            return False
+        self.is_made_at_once = False
+        self._begin_again()
+        return True
+
+    def _begin_again(self) -> None:
+        """Forget what the next run tells again."""
+        self.warnings = [each for each in self.warnings if self._declared and undeclared([each])]
+        self.errors = []
 
     @property
     def _header(self) -> Path:
@@ -350,9 +380,10 @@ class _Object:
 
 def _compile(objects: Sequence[_Object]) -> None:
     """Compile files."""
-    _run(objects, _Object.command_to_bitcode)
-    _run([each for each in objects if each.declares()], _Object.command_to_bitcode)
-    right = [each for each in objects if not each.errors]
+    _run(objects, _Object.first_command)
+    _run([each for each in objects if each.declares()], _Object.first_command)
+    _run([each for each in objects if each.keeps_loops()], _Object.command_to_bitcode)
+    right = [each for each in objects if not each.errors and not each.is_made_at_once]
     _run(right, _Object.command_to_object)
     _run([each for each in right if each.errors], _Object.command_that_tells)
     for each in objects:
