@@ -240,11 +240,11 @@ def counted(monkeypatch):
     from plcsim.ansi_c.build import _Object
 
     compiled = []
-    command = _Object.command_to_bitcode
+    command = _Object.first_command
 
     def count(an_object):
         compiled.append(an_object.source.name)
         return command(an_object)
 
-    monkeypatch.setattr(_Object, "command_to_bitcode", count)
+    monkeypatch.setattr(_Object, "first_command", count)
     return compiled
