@@ -173,6 +173,17 @@ class ExpressionParser(TokenReader):
         """Return the keys of all tokens; declarations ask for few of them."""
         return self.key_table.keys_when_asked(self.texts)
 
+    def close(self, end: str, at: int) -> None:
+        """Step over the keyword ``end`` of what begins at token ``at``, or tell that it misses."""
+        if self.keys[self.index] == end:
+            self.index += 1
+            return
+        line = self.tokens.location(at).line
+        opened = self.texts[at].upper()
+        self.tell(
+            self.here(), f"expected {end} of the {opened} in line {line}, found {self.found()}"
+        )
+
     def expression(self) -> Expression:
         """Parse one expression.
 

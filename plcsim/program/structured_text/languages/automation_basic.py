@@ -125,7 +125,7 @@ class BasicParser(ExpressionParser):
         named = self.index
         name = self.expect_name(f"after {word}")
         body = self._body(f"END_{word}")
-        self._close(f"END_{word}", at)
+        self.close(f"END_{word}", at)
         if word == "PROGRAM":
             return ProgramUnit(named, name, [], body)
         if word == "FUNCTION":
@@ -166,17 +166,6 @@ class BasicParser(ExpressionParser):
         self.index = max(self.index, start)
         while self.text and self.text != END_OF_LINE:
             self.index += 1
-
-    def _close(self, end: str, at: int) -> None:
-        """Step over the word ``end`` of what begins at token ``at``, or tell that it is missing."""
-        if self.keys[self.index] == end:
-            self.index += 1
-            return
-        line = self.tokens.location(at).line
-        opened = self.texts[at].upper()
-        self.tell(
-            self.here(), f"expected {end} of the {opened} in line {line}, found {self.found()}"
-        )
 
     def _line(self, into: list[Statement]) -> None:
         """Parse a statement and the end of its line."""
@@ -243,7 +232,7 @@ class BasicParser(ExpressionParser):
             if self.keys[self.index] != "IF":
                 other = self._body("ENDIF")
                 break
-        self._close("ENDIF", at)
+        self.close("ENDIF", at)
         return IfStatement(at, arms, other)
 
     def _arm(self) -> Arm:
@@ -270,9 +259,9 @@ class BasicParser(ExpressionParser):
                 self.index += 1
                 self.expect(":", "after ELSEACTION")
                 other = self._body("ENDACTION")
-                self._close("ENDACTION", start)
+                self.close("ENDACTION", start)
         self._open.pop()
-        self._close("ENDCASE", at)
+        self.close("ENDCASE", at)
         return CaseStatement(at, selector, elements, other)
 
     def _after_lines(self) -> str:
@@ -295,7 +284,7 @@ class BasicParser(ExpressionParser):
             body = self._body("ENDACTION")
             if body or self.keys[self.index] != "ACTION":
                 break
-        self._close("ENDACTION", start)
+        self.close("ENDACTION", start)
         into.append(CaseElement(at, labels, body))
 
     def _label(self) -> tuple[Expression, Expression | None]:
@@ -307,7 +296,7 @@ class BasicParser(ExpressionParser):
         self.index += 1
         if self.text == END_OF_LINE or self.accept("DO"):
             body = self._body("ENDLOOP")
-            self._close("ENDLOOP", at)
+            self.close("ENDLOOP", at)
             return [NodeMaker(at).loop(NodeMaker(at).literal("TRUE"), body)]
         self._operators = 0
         variable = self._operand()
@@ -319,7 +308,7 @@ class BasicParser(ExpressionParser):
         last = self.expression()
         self.expect("DO", "after the values of LOOP")
         body = self._body("ENDLOOP")
-        self._close("ENDLOOP", at)
+        self.close("ENDLOOP", at)
         if is_down:
             return _counted_down(NodeMaker(at), variable, first, last, body)
         return [ForStatement(at, variable, first, last, None, body)]

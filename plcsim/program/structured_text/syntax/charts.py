@@ -57,7 +57,7 @@ class ChartParser(StatementParser):
         self._open.append(end)
         found = self.statements()
         self._open.pop()
-        self._close(end, at)
+        self.close(end, at)
         return found
 
     def _divided(self, written: list[Statement]) -> tuple[list[ActionAssociation], list[Statement]]:

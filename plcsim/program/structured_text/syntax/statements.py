@@ -316,17 +316,6 @@ class StatementParser(DeclarationParser):
         self.leave()
         return found
 
-    def _close(self, end: str, at: int) -> None:
-        """Step over the END keyword of what begins at token ``at``, or tell that it is missing."""
-        if self.keys[self.index] == end:
-            self.index += 1
-            return
-        line = self.tokens.location(at).line
-        opened = self.texts[at].upper()
-        self.tell(
-            self.here(), f"expected {end} of the {opened} in line {line}, found {self.found()}"
-        )
-
     def _if(self) -> Statement:
         at = self.index
         arms: list[Arm] = []
@@ -338,7 +327,7 @@ class StatementParser(DeclarationParser):
         if self.keys[self.index] == "ELSE":
             self.index += 1
             other = self._body("END_IF")
-        self._close("END_IF", at)
+        self.close("END_IF", at)
         return IfStatement(at, arms, other)
 
     def _arm(self) -> Arm:
@@ -391,7 +380,7 @@ class StatementParser(DeclarationParser):
         other = self._case_other()
         self._open.pop()
         self.leave()
-        self._close("END_CASE", at)
+        self.close("END_CASE", at)
         return CaseStatement(at, selector, elements, other)
 
     def _case_elements(self) -> list[CaseElement]:
@@ -461,7 +450,7 @@ class StatementParser(DeclarationParser):
             self.depth = depth
             variable, first, last, step = Name(at, ""), Name(at, ""), Name(at, ""), None
         body = self._body("END_FOR")
-        self._close("END_FOR", at)
+        self.close("END_FOR", at)
         return ForStatement(at, variable, first, last, step, body)
 
     def _for_head(self) -> tuple[Expression, Expression, Expression, Expression | None]:
@@ -483,7 +472,7 @@ class StatementParser(DeclarationParser):
         self.index += 1
         condition = self._before("DO", "after the condition")
         body = self._body("END_WHILE")
-        self._close("END_WHILE", at)
+        self.close("END_WHILE", at)
         return WhileStatement(at, condition, body)
 
     def _repeat(self) -> Statement:
@@ -498,7 +487,7 @@ class StatementParser(DeclarationParser):
         condition = self.expression()
         while self.accept(";"):
             pass
-        self._close("END_REPEAT", at)
+        self.close("END_REPEAT", at)
         return RepeatStatement(at, body, condition)
 
     def _exit(self) -> Statement:

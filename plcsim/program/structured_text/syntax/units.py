@@ -190,7 +190,7 @@ class UnitParser(ChartParser):
             else:
                 break
         self._open.pop()
-        self._close(end, at)
+        self.close(end, at)
         return blocks, body, parts
 
     def _part(self, into: list[Part]) -> None:
@@ -282,7 +282,7 @@ class UnitParser(ChartParser):
             declaration = FunctionDeclaration(named, name, result, blocks)
             found.append(MethodUnit(named, declaration, body, (*words, accessor)))
             self.accept(";")
-        self._close("END_PROPERTY", at)
+        self.close("END_PROPERTY", at)
         return found
 
     def _interface(self, into: list[Unit]) -> None:
@@ -294,7 +294,7 @@ class UnitParser(ChartParser):
         while self.keys[self.index] in ("METHOD", "PROPERTY"):
             self._part(found)
             self.accept(";")
-        self._close("END_INTERFACE", at)
+        self.close("END_INTERFACE", at)
 
     def _namespace(self, into: list[Unit]) -> None:
         at = self.index
@@ -307,7 +307,7 @@ class UnitParser(ChartParser):
                 break
             self._unit(into)
         self.leave()
-        self._close("END_NAMESPACE", at)
+        self.close("END_NAMESPACE", at)
 
     # Configurations.
 
@@ -338,7 +338,7 @@ class UnitParser(ChartParser):
                 break
             found.blocks = [*found.blocks, *blocks]
         self.leave()
-        self._close(end, at)
+        self.close(end, at)
         found.processor = processor
         return found
 
