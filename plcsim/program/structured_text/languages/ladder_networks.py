@@ -11,6 +11,8 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, Literal, cast
 
+from plcsim.program.structured_text.codes import FindingCode
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -56,6 +58,11 @@ _ATTRIBUTES: Final = {
     "output": frozenset(["name"]),
 }
 _VALUES: Final = {key: re.compile(rf"\s{key}\s*=\s*[\"']") for key in ("name", "type")}
+_CHANGES: Final = re.compile(
+    r"neg|inv|not|edge|trans|rising|falling|able|comment|type|expr|value|order|prio", re.IGNORECASE
+)
+"""Part of the name of an attribute that may change what a network does."""
+
 _NOT_SET: Final = frozenset(["", "0", "false"])
 _SET: Final = frozenset(["1", "true"])
 
@@ -141,7 +148,7 @@ class LadderNetwork:
 
 
 class NetworkReader:
-    """Makes networks of elements; what it does not know is an error.
+    """Makes networks of elements; an element that it does not know is an error.
 
     Args:
         text: the file.
@@ -274,13 +281,21 @@ class NetworkReader:
         return self._tokens.operand(start, value)
 
     def _checked(self, element: XmlElement, place: int) -> None:
-        """Tell of attributes that are not known and say something."""
+        """Tell of attributes that are not known and say something.
+
+        One that may change what the network does is an error; another, such as a width, a warning.
+        """
         known = _ATTRIBUTES.get(element.tag, frozenset())
         for key, value in element.attributes.items():
             is_known = key in known or key.startswith("xmlns") or value.lower() in _NOT_SET
-            if element.tag in _ATTRIBUTES and not is_known:
-                message = f"the attribute {key}={value!r} of <{element.tag}> is not known"
+            if is_known or element.tag not in _ATTRIBUTES:
+                continue
+            message = f"the attribute {key}={value!r} of <{element.tag}> is not known"
+            if _CHANGES.search(key):
                 self._fail(place, message)
+            else:
+                code = FindingCode.NOT_SUPPORTED
+                self._diagnostics.warning(place, self._told(message), "", code)
 
     def _is_set(self, element: XmlElement, key: str, place: int) -> bool:
         value = element.get(key).strip().lower()
@@ -295,8 +310,11 @@ class NetworkReader:
         return self._offset
 
     def _fail(self, offset: int, message: str) -> None:
-        where = f"network {self._number}: " if self._number else ""
-        self._diagnostics.error(offset, f"{where}{message}")
+        self._diagnostics.error(offset, self._told(message))
+
+    def _told(self, message: str) -> str:
+        """Return a message with the number of the network."""
+        return f"network {self._number}: {message}" if self._number else message
 
 
 def _is_whole(block: LadderBlock | None) -> bool:

@@ -501,6 +501,15 @@ def test_what_is_not_known_is_told_with_its_place(networks, line, told):
     assert records[-1].line in (line, line + 1)
 
 
+def test_an_attribute_of_the_editor_is_a_warning():
+    text = ladder(network([contact("a", more=' width="3"'), coil("x")], head='zoom="90"'))
+    records = parse_units(Source("Main.ld", text)).diagnostics.records
+    assert [(each.severity, each.message) for each in records] == [
+        ("warning", "network 1: the attribute zoom='90' of <network> is not known"),
+        ("warning", "network 1: the attribute width='3' of <contact> is not known"),
+    ]
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
