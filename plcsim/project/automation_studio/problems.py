@@ -5,6 +5,9 @@ from __future__ import annotations
 from pathlib import PureWindowsPath
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.library import SUFFIXES_OF_C
+from plcsim.program.structured_text import names
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
     from pathlib import Path
@@ -12,18 +15,19 @@ if TYPE_CHECKING:
     from plcsim.project.automation_studio.finding import Finding
     from plcsim.project.automation_studio.reader import AutomationStudioProject, ProgramTask
 
+_SHORT: Final = {
+    "Function Block Diagram": "FBD",
+    "Instruction List": "IL",
+    "Ladder Diagram": "Ladder",
+    "Sequential Function Chart": "SFC",
+    "Structured Text": "ST",
+}
+"""Names as Automation Studio's users say them, for a narrow table."""
+
 LANGUAGES: Final = {
-    ".ab": "Automation Basic",
+    **{suffix: _SHORT.get(name, name) for suffix, name in names.LANGUAGES.items()},
+    **dict.fromkeys(SUFFIXES_OF_C, "C++"),
     ".c": "C",
-    ".cc": "C++",
-    ".cfc": "CFC",
-    ".cpp": "C++",
-    ".cxx": "C++",
-    ".fbd": "FBD",
-    ".il": "IL",
-    ".ld": "Ladder",
-    ".sfc": "SFC",
-    ".st": "ST",
 }
 """Languages of programs by the suffixes of their files, in small letters."""
 
