@@ -16,7 +16,13 @@ from plcsim.library.astime.interface import (
     timREAL_TIME_CLOCK,
 )
 from plcsim.library.astime.settings import AsTimeSettings
-from plcsim.library.astime.structures import NS_PER_SECOND, date_of, read_date, write_date
+from plcsim.library.astime.structures import (
+    DATE_AND_TIME_LAST,
+    NS_PER_SECOND,
+    date_of,
+    read_date,
+    write_date,
+)
 from plcsim.library.block import AsynchronousBlock, SynchronousBlock
 from plcsim.library.runtime import ERR_OK
 
@@ -55,7 +61,7 @@ class _Setter(SynchronousBlock):
         if not address:
             return timERR_INVALID_PARAMETER
         date_ns = read_date(self.context, address)
-        if date_ns is None:
+        if date_ns is None or date_ns // NS_PER_SECOND > _LAST_SECOND:
             return timERR_INVALID_DTSTRUCTURE
         return self._set_ns(date_ns, option)
 
@@ -194,7 +200,9 @@ class _Converter(AsynchronousBlock):
         if date_ns is None:
             return timERR_INVALID_DTSTRUCTURE, 0
         seconds = (date_ns + self._sign * _offset_ns(self.context)) // NS_PER_SECOND
-        return (ERR_OK, seconds) if seconds >= 0 else (timERR_INVALID_PARAMETER, 0)
+        if not 0 <= seconds <= DATE_AND_TIME_LAST:
+            return timERR_INVALID_PARAMETER, 0
+        return ERR_OK, seconds
 
 
 class UtcDT_TO_LocalDTStructure(interface.UtcDT_TO_LocalDTStructure, _Converter):  # noqa: N801  # the controller's name

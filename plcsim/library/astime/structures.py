@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Final
 
-from plcsim.library.astime.interface import DATE_AND_TIME_MAX, DTStructure, TIMEStructure
+from plcsim.library.astime.interface import DTStructure, TIMEStructure
 from plcsim.library.executable import function
 
 if TYPE_CHECKING:
@@ -13,6 +13,10 @@ if TYPE_CHECKING:
 
 NS_PER_SECOND: Final = 1_000_000_000
 NS_PER_US: Final = 1000
+
+DATE_AND_TIME_LAST: Final = 0xFFFF_FFFF
+"""Seconds since 1970 of the last DATE_AND_TIME, 2106-02-07 06:28:15. It can be converted, as tests
+of public projects have it on controllers; a clock goes to DATE_AND_TIME_MAX, the end of 2099."""
 
 _EPOCH: Final = datetime(1970, 1, 1, tzinfo=UTC)
 _MS_PER_UNIT: Final = (86_400_000, 3_600_000, 60_000, 1000)
@@ -55,7 +59,7 @@ def read_date(context: Context, address: int) -> int | None:
     except ValueError:
         return None
     seconds = int((date - _EPOCH).total_seconds())
-    if not 0 <= seconds <= DATE_AND_TIME_MAX or max(found.millisec, found.microsec) > 999:
+    if not 0 <= seconds <= DATE_AND_TIME_LAST or max(found.millisec, found.microsec) > 999:
         return None
     return seconds * NS_PER_SECOND + (found.millisec * 1000 + found.microsec) * NS_PER_US
 

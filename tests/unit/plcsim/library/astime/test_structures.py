@@ -13,6 +13,7 @@ DATES = {
     951_782_400: (2000, 2, 29, 2, 0, 0, 0),
     1_774_936_800: (2026, 3, 31, 2, 6, 0, 0),
     DATE_AND_TIME_MAX: (2099, 12, 31, 4, 23, 59, 59),
+    0xFFFF_FFFF: (2106, 2, 7, 0, 6, 28, 15),
 }
 DAY_MS = 86_400_000
 
@@ -42,7 +43,7 @@ def test_a_date_is_taken_apart_and_put_together(plc, seconds):
         {"hour": 24},
         {"second": 60},
         {"year": 1969},
-        {"year": 2100},
+        {"year": 2107},
         {"millisec": 1000},
         {"microsec": 1000},
     ],
