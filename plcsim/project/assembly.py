@@ -26,6 +26,7 @@ from plcsim.program.fault import location_of
 from plcsim.program.loader import Loaded, ProgramLoader
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
 from plcsim.project.automation_studio import problems
+from plcsim.project.automation_studio.alarms import read_alarms
 from plcsim.project.automation_studio.file_devices import file_devices
 from plcsim.project.automation_studio.io_channels import (
     channels_type,
@@ -253,7 +254,7 @@ def _load(
     settings: list[object] = []
     catalogue = loader.declarations.catalogue
     with findings.gathered():
-        settings = [*catalogue.read_settings(project.libraries), *_made_devices(project)]
+        settings = [*catalogue.read_settings(project.libraries), *_settings_of(project)]
     loaded = Loaded({}, (), {})
     with findings.gathered():
         loaded = loader.load_each() if project.keep_going else Loaded(loader.load(), (), {})
@@ -285,13 +286,16 @@ def _load(
     )
 
 
-def _made_devices(project: Project) -> list[MadeDevices]:
-    """Return the file devices of Hardware.hw, for FileIO."""
+def _settings_of(project: Project) -> list[object]:
+    """Return what libraries find in the files of an Automation Studio project."""
     found = project.automation_studio
     if found is None:
         return []
     named = found.configuration.hardware.file_devices
-    return [MadeDevices(file_devices(named, project.folder.resolve()))]
+    return [
+        MadeDevices(file_devices(named, project.folder.resolve())),
+        read_alarms(variable.file for variable in found.mapp_variables),
+    ]
 
 
 def _setup(project: Project, codes: Mapping[str, ProgramCode]) -> Setup:

@@ -9,19 +9,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
+from plcsim.library.members import BlockVariables, StructMembers, changes
 from plcsim.library.motion.axis import NO_AXIS, CommandStatus, MotionCommand, axes_of
-from plcsim.library.motion.members import BlockVariables, StructMembers
 from plcsim.library.motion.profile import MotionLimits
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from plcsim.core.context import Context
+    from plcsim.library.members import FindType
     from plcsim.library.motion.axis import Axes, Axis
     from st_types.types.derived import StructType
-    from st_types.types.elementary import DataType
-
-    FindType = Callable[[str], DataType[Any] | None]
 
 DEFAULT: Final = MotionLimits(1_000.0, 5_000.0, 5_000.0)
 """Limits of an axis, for parameters that are 0."""
@@ -66,25 +62,10 @@ class MotionBlock:
 
 
 class _Calls:
-    """Commands and last inputs of blocks, by their addresses; a restart forgets them."""
+    """Commands of blocks, by their addresses; a restart forgets them."""
 
     def __init__(self, _context: Context) -> None:
         self.commands: dict[int, MotionCommand] = {}
-        self.inputs: dict[tuple[int, str], int] = {}
-
-
-def changes(context: Context, address: int, name: str, value: int) -> bool:
-    """Whether an input of a block has another value than in the call before; 0 before the first."""
-    inputs = context.library(_Calls).inputs
-    before = inputs.get((address, name), 0)
-    inputs[address, name] = value
-    return before != value
-
-
-def rises(context: Context, address: int, variables: BlockVariables, name: str) -> bool:
-    """Whether an input of a block is TRUE and was not in the call before."""
-    value = variables.is_true(name)
-    return changes(context, address, name, value) and value
 
 
 def command_of(context: Context, address: int) -> MotionCommand | None:

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from plcsim.core.context import Context
-    from plcsim.library.motion.block import FindType, MotionBlock
+    from plcsim.library.members import FindType
+    from plcsim.library.motion.block import MotionBlock
     from st_types.types.derived import DataBlockType
 
 LANGUAGE: Final = "model"

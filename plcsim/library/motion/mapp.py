@@ -4,25 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
+from plcsim.library.members import BlockVariables, changes, referred, rises
 from plcsim.library.motion.axis import NO_AXIS, AxisState, CommandStatus
 from plcsim.library.motion.block import (
     MotionBlock,
-    changes,
     command_of,
     forget_command,
     give_command,
     limits_of,
-    rises,
 )
-from plcsim.library.motion.members import BlockVariables, referred
 from plcsim.library.motion.plcopen import NEGATIVE, jog
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.core.context import Context
+    from plcsim.library.members import FindType
     from plcsim.library.motion.axis import Axis
-    from plcsim.library.motion.block import FindType
     from st_types.types.derived import StructType
 
 MOVES: Final = ("MoveVelocity", "MoveAbsolute", "MoveAdditive")

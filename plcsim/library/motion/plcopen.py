@@ -8,24 +8,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
+from plcsim.library.members import BlockVariables, StructMembers, changes
 from plcsim.library.motion.axis import NO_AXIS, AxisState
 from plcsim.library.motion.block import (
     EnableBlock,
     ExecuteBlock,
     MotionBlock,
-    changes,
     give_command,
     limits_of,
 )
-from plcsim.library.motion.members import BlockVariables, StructMembers
 from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.core.context import Context
+    from plcsim.library.members import FindType
     from plcsim.library.motion.axis import Axis, MotionCommand
-    from plcsim.library.motion.block import FindType
 
 NEGATIVE: Final = 1
 """mcNEGATIVE_DIR, mcDIR_NEGATIVE."""

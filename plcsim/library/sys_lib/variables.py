@@ -69,16 +69,21 @@ def _find(context: Context, p_name: int) -> Tag | int:
     name = name_at(context, p_name)
     if name is None:
         return ERR_BUR_TOOLONG_PVNAME
-    program, separator, rest = name.partition(":")
+    return find_variable(context, name) or ERR_BUR_NOENTRY
+
+
+def find_variable(context: Context, name: str) -> Tag | None:
+    """Return a variable by ``task:variable`` or the name of a global one, None for no such name.
+
+    ``::`` before either is left out.
+    """
+    program, separator, rest = name.removeprefix("::").partition(":")
     if separator and not rest:
-        return ERR_BUR_NOENTRY
-    if separator and program and not rest.startswith(":"):
-        path = f"{program}.{rest}"
-    else:
-        path = f"::{name.lstrip(':')}"
+        return None
+    is_local = separator and program and not rest.startswith(":")
+    path = f"{program}.{rest}" if is_local else f"::{name.lstrip(':')}"
     controller = Controller.of(context)
-    found = None if controller is None else controller.tags.get(path)
-    return ERR_BUR_NOENTRY if found is None else found
+    return None if controller is None else controller.tags.get(path)
 
 
 def type_code(data_type: DataType[Any]) -> int:

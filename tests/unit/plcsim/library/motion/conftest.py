@@ -4,8 +4,8 @@ import pytest
 
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
+from plcsim.library.members import StructMembers
 from plcsim.library.motion.body import motion_body
-from plcsim.library.motion.members import StructMembers
 from st_types import BOOL, DINT, LREAL, REAL, UDINT, UINT, USINT
 from st_types.types.derived import DataBlockType, Member, Section, StructType
 

@@ -5,15 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from st_types.types.derived import (
+    ArrayType,
     EnumerationType,
     ReferenceType,
+    StringType,
     StructType,
+    WStringType,
     resolve_alias,
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from plcsim.core.context import Context
     from plcsim.core.memory import Memory
     from st_types.types.elementary import DataType
+
+    FindType = Callable[[str], DataType[Any] | None]
 
 
 class MemberPlace(NamedTuple):
@@ -80,12 +88,39 @@ class BlockVariables:
         """Return the first of some addresses that is not 0."""
         return next((int(found) for name in names if (found := self.number(name))), 0)
 
-    def set(self, **values: float) -> None:
+    def set(self, **values: float | str) -> None:
         """Write values; what the structure does not have is left out."""
         for name, value in values.items():
             place = self._members.find(name.replace("__", "."))
             if place is not None:
-                self._memory.set(place.data_type, self._address + place.offset, value)
+                at = self._address + place.offset
+                self._memory.set(place.data_type, at, fitting(place.data_type, value))
+
+    def text(self, name: str, limit: int = 255) -> str:
+        """Return the text at the address that an input holds, "" for address 0.
+
+        Raises:
+            PageFault: the address is wild.
+        """
+        address = self.address(name)
+        return self._memory.string(address, limit + 1).decode("latin-1") if address else ""
+
+    def set_element(self, name: str, index: int, value: float | str) -> None:
+        """Write an element of an ARRAY, counted from 0; what is not there is left out."""
+        place = self._members.find(name)
+        if place is None or not isinstance(place.data_type, ArrayType):
+            return
+        element = resolve_alias(place.data_type.element)
+        if (index + 1) * element.size <= place.data_type.size:
+            at = self._address + place.offset + index * element.size
+            self._memory.set(element, at, fitting(element, value))
+
+    def count_of(self, name: str) -> int:
+        """Return the number of elements of an ARRAY, 0 where there is none."""
+        place = self._members.find(name)
+        if place is None or not isinstance(place.data_type, ArrayType):
+            return 0
+        return place.data_type.size // resolve_alias(place.data_type.element).size
 
     def set_enumeration(self, name: str, ending: str) -> None:
         """Write the value of an enumeration whose name ends so, where it has one."""
@@ -96,6 +131,34 @@ class BlockVariables:
             if key.upper().endswith(ending):
                 self._memory.set(place.data_type, self._address + place.offset, value)
                 return
+
+
+def fitting(data_type: DataType[Any], value: float | str) -> float | str:
+    """Return a value as a variable takes it: a text not longer than it has room for."""
+    if isinstance(value, str) and isinstance(data_type, StringType | WStringType):
+        return value[: data_type.length]
+    return value
+
+
+class _Inputs:
+    """Last inputs of blocks, by their addresses; a restart forgets them."""
+
+    def __init__(self, _context: Context) -> None:
+        self.last: dict[tuple[int, str], int] = {}
+
+
+def changes(context: Context, address: int, name: str, value: int) -> bool:
+    """Whether an input of a block has another value than in the call before; 0 before the first."""
+    inputs = context.library(_Inputs).last
+    before = inputs.get((address, name), 0)
+    inputs[address, name] = value
+    return before != value
+
+
+def rises(context: Context, address: int, variables: BlockVariables, name: str) -> bool:
+    """Whether an input of a block is TRUE and was not in the call before."""
+    value = variables.is_true(name)
+    return changes(context, address, name, value) and value
 
 
 def referred(data_type: StructType[Any], name: str) -> StructMembers | None:

@@ -1,0 +1,1 @@
+"""Models of components of mapp Services, behind whatever declarations a project brings of them."""

@@ -1,0 +1,202 @@
+"""The blocks of MpAlarmX: the core, commands to alarms, and the list for the operator."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.library.mapp.block import MappBlock
+from plcsim.library.mapp.errors import (
+    ACK_NOT_ALLOWED,
+    ALARM_NOT_ACTIVE,
+    MISSING_UICONNECT,
+    NAME_NOT_FOUND,
+)
+from plcsim.library.mapp.links import links_of
+from plcsim.library.mapp.monitoring import AlarmMonitor
+from plcsim.library.members import BlockVariables, referred, rises
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from plcsim.core.context import Context
+    from plcsim.library.mapp.alarms import AlarmCore, PendingAlarm
+    from plcsim.library.members import FindType
+    from st_types.types.derived import StructType
+
+NS_PER_SECOND: Final = 1_000_000_000
+NS_PER_MS: Final = 1_000_000
+
+
+class _Monitors:
+    """What looks at the variables of each core."""
+
+    def __init__(self, _context: Context) -> None:
+        self.by_core: dict[AlarmCore, AlarmMonitor] = {}
+
+
+class AlarmBlock(MappBlock):
+    """A block that knows a core of alarms."""
+
+    def call(self, address: int, variables: BlockVariables, link: int) -> None:
+        """Run one call."""
+        core = links_of(self.context).at(link)
+        assert core is not None  # the link is not 0
+        self.act(address, variables, core)
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Run one call on the core."""
+        raise NotImplementedError(type(self).__name__)
+
+    def fail(self, variables: BlockVariables, status: int) -> None:
+        """Show an error."""
+        variables.set(Error=True, StatusID=status)
+
+
+class Core(AlarmBlock):
+    """MpAlarmXCore: counts alarms, and sets those that variables stand for."""
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Look at the variables, and count."""
+        monitors = self.context.library(_Monitors).by_core
+        if core not in monitors:
+            monitors[core] = AlarmMonitor(self.context, core)
+        monitors[core].look()
+        if rises(self.context, address, variables, "AcknowledgeAll"):
+            core.acknowledge(core.pending)
+        variables.set(
+            ActiveAlarms=sum(1 for _ in core.active),
+            PendingAlarms=len(core.pending),
+            UnacknowledgedAlarms=sum(1 for _ in core.unacknowledged),
+            CommandDone=variables.is_true("AcknowledgeAll"),
+        )
+
+    def rest(self, address: int, variables: BlockVariables) -> None:
+        """Count nothing."""
+        super().rest(address, variables)
+        variables.set(ActiveAlarms=0, PendingAlarms=0, UnacknowledgedAlarms=0)
+
+
+class AcknowledgeAll(AlarmBlock):
+    """MpAlarmXAcknowledgeAll: at a rising edge of Execute."""
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Acknowledge."""
+        if rises(self.context, address, variables, "Execute"):
+            core.acknowledge(core.pending)
+        variables.set(
+            CommandDone=variables.is_true("Execute"),
+            Info__UnacknowledgedAlarms=sum(1 for _ in core.unacknowledged),
+        )
+
+
+class AlarmControl(AlarmBlock):
+    """MpAlarmXAlarmControl: one alarm, by Name, or by ID where that is not 0."""
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Take commands at their rising edges."""
+        edges = [
+            name
+            for name in ("Set", "Reset", "Acknowledge", "Confirm")
+            if rises(self.context, address, variables, name)
+        ]
+        status = 0
+        for edge in edges:
+            status = self._take(edge, variables, core) or status
+        if not edges and not self._is_asked(variables):
+            variables.set(CommandDone=False)
+        elif edges:
+            variables.set(CommandDone=status == 0)
+        if status:
+            self.fail(variables, status)
+
+    @staticmethod
+    def _is_asked(variables: BlockVariables) -> bool:
+        return any(map(variables.is_true, ("Set", "Reset", "Acknowledge", "Confirm")))
+
+    def _take(self, edge: str, variables: BlockVariables, core: AlarmCore) -> int:
+        """Take a command; return the status."""
+        name, ident = variables.text("Name"), int(variables.number("ID"))
+        if edge == "Set":
+            made = core.set(name, self.context.date_ns)
+            variables.set(InstanceID=made)
+            return 0 if made else NAME_NOT_FOUND
+        found = core.numbered(ident) if ident else core.named(name)
+        if not found:
+            return ALARM_NOT_ACTIVE
+        if edge == "Reset":
+            core.reset(found)
+        elif edge == "Acknowledge" and not core.acknowledge(found):
+            return ACK_NOT_ALLOWED
+        return 0
+
+
+class ListUI(AlarmBlock):
+    """MpAlarmXListUI: the pending alarms at UIConnect, the latest first."""
+
+    def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
+        super().__init__(data_type, context, find_type)
+        self._connect = referred(data_type, "UIConnect")
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Take what the operator asks for, and show the list."""
+        at = variables.address("UIConnect")
+        if not at or self._connect is None:
+            variables.set(StatusID=MISSING_UICONNECT)
+            return
+        screen = BlockVariables(self.context.memory, self._connect, at)
+        room = screen.count_of("AlarmList.Name")
+        size = int(variables.number("UISetup.AlarmListSize")) or room
+        shown = core.pending[::-1][: min(size, room)]
+        self._take(at, screen, core, shown)
+        shown = [each for each in shown if each in core.pending]
+        for index in range(min(size, room)):
+            self._show(screen, index, shown[index] if index < len(shown) else None)
+        screen.set(AlarmList__MaxSelection=max(len(shown) - 1, 0))
+
+    def _take(
+        self, at: int, screen: BlockVariables, core: AlarmCore, shown: list[PendingAlarm]
+    ) -> None:
+        """Acknowledge what is selected, or all; the commands are taken back."""
+        context = self.context
+        if rises(context, at, screen, "AcknowledgeAll"):
+            core.acknowledge(core.pending)
+        selected = int(screen.number("AlarmList.SelectedIndex"))
+        if rises(context, at, screen, "Acknowledge") and selected < len(shown):
+            core.acknowledge([shown[selected]])
+        ident = int(screen.number("AcknowledgeID"))
+        if ident:
+            core.acknowledge(core.numbered(ident))
+        screen.set(Acknowledge=False, AcknowledgeAll=False, AcknowledgeID=0)
+
+    @staticmethod
+    def _show(screen: BlockVariables, index: int, pending: PendingAlarm | None) -> None:
+        alarm = None if pending is None else pending.alarm
+        line: dict[str, float | str] = {
+            "Severity": 0 if alarm is None else alarm.severity,
+            "Code": 0 if alarm is None else alarm.code,
+            "Message": "" if alarm is None else alarm.message,
+            "Name": "" if alarm is None else alarm.name,
+            "InstanceID": 0 if pending is None else pending.ident,
+            "StateActive": pending is not None and pending.is_active,
+            "StateAcknowledged": pending is not None and not pending.waits_for_acknowledgement,
+            "Timestamp": "" if pending is None else _date_text(pending.set_ns),
+        }
+        for name, value in line.items():
+            screen.set_element(f"AlarmList.{name}", index, value)
+
+
+def _date_text(date_ns: int) -> str:
+    """Return a date as UISetup.TimeStampPattern has it unless it is set: with milliseconds."""
+    seconds, rest_ns = divmod(date_ns, NS_PER_SECOND)
+    moment = datetime.fromtimestamp(seconds, UTC)
+    return f"{moment:%Y-%m-%d %H:%M:%S}:{rest_ns // NS_PER_MS:03}"
+
+
+BLOCKS: Final[Mapping[str, type[MappBlock]]] = {
+    "MpAlarmXCore": Core,
+    "MpAlarmXAcknowledgeAll": AcknowledgeAll,
+    "MpAlarmXAlarmControl": AlarmControl,
+    "MpAlarmXListUI": ListUI,
+}
+"""What runs the blocks by their names."""

@@ -1,0 +1,125 @@
+"""The functions of MpAlarmX: they take an MpLink and an alarm, by its name or its number."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any, Final
+
+from plcsim.library.mapp.errors import ACK_NOT_ALLOWED, ALARM_NOT_ACTIVE, MPLINK_NULL, NO_ERROR
+from plcsim.library.mapp.links import links_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from plcsim.core.context import Context
+    from plcsim.library.mapp.alarms import AlarmCore, PendingAlarm
+
+    Find = Callable[[Context, AlarmCore, int], list[PendingAlarm]]
+
+LONGEST_NAME: Final = 255
+
+
+class _State(IntEnum):
+    """MpAlarmXStateEnum; no alarm here is to be confirmed."""
+
+    NONE = 0
+    ACTIVE = 1
+    INACTIVE = 2
+    ACKNOWLEDGED = 3
+    UNACKNOWLEDGED = 4
+    CONFIRMED = 5
+
+
+def _name(context: Context, address: int) -> str:
+    return context.memory.string(address, LONGEST_NAME + 1).decode("latin-1")
+
+
+def _named(context: Context, core: AlarmCore, p_name: int) -> list[PendingAlarm]:
+    return core.named(_name(context, p_name))
+
+
+def _numbered(_context: Context, core: AlarmCore, ident: int) -> list[PendingAlarm]:
+    return core.numbered(ident)
+
+
+def set_alarm(context: Context, p_link: int, p_name: int) -> int:
+    """MpAlarmXSet: return the number of the instance, 0 where there is no such alarm."""
+    core = links_of(context).at(p_link)
+    return 0 if core is None else core.set(_name(context, p_name), context.date_ns)
+
+
+def _reset(find: Find) -> Callable[[Context, int, int], int]:
+    """MpAlarmXReset, MpAlarmXResetID."""
+
+    def reset(context: Context, p_link: int, alarm: int) -> int:
+        core = links_of(context).at(p_link)
+        if core is None:
+            return MPLINK_NULL
+        found = find(context, core, alarm)
+        core.reset(found)
+        return NO_ERROR if found else ALARM_NOT_ACTIVE
+
+    return reset
+
+
+def _acknowledge(find: Find) -> Callable[[Context, int, int], int]:
+    """MpAlarmXAcknowledge, MpAlarmXAcknowledgeID."""
+
+    def acknowledge(context: Context, p_link: int, alarm: int) -> int:
+        core = links_of(context).at(p_link)
+        if core is None:
+            return MPLINK_NULL
+        found = find(context, core, alarm)
+        if not found:
+            return ALARM_NOT_ACTIVE
+        return NO_ERROR if core.acknowledge(found) else ACK_NOT_ALLOWED
+
+    return acknowledge
+
+
+def _check(find: Find) -> Callable[[Context, int, int, int], bool]:
+    """MpAlarmXCheckState, MpAlarmXCheckStateID."""
+
+    def check(context: Context, p_link: int, alarm: int, state: int) -> bool:
+        core = links_of(context).at(p_link)
+        found = [] if core is None else find(context, core, alarm)
+        return any(_has_state(each, state) for each in found) if found else state == _State.NONE
+
+    return check
+
+
+def _has_state(pending: PendingAlarm, state: int) -> bool:
+    match state:
+        case _State.ACTIVE:
+            return pending.is_active
+        case _State.INACTIVE:
+            return not pending.is_active
+        case _State.ACKNOWLEDGED:
+            return not pending.waits_for_acknowledgement
+        case _State.UNACKNOWLEDGED:
+            return pending.waits_for_acknowledgement
+        case _:
+            return state == _State.CONFIRMED
+
+
+def check_reaction(context: Context, p_link: int, p_name: int) -> bool:
+    """MpAlarmXCheckReaction: whether an alarm has it here, or escalates it from another core."""
+    links = links_of(context)
+    core, name = links.at(p_link), _name(context, p_name)
+    if core is None:
+        return False
+    others = (each for each in links if each is not core)
+    return core.reacts(name) or any(each.reacts(name, is_escalated=True) for each in others)
+
+
+FUNCTIONS: Final[Mapping[str, Callable[..., Any]]] = {
+    "MpAlarmXSet": set_alarm,
+    "MpAlarmXReset": _reset(_named),
+    "MpAlarmXResetID": _reset(_numbered),
+    "MpAlarmXAcknowledge": _acknowledge(_named),
+    "MpAlarmXAcknowledgeID": _acknowledge(_numbered),
+    "MpAlarmXCheckState": _check(_named),
+    "MpAlarmXCheckStateID": _check(_numbered),
+    "MpAlarmXCheckReaction": check_reaction,
+}
+"""What runs the functions by their names: with the context, then their parameters."""

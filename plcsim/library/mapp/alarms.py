@@ -1,0 +1,163 @@
+"""Alarms of one core: which are active, which are pending, and which reactions there are.
+
+An alarm is set, then reset. It is pending until it is inactive and, where somebody has to, was
+acknowledged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from plcsim.library.mapp.configuration import (
+    Acknowledgement,
+    AlarmBehavior,
+    AlarmConfiguration,
+    AlarmCoreConfiguration,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+MOST_PENDING: Final = 500
+"""Alarms of a core that are pending at a time; what is beyond is not set."""
+
+
+@dataclass(slots=True, eq=False)
+class PendingAlarm:
+    """An alarm that is active, or is not yet acknowledged.
+
+    Attributes:
+        ident: number of this instance, from 1 on.
+        alarm: its configuration.
+        set_ns: date when it was set last, nanoseconds since 1970.
+        is_active: whether it is.
+        is_acknowledged: likewise.
+    """
+
+    ident: int
+    alarm: AlarmConfiguration
+    set_ns: int
+    is_active: bool = True
+    is_acknowledged: bool = False
+
+    @property
+    def waits_for_acknowledgement(self) -> bool:
+        """Whether somebody has to acknowledge it."""
+        required = self.alarm.behavior.acknowledgement is not Acknowledgement.DISABLED
+        return required and not self.is_acknowledged
+
+    @property
+    def reacts(self) -> bool:
+        """Whether its reactions are there."""
+        behavior = self.alarm.behavior
+        return self.is_active or (behavior.reacts_while_pending and self.waits_for_acknowledgement)
+
+
+class AlarmCore:
+    """The alarms that one MpAlarmXCore collects.
+
+    Args:
+        configuration: of its alarms; without any, every name is an alarm that is active until it
+            is reset.
+
+    Attributes:
+        configuration: as above.
+        pending: in the order in which they were set.
+    """
+
+    def __init__(self, configuration: AlarmCoreConfiguration) -> None:
+        self.configuration = configuration
+        self.pending: list[PendingAlarm] = []
+        self._last = 0
+
+    def alarm(self, name: str) -> AlarmConfiguration | None:
+        """Return an alarm by its name, None where there is none."""
+        known = self.configuration.alarms
+        if known or not name:
+            return known.get(name)
+        return AlarmConfiguration(name, behavior=AlarmBehavior(auto_reset=False))
+
+    def named(self, name: str) -> list[PendingAlarm]:
+        """Return the pending alarms of a name."""
+        return [each for each in self.pending if each.alarm.name == name]
+
+    def numbered(self, ident: int) -> list[PendingAlarm]:
+        """Return the pending alarm with a number, in a list, empty where there is none."""
+        return [each for each in self.pending if each.ident == ident]
+
+    @property
+    def active(self) -> Iterator[PendingAlarm]:
+        """Those that are active."""
+        return (each for each in self.pending if each.is_active)
+
+    @property
+    def unacknowledged(self) -> Iterator[PendingAlarm]:
+        """Those that somebody has to acknowledge."""
+        return (each for each in self.pending if each.waits_for_acknowledgement)
+
+    def set(self, name: str, now_ns: int) -> int:
+        """Set an alarm; return the number of its instance, 0 where there is no such alarm.
+
+        Args:
+            name: of the alarm.
+            now_ns: date, nanoseconds since 1970.
+        """
+        alarm = self.alarm(name)
+        if alarm is None:
+            return 0
+        found = [] if alarm.behavior.has_instances else self.named(name)
+        pending = found[0] if found else self._new(alarm, now_ns)
+        if pending is None:
+            return 0
+        if not pending.is_active:
+            pending.is_active, pending.set_ns = True, now_ns
+            if alarm.behavior.acknowledgement is Acknowledgement.RESETTABLE:
+                pending.is_acknowledged = False
+        if alarm.behavior.auto_reset:
+            self.reset([pending])
+        return pending.ident
+
+    def _new(self, alarm: AlarmConfiguration, now_ns: int) -> PendingAlarm | None:
+        if len(self.pending) >= MOST_PENDING:
+            return None
+        self._last += 1
+        self.pending.append(made := PendingAlarm(self._last, alarm, now_ns))
+        return made
+
+    def reset(self, alarms: list[PendingAlarm]) -> None:
+        """Let alarms be inactive."""
+        for each in alarms:
+            each.is_active = False
+        self._forget()
+
+    def acknowledge(self, alarms: list[PendingAlarm]) -> bool:
+        """Acknowledge alarms; return whether all could be, for some must be inactive first."""
+        refused = [
+            each
+            for each in alarms
+            if each.is_active
+            and each.alarm.behavior.acknowledgement is Acknowledgement.AFTER_ACTIVE
+        ]
+        for each in alarms:
+            each.is_acknowledged = each not in refused
+        self._forget()
+        return not refused
+
+    def _forget(self) -> None:
+        """Forget what is neither active nor waits for anybody."""
+        self.pending = [
+            each for each in self.pending if each.is_active or each.waits_for_acknowledgement
+        ]
+
+    def reacts(self, reaction: str, *, is_escalated: bool = False) -> bool:
+        """Whether some alarm has a reaction, at this core or, escalated, at the one above it."""
+        mappings = [
+            each
+            for each in self.configuration.mappings
+            if each.reaction == reaction and each.is_escalated is is_escalated
+        ]
+        return any(
+            each.reacts and any(mapping.follows_from(each.alarm) for mapping in mappings)
+            for each in self.pending
+        )
