@@ -25,7 +25,11 @@ LANGUAGE: Final = "table"
 
 Value = str | list[str] | bool | int | float
 """An input that an output follows, several of which the first that is not 0 counts, or a
-constant."""
+constant. ``"Home while Enable"`` takes Home once that is not 0, and keeps it while Enable is not
+0."""
+
+_WHILE: Final = " while "
+_ANY_NAME: Final = "*"
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,8 @@ class Rules:
     """What blocks do, by output.
 
     Attributes:
-        any: of every block that has both members.
+        any: of every block that has both members; ``"*Done"`` with ``"*"`` are all outputs with the
+            name of an input before Done.
         blocks: of single blocks, by name.
         own: names of blocks that a project has rules for.
     """
@@ -68,6 +73,8 @@ class _Move(NamedTuple):
         sources: offsets of inputs, of which the first that is not 0 counts; empty for a constant.
         data: the constant.
         followed: names of the inputs.
+        kept: offset of the input as long as which, not 0, the output keeps what is not 0; None
+            where it does not.
     """
 
     target: int
@@ -75,6 +82,7 @@ class _Move(NamedTuple):
     sources: tuple[int, ...]
     data: bytes
     followed: tuple[str, ...] = ()
+    kept: int | None = None
 
 
 class TableBody(NamedTuple):
@@ -98,12 +106,17 @@ class TableBody(NamedTuple):
         memory, moves = context.memory, self.moves
 
         def run(address: int) -> None:
-            for target, size, sources, data, _ in moves:
+            for target, size, sources, data, _, kept in moves:
                 value = data
                 for source in sources:
                     value = memory.read(address + source, size)
                     if any(value):
                         break
+                if kept is not None:
+                    if not any(memory.read(address + kept, size)):
+                        value = bytes(size)
+                    elif not any(value):
+                        continue
                 memory.write(address + target, value)
 
         return run
@@ -111,15 +124,23 @@ class TableBody(NamedTuple):
 
 def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> TableBody | None:
     """Return a body that follows rules; None where the block has none of their members."""
+    exact = {name: value for name, value in rules.items() if _ANY_NAME not in name}
     moves: list[_Move] = []
     texts: list[str] = []
-    for output, value in rules.items():
+    for output, value in {**_named(data_type, rules), **exact}.items():
         move = _move(data_type, output, value)
         if move is not None:
             moves.append(move)
             if move.followed:
                 texts.append(f"{output} follows {' or '.join(move.followed)}")
     return TableBody(tuple(moves), ", ".join(texts)) if texts else None
+
+
+def _named(data_type: StructType[Any], rules: Mapping[str, Value]) -> dict[str, Value]:
+    """Return what rules for any name say of the outputs of a block."""
+    inputs = [each.name for each in data_type.members if each.section is Section.INPUT]
+    patterns = [name for name, value in rules.items() if value == _ANY_NAME]
+    return {p.replace(_ANY_NAME, name): name for p in patterns for name in inputs}
 
 
 def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None:
@@ -130,18 +151,28 @@ def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None
     if not isinstance(value, (str, list)):
         return _Move(offset, kind.size, (), struct.pack(f"<{kind.code}", value))
     names = [value] if isinstance(value, str) else value
-    found = {name: _elementary(data_type, name, Section.INPUT) for name in names}
+    _, _, keeper = names[-1].partition(_WHILE)
+    names = [name.partition(_WHILE)[0] for name in names]
+    found = {name: _elementary(data_type, name, Section.INPUT) for name in (*names, keeper)}
     places = {name: each[1] for name, each in found.items() if each and each[0] is kind}
-    if not places:
+    kept = places.pop(keeper, None)
+    if not places or (keeper and kept is None):
         return None
-    return _Move(offset, kind.size, tuple(places.values()), b"", tuple(places))
+    return _Move(offset, kind.size, tuple(places.values()), b"", tuple(places), kept)
 
 
 def _elementary(
-    data_type: StructType[Any], name: str, section: Section
+    data_type: StructType[Any], name: str, section: Section | None
 ) -> tuple[ElementaryType[Any], int] | None:
+    """Return type and offset of a member, or of a member ``Info.Ready`` of it, in any case."""
+    first, _, rest = name.upper().partition(".")
     for member, offset in zip(data_type.members, data_type.offsets, strict=True):
+        if member.name.upper() != first or section not in (None, member.section):
+            continue
         kind = resolve_alias(member.data_type)
-        if member.name == name and member.section is section and isinstance(kind, ElementaryType):
+        if rest and isinstance(kind, StructType):
+            inner = _elementary(kind, rest, None)
+            return None if inner is None else (inner[0], offset + inner[1])
+        if not rest and isinstance(kind, ElementaryType):
             return kind, offset
     return None

@@ -6,7 +6,7 @@ from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.simulated import Rules, built_in_rules, table_body
 from st_types import BOOL, DINT, INT
-from st_types.types.derived import DataBlockType, Member, Section
+from st_types.types.derived import DataBlockType, Member, Section, StructType
 
 BLOCK = DataBlockType(
     "Alarm",
@@ -91,3 +91,66 @@ def test_a_project_adds_rules_to_those_of_a_block():
     found = rules.extended({"Alarm": {"Actual": "Level"}, "Other": {"Done": "Execute"}})
     assert found.of("Alarm") == {"Active": "Enable", "Error": False, "Actual": "Level"}
     assert found.of("Other") == {"Active": "Enable", "Done": "Execute"}
+
+
+ROBOT = DataBlockType(
+    "Robot",
+    [
+        *(Member(n, BOOL, section=Section.INPUT) for n in ("ENABLE", "Power", "Home", "Jog")),
+        *(
+            Member(name, BOOL, section=Section.OUTPUT)
+            for name in ("Active", "PowerOn", "IsHomed", "JogActive", "OtherDone")
+        ),
+        Member(
+            "Info",
+            StructType("Info", [Member("Count", INT), Member("ReadyToPowerOn", BOOL)]),
+            section=Section.OUTPUT,
+        ),
+    ],
+)
+
+
+@pytest.fixture
+def robot():
+    """``robot(ENABLE=1)``: a call with these inputs; the names of what is TRUE then."""
+    context = Context(Memory(), None)
+    memory, address = context.memory, context.memory.allocate(ROBOT.size)
+    body = table_body(ROBOT, built_in_rules().of("Robot"))
+    run = body.bind(context)
+
+    def call(**inputs):
+        for name, value in inputs.items():
+            memory.set(BOOL, address + ROBOT.find(name)[1], value)
+        run(address)
+        places = {
+            each.name: ROBOT.find(each.name)[1]
+            for each in ROBOT.members
+            if each.section is Section.OUTPUT
+        }
+        places["Info"] += 2
+        return {name for name, offset in places.items() if memory.get(BOOL, address + offset)}
+
+    return call
+
+
+def test_an_output_that_is_held_keeps_what_a_command_made_of_it(robot):
+    assert robot(Home=True) == set()
+    assert "IsHomed" in robot(ENABLE=True)
+    assert "IsHomed" in robot(Home=False)
+    assert "IsHomed" not in robot(ENABLE=False)
+    assert "IsHomed" not in robot(ENABLE=True)
+
+
+def test_members_of_structures_and_names_in_any_case(robot):
+    assert robot(ENABLE=True) == {"Active", "Info"}
+    assert robot(Power=True) == {"Active", "Info", "PowerOn"}
+
+
+def test_an_output_that_is_named_after_an_input_follows_it(robot):
+    assert robot(Jog=True) == {"JogActive"}
+    assert robot(Jog=False) == set()
+
+
+@pytest.mark.parametrize("rule", ["Home while Nothing", "Nothing while ENABLE"])
+def test_what_is_held_by_no_input_is_no_rule(rule):
+    assert table_body(ROBOT, {"IsHomed": rule}) is None
