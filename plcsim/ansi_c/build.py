@@ -21,11 +21,11 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.ansi_c.inline_assembly import overlay_without_rdtsc
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
+from plcsim.ansi_c.mends import Mends
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
 from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
-from plcsim.ansi_c.undeclared import declarations, undeclared
+from plcsim.ansi_c.undeclared import undeclared
 from plcsim.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ _OPTIONS = (
     *("-c", "-fPIC", "-fvisibility=default", "-O2", "-gdwarf-4"),
     # what programs for the controller take for granted of its compiler
     *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
+    # a function that ends without its return goes on, a variable without a value has one
+    *("-fno-strict-return", "-ftrivial-auto-var-init=zero"),
     # or a malloc that nobody uses is left out and cannot fail
     *("-fno-builtin-printf", "-fno-builtin-fprintf", "-fno-builtin-sprintf"),  # or iprintf ...
     *("-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-realloc", "-fno-builtin-free"),
@@ -57,7 +59,7 @@ _OPTIONS = (
     "-U__EMSCRIPTEN__",  # what the target is called says nothing about the system
 )
 _C_OPTIONS = (
-    "-std=gnu11",
+    *("-std=gnu11", "-trigraphs"),  # in this order, and as Automation Studio calls its compiler
     # Errors in a newer clang that were none for the compilers of Automation Studio.
     *("-Wno-int-conversion", "-Wno-pointer-to-int-cast", "-Wno-int-to-pointer-cast"),
     *("-Wno-error=implicit-function-declaration", "-Wno-error=implicit-int"),
@@ -65,7 +67,7 @@ _C_OPTIONS = (
     "-Wno-error=incompatible-function-pointer-types",
 )
 _CPP_OPTIONS = (
-    *("-std=gnu++17", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"),
+    *("-std=gnu++17", "-trigraphs", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"),
     *("-fno-finite-loops", "-fcheck-new", "-Wno-register"),
     # inline functions are the module's own; static objects live as long as the program
     *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
@@ -227,7 +229,7 @@ class _Object:
         self.toolchain = toolchain
         self._work = work
         self._sources = order.sources
-        self._declared: tuple[str, ...] = ()
+        self._told: list[str] = []
         self._folders = order.folders
         self._made = "\0" if order.made is None else f"{order.made}{os.sep}"
         self.command = [
@@ -244,7 +246,7 @@ class _Object:
         self._rounds = [*_ROUNDS, "-mllvm", f"-unroll-count={toolchain.rounds}"]
         self._options = order.options
         ways = [*self._rounds, *_NO_PASSES]
-        self._manifest = _key("manifest 2", toolchain.identity, *self.command, *ways)
+        self._manifest = _key("manifest 3", toolchain.identity, *self.command, *ways)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""
@@ -258,6 +260,13 @@ class _Object:
         self.warnings = manifest["warnings"]
         self.files = frozenset(manifest["files"])
         return bool(self.content)
+
+    @cached_property
+    def _mends(self) -> Mends:
+        is_c, sources, folders = self._is_c, self._sources, self._folders
+        return Mends(
+            self.source, is_c=is_c, sources=sources, folders=folders, file=lambda: self.file
+        )
 
     @cached_property
     def file(self) -> Path:
@@ -302,9 +311,7 @@ class _Object:
         return [*self._whole_command(), "-o", str(self.file)]
 
     def _whole_command(self) -> list[str]:
-        overlay = overlay_without_rdtsc(self.source, self._work.folder)
-        read = () if overlay is None else ("-Xclang", "-ivfsoverlay", "-Xclang", str(overlay))
-        return [*self.command, *self._declared, *read, "-MD", "-MF", str(self._dependencies)]
+        return [*self.command, *self._mends.options(), "-MD", "-MF", str(self._dependencies)]
 
     def take(self, code: int, told: str) -> None:
         """Take what a run of the compiler has told."""
@@ -315,24 +322,17 @@ class _Object:
         ]
         self.warnings += [text for kind, text in found if kind == "warning"]
         if code:
-            errors = [text for kind, text in found if kind == "error"]
-            self.errors = [explained(text, self._folders) for text in errors]
+            self._told = [text for kind, text in found if kind == "error"]
+            self.errors = [explained(text, self._folders) for text in self._told]
             if not self.errors:
                 self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
 
-    def declares(self) -> bool:
-        """Declare functions that the file calls undeclared, so it can be compiled again.
-
-        Returns False where it calls none that have to be declared.
-        """
-        names = undeclared(self.warnings)
-        text = declarations(names, self._sources) if names and self._is_c else ""
-        if not text:
-            return False
-        self._header.write_text(text, "utf-8")
-        self._declared = ("-include", str(self._header))
-        self._begin_again()
-        return True
+    def is_mended(self) -> bool:
+        """Return whether the file is to be compiled again, after what was told of it."""
+        is_mended = self._mends.find(self._told, self.warnings)
+        if is_mended:
+            self._begin_again()
+        return is_mended
 
     def keeps_loops(self) -> bool:
         """Return whether there are loops in an object that was made at once.
@@ -347,12 +347,8 @@ class _Object:
 
     def _begin_again(self) -> None:
         """Forget what the next run tells again."""
-        self.warnings = [each for each in self.warnings if self._declared and undeclared([each])]
-        self.errors = []
-
-    @property
-    def _header(self) -> Path:
-        return self.file.with_suffix(".h")
+        self.warnings = list(self._mends.told)
+        self._told, self.errors = [], []
 
     def finish(self) -> None:
         """Take what the compiler has made."""
@@ -360,7 +356,7 @@ class _Object:
         read = {str(self.source), *_read_dependencies(self._dependencies)}
         if undeclared(self.warnings):
             read |= {str(source) for source in self._sources}
-        self.files = frozenset(read - {str(self._header)})
+        self.files = frozenset(read - {str(self._mends.header)})
 
     def _hash(self, file: str) -> str:
         """Return the hash of a file; "" where its name says already what is in it."""
@@ -381,7 +377,9 @@ class _Object:
 def _compile(objects: Sequence[_Object]) -> None:
     """Compile files."""
     _run(objects, _Object.first_command)
-    _run([each for each in objects if each.declares()], _Object.first_command)
+    again = objects
+    while again := [each for each in again if each.is_mended()]:
+        _run(again, _Object.first_command)
     _run([each for each in objects if each.keeps_loops()], _Object.command_to_bitcode)
     right = [each for each in objects if not each.errors and not each.is_made_at_once]
     _run(right, _Object.command_to_object)

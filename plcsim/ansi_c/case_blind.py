@@ -46,6 +46,31 @@ def written_overlay(folders: Iterable[Path], parent: Path) -> Path:
     return file
 
 
+def spelled(folder: Path, name: str) -> str | None:
+    """Return the name of a file as it is spelled on the disk, None where there is none.
+
+    Args:
+        folder: from which the name counts.
+        name: with ``/`` between its parts, in any case.
+    """
+    known: list[str] = []
+    for part in name.split("/"):
+        here = folder.joinpath(*known)
+        found = part if part in ("", "..") or (here / part).exists() else _in_any_case(here, part)
+        if found is None:
+            return None
+        known.append(found)
+    return "/".join(known) if folder.joinpath(*known).is_file() else None
+
+
+def _in_any_case(folder: Path, name: str) -> str | None:
+    try:
+        names = sorted(each.name for each in folder.iterdir())
+    except OSError:
+        return None
+    return next((each for each in names if each.lower() == name.lower()), None)
+
+
 def _folder(path: str, depth: int, name: str | None = None) -> dict[str, Any] | None:
     contents: list[dict[str, Any]] = []
     try:

@@ -7,14 +7,7 @@ the instruction rdtsc; what they read instead is the controller's clock in nanos
 
 from __future__ import annotations
 
-import hashlib
-import json
-import os
 import re
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _RDTSC = re.compile(
     rb'\b(?:__asm__|__asm|asm)\s*(?:__volatile__|__volatile|volatile)?\s*\(\s*"\s*rdtsc\s*'
@@ -38,26 +31,3 @@ def _replaced(found: re.Match[bytes]) -> bytes:
     parts = [_PARTS[kind] % name for kind, name in _OUTPUT.findall(found[1]) if kind in _PARTS]
     lines = b"\n" * found[0].count(b"\n")
     return b"{ unsigned long long plc_ticks = %s; %s }%s" % (_READ, b" ".join(parts), lines)
-
-
-def overlay_without_rdtsc(source: Path, work: Path) -> Path | None:
-    """Return an overlay in which a source reads the clock; None where it does that already.
-
-    Args:
-        source: of a program.
-        work: a folder for what is written.
-    """
-    text = source.read_bytes()
-    if b"rdtsc" not in text:
-        return None
-    changed = without_rdtsc(text)
-    if changed == text:
-        return None
-    name = hashlib.blake2b(changed + os.fsencode(source), digest_size=16).hexdigest()
-    copy = work / f"{name}{source.suffix}"
-    copy.write_bytes(changed)
-    entry = {"type": "file", "name": source.name, "external-contents": str(copy)}
-    root = {"type": "directory", "name": str(source.parent), "contents": [entry]}
-    overlay = work / f"{name}.overlay"
-    overlay.write_text(json.dumps({"version": 0, "use-external-names": "false", "roots": [root]}))
-    return overlay

@@ -26,8 +26,10 @@ MISSING = (
 )
 
 _TARGET = "wasm32-unknown-emscripten"  # for it alone clang 14 makes position-independent code
+_BEFORE_16 = ("-enable-trivial-auto-var-init-zero-knowing-it-will-be-removed-from-clang",)
 _ZIG_OPTIONS = (
     *("clang", "--no-default-config", "--target=wasm32-unknown-unknown", "-mcpu=lime1"),
+    "-ftrivial-auto-var-init-max-size=1024",  # bytes; what is larger takes time in each call
     "-mno-bulk-memory-opt",  # newer clangs write memory.fill without bulk memory
     *("-ffreestanding", "-fbuiltin"),
 )
@@ -137,11 +139,12 @@ def system_clang() -> Toolchain | None:
             shutil.which(name + number) for name in ("clang", "clang++", "wasm-ld")
         )
         if clang and cpp and linker and (found := _version(clang)) >= OLDEST:
+            options = (f"--target={_TARGET}", *(_BEFORE_16 if found < 16 else ()))
             return Toolchain(
                 f"clang {found}",
                 f"{_state(clang)} {_state(linker)}",
-                (clang, f"--target={_TARGET}"),
-                (cpp, f"--target={_TARGET}"),
+                (clang, *options),
+                (cpp, *options),
                 (linker, _DYNAMIC) if found > OLDEST else (linker,),
                 rounds=4 if found == OLDEST else 2,
             )

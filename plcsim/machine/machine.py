@@ -190,7 +190,8 @@ class Machine:
             for name in (MEMORY_NAME, TABLE_NAME, STACK_POINTER_NAME)
         }
         pointer = self._common[STACK_POINTER_NAME].structure.of.variable
-        self._store.watch_stack(GlobalHandle.from_buffer_copy(pointer), SYSTEM_AREA)
+        handle = GlobalHandle.from_buffer_copy(pointer)
+        self._store.watch_stack(handle, SYSTEM_AREA, lambda: memory.stack)
         self._shared: dict[object, Any] = {}
         if watch is not None:
             entry = self.reserve_functions(1)

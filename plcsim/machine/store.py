@@ -80,6 +80,7 @@ class Store:
         self._system = system
         self._suspended: BaseException | None = None
         self._stack_pointer: tuple[GlobalHandle, int] | None = None
+        self._bottom: Callable[[], int] | None = None
 
     def __del__(self) -> None:
         # at the end of the process what gives the memory back may be gone already
@@ -92,9 +93,16 @@ class Store:
             self._delete(self.handle)
             self.handle = None
 
-    def watch_stack(self, pointer: GlobalHandle, top: int) -> None:
-        """Name the global variable that is the stack pointer, and its value outside of calls."""
+    def watch_stack(self, pointer: GlobalHandle, top: int, bottom: Callable[[], int]) -> None:
+        """Name the global variable that is the stack pointer.
+
+        Args:
+            pointer: the variable.
+            top: its value outside of calls.
+            bottom: gives the lowest address of the stack.
+        """
         self._stack_pointer = pointer, top
+        self._bottom = bottom
 
     def suspend(self, error: BaseException) -> int:
         """Keep an exception while compiled code is unwound; return the trap that unwinds it."""
@@ -141,12 +149,27 @@ class Store:
     def _take_trap(self) -> MachineFault:
         """Return the trap of a call as a fault, and make the store ready for the next call."""
         trap, self.trap.value = self.trap.value, None
+        is_eaten = self._is_stack_eaten()
         if self._stack_pointer is not None and not self.depth:
             self._reset_stack(*self._stack_pointer)
         assert trap is not None
         fault = _fault(trap)
         library().wasm_trap_delete(trap)
+        if is_eaten and fault.kind is FaultKind.PAGE_FAULT:
+            eaten = MachineFault(FaultKind.STACK_OVERFLOW)
+            note_frames(eaten, fault.frames)
+            return eaten
         return fault
+
+    def _is_stack_eaten(self) -> bool:
+        """Return whether the frame of the function that runs begins below the stack."""
+        if self._stack_pointer is None or self._bottom is None:
+            return False
+        value = ValueStructure()
+        pointer, _ = self._stack_pointer
+        library().wasmtime_global_get(self.context, byref(pointer), byref(value))
+        address: int = value.of.i32 & 0xFFFFFFFF
+        return address < self._bottom()
 
     def _reset_stack(self, pointer: GlobalHandle, top: int) -> None:
         value = ValueStructure()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
@@ -43,9 +44,23 @@ def load(source: ProgramSource) -> CCode:
         raise ConfigurationError(
             f"{source.folder}: no function of the program is marked _INIT, _CYCLIC or _EXIT"
         )
+    twice = [name for name in _UNIT_NAMES.values() if compiled.module.functions.count(name) > 1]
+    if twice:
+        raise ConfigurationError(*(_told_twice(source, name) for name in twice))
     heap_size = source.declarations.layout.c_build.heap_size
     variables = variables_of(source.name, source.scope.variables)
     return CCode(compiled, source.scope, variables, heap_size)
+
+
+def _told_twice(source: ProgramSource, unit: str) -> str:
+    mark = re.compile(rf"^(?!\s*(?://|\*)).*\b{unit}\b")
+    places = [
+        f"{file}:{number}"
+        for file in source.files
+        for number, line in enumerate(file.read_text("latin-1").splitlines(), 1)
+        if mark.match(line)
+    ]
+    return f"{source.name}: {unit} is there more than once: {' and '.join(places)}"
 
 
 class CCode:

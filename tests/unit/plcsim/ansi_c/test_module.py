@@ -127,7 +127,7 @@ def test_a_stack_that_is_eaten_is_a_fault_and_the_next_call_runs(load, world):
     world.memory.open_stack(4 * PAGE)
     module = load()
     for _ in range(3):
-        with pytest.raises(MachineFault, match="page fault"):
+        with pytest.raises(MachineFault, match="stack overflow"):
             module.function("recurse")(0)
         assert module.function("divide")(5) == 20
 

@@ -1,0 +1,155 @@
+"""C and C++ as Automation Studio's GCC takes it and clang does not: it runs, and gives the same."""
+
+import pytest
+
+from plcsim.ansi_c.build import BuildOrder, build
+from plcsim.ansi_c.headers import INCLUDE
+from plcsim.ansi_c.toolchain import find_toolchain, system_clang, zig
+from plcsim.core.errors import ConfigurationError
+from plcsim.core.system import State
+from plcsim.machine import CodeCache
+
+VARIABLES = "VAR result : ARRAY[0..9] OF DINT; flag : BOOL; END_VAR"
+
+
+@pytest.fixture(autouse=True)
+def _a_compiler():
+    try:
+        find_toolchain()
+    except ConfigurationError:
+        pytest.skip("no compiler for C is installed")
+
+
+@pytest.fixture
+def results(run, value):
+    """``results({"Main.c": text}, 2)``: two elements of the array ``result`` after some cycles."""
+
+    def call(files, count):
+        here = {f"main/{name}": text for name, text in files.items()}
+        controller = run({"main/V.var": VARIABLES, **here})
+        assert (controller.state, controller.fault) == (State.RUN, None)
+        return [value(controller, f"main.result[{n}]") for n in range(count)]
+
+    return call
+
+
+def _with_head(text):
+    return f"#include <bur/plctypes.h>\n#include <AsDefault.h>\n{text}"
+
+
+def test_variables_without_a_value_have_one(results):
+    text = _with_head("""
+struct point { int x; char name[10]; };
+static int classify(int limit)
+{
+	int level; struct point here; char text[8];
+	if (limit > 100) level = 3;
+	if (level == 2 || here.name[3] || text[1] > 'x') return 7;
+	return level;
+}
+void _CYCLIC run(void) { result[0] = classify(4) + 40; result[1] = classify(400); }
+""")
+    assert results({"Main.c": text}, 2) == [40, 3]
+
+
+def test_functions_of_c_that_end_without_a_return_give_0(results):
+    text = _with_head("""
+struct pair { short a, b; };
+static int state;
+static int next(int x) { state = x; }
+static struct pair both(int x) { if (x > 3) { struct pair p = {1, 2}; return p; } }
+count(x) { if (x) return 3; }
+void _CYCLIC run(void)
+{
+	struct pair p = both(5);
+	if (next(5) == 1) result[1] = 99;
+	both(1);
+	result[0] = state + p.b; result[2] = count(0); result[3] = count(1);
+}
+""")
+    assert results({"Main.c": text}, 4) == [7, 0, 0, 3]
+
+
+def test_functions_of_cpp_that_end_without_a_return_go_on(results):
+    header = """
+enum class Mode { Off, On };
+class Motor {
+	int speed = 0;
+public:
+	Motor &operator=(const Motor &other) { speed = other.speed; }
+	bool start() { speed = 10; }
+	int setSpeed(int s) { if (s > 100) return 1; speed = s; }
+	const char *name() { if (speed < 0) return "back"; }
+	Mode mode() { if (speed == 99) return Mode::On; }
+	template <class T> T as() { if (speed > 1000) return T(speed); }
+	int get() const { return speed; }
+};
+"""
+    text = _with_head("""#include "Motor.hpp"
+static Motor one, two;
+Motor copied(const Motor &m) { one = m; }
+void _CYCLIC run(void)
+{
+	two.start(); one = two; result[0] = one.get();
+	if (two.setSpeed(30) == 0) result[1] = two.get();
+	if (!two.name() && two.mode() == Mode::Off && two.as<double>() == 0) result[2] = 1;
+	copied(two); result[3] = one.get();
+	auto lambda = [](int x) -> int { if (x) return 5; }; result[4] = lambda(0);
+}
+""")
+    found = results({"Main.cpp": text, "Motor.hpp": header}, 5)
+    assert found == [10, 30, 1, 30, 0]
+
+
+def test_headers_are_found_as_windows_finds_them(results):
+    files = {
+        "Main.c": _with_head(
+            '#include "Sub\\deep.h"\n#include "..\\COMMON\\Types.h"\n#include "../Common/More.H"\n'
+            "void _CYCLIC run(void) { result[0] = DEEP; result[1] = TYPES; result[2] = MORE; }\n"
+        ),
+        "sub/Deep.h": '#include ".\\inner\\Value.h"\n#define DEEP (VALUE + 1)\n',
+        "sub/Inner/value.h": "#define VALUE 3\n",
+        "../common/types.h": '#include "Beside.h"\n#define TYPES BESIDE\n',
+        "../common/beside.h": "#define BESIDE 20\n",
+        "../common/more.h": "#define MORE 30\n",
+    }
+    assert results(files, 3) == [4, 20, 30]
+
+
+def test_a_header_that_is_not_there_is_told_where_it_is_included(run):
+    text = _with_head('#include "..\\Common\\types.h"\nvoid _CYCLIC run(void) {}\n')
+    with pytest.raises(ConfigurationError, match=r"Main.c:3:10: '..\\Common\\types.h' file not"):
+        run({"main/Main.c": text})
+
+
+@pytest.mark.parametrize("name", ["Main.c", "Main.cpp"])
+def test_trigraphs_mean_what_they_mean_with_its_options(results, name):
+    text = _with_head(
+        "static int t??(3??) = ??<1, 2, 3??>;\n"
+        "void _CYCLIC run(void) ??< result??(0??) = t??(2??); ??>\n"
+    )
+    assert results({name: text}, 1) == [3]
+
+
+@pytest.mark.parametrize("find", [zig, system_clang])
+def test_what_is_mended_is_told_all_the_same(tmp_path, find):
+    if (toolchain := find()) is None:
+        pytest.skip("this compiler is not installed")
+    file = tmp_path / "Main.c"
+    file.write_text(
+        "int f(int x)\n{\n\tint l; g(); if (x) l = 3; if (l) return 2;\n}\nvoid g(void) {}\n"
+    )
+    cache = CodeCache(tmp_path / "cache")
+    for _ in range(2):
+        built = build(BuildOrder("program", [file], [INCLUDE]), toolchain, cache)
+        found = sorted(each.partition(": ")[2].partition("'")[0] for each in built.warnings)
+        assert len(found) == 2
+        assert "undeclared function" in found[0] or "implicit declaration" in found[0]
+        assert any(each.startswith("non-void function does not return a value") for each in found)
+
+
+def test_a_unit_that_is_there_twice_is_told_with_both_places(run):
+    files = {"main/Main.c": _with_head("void _CYCLIC run(void) {}\n")}
+    files["main/Old.c"] = _with_head("\nvoid _CYCLIC old(void) {}\n")
+    with pytest.raises(ConfigurationError, match=r"main: _CYCLIC .*Main.c:3 and .*Old.c:4"):
+        run(files)
