@@ -10,7 +10,6 @@ from st_types.types.derived import (
     ReferenceType,
     StringType,
     StructType,
-    WStringType,
     resolve_alias,
 )
 
@@ -105,14 +104,33 @@ class BlockVariables:
         address = self.address(name)
         return self._memory.string(address, limit + 1).decode("latin-1") if address else ""
 
-    def set_element(self, name: str, index: int, value: float | str) -> None:
-        """Write an element of an ARRAY, counted from 0; what is not there is left out."""
+    def own_text(self, name: str) -> str:
+        """Return the value of a STRING, "" where there is none."""
+        place = self._members.find(name)
+        if place is None or not isinstance(place.data_type, StringType):
+            return ""
+        found: str = self._memory.get(place.data_type, self._address + place.offset)
+        return found
+
+    def place(self, name: str) -> int:
+        """Return the address of a member itself, 0 where there is none."""
+        place = self._members.find(name)
+        return 0 if place is None else self._address + place.offset
+
+    def element_address(self, name: str, index: int) -> int:
+        """Return the address of an element of an ARRAY, counted from 0; 0 where there is none."""
         place = self._members.find(name)
         if place is None or not isinstance(place.data_type, ArrayType):
-            return
-        element = resolve_alias(place.data_type.element)
-        if (index + 1) * element.size <= place.data_type.size:
-            at = self._address + place.offset + index * element.size
+            return 0
+        size = resolve_alias(place.data_type.element).size
+        is_inside = index >= 0 and (index + 1) * size <= place.data_type.size
+        return self._address + place.offset + index * size if is_inside else 0
+
+    def set_element(self, name: str, index: int, value: float | str) -> None:
+        """Write an element of an ARRAY, counted from 0; what is not there is left out."""
+        place, at = self._members.find(name), self.element_address(name, index)
+        if at and place is not None and isinstance(place.data_type, ArrayType):
+            element = resolve_alias(place.data_type.element)
             self._memory.set(element, at, fitting(element, value))
 
     def count_of(self, name: str) -> int:
@@ -134,9 +152,9 @@ class BlockVariables:
 
 
 def fitting(data_type: DataType[Any], value: float | str) -> float | str:
-    """Return a value as a variable takes it: a text not longer than it has room for."""
-    if isinstance(value, str) and isinstance(data_type, StringType | WStringType):
-        return value[: data_type.length]
+    """Return a value as a variable takes it: what a STRING has no character for is a ``?``."""
+    if isinstance(value, str) and isinstance(data_type, StringType):
+        return value.encode("latin-1", "replace").decode("latin-1")
     return value
 
 

@@ -6,8 +6,8 @@ import linecache
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
+from plcsim.library.value_text import text_of
 from plcsim.testing.errors import PlcTestError
-from plcsim.testing.values import text_of
 from st_types.types.values import decode
 
 if TYPE_CHECKING:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from plcsim.testing.values import is_number, printable, text_of
+from plcsim.library.value_text import text_of
+from plcsim.testing.values import is_number, printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

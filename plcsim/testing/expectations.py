@@ -7,10 +7,10 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plcsim.core.duration import format_duration
+from plcsim.library.value_text import text_of
 from plcsim.testing.condition import Condition
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.times import duration_ns
-from plcsim.testing.values import text_of
 from st_types.types.values import decode
 
 if TYPE_CHECKING:

@@ -10,9 +10,10 @@ from collections import deque
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.memory import FIRST
+from plcsim.library.value_text import text_of
 from plcsim.testing.diagram import draw, foot_of, step_for, table
 from plcsim.testing.trace import Trace, TraceRow
-from plcsim.testing.values import text_of, value_in
+from plcsim.testing.values import value_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.duration import parse_duration_ns
 from plcsim.core.errors import TagError
+from plcsim.library.value_text import value_of
 from plcsim.testing.errors import StimulusError
-from plcsim.testing.values import value_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence

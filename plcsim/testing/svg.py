@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
 from plcsim.core.duration import format_duration
-from plcsim.testing.values import is_number, printable, text_of
+from plcsim.library.value_text import text_of
+from plcsim.testing.values import is_number, printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -8,10 +8,10 @@ from bisect import bisect_right
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.core.duration import parse_duration_ns
+from plcsim.library.value_text import text_of
 from plcsim.testing.diagram import draw
 from plcsim.testing.errors import PlcTestError
 from plcsim.testing.svg import timing_diagram
-from plcsim.testing.values import text_of
 from st_types.types.values import decode
 
 if TYPE_CHECKING:

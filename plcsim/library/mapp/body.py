@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from plcsim.library.mapp import alarm_blocks, alarm_functions
+from plcsim.library.mapp import alarm_blocks, alarm_functions, recipe_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
 LANGUAGE: Final = "model"
 
-_BLOCKS: Final[Mapping[str, type[MappBlock]]] = alarm_blocks.BLOCKS
+_BLOCKS: Final[Mapping[str, type[MappBlock]]] = {
+    **alarm_blocks.BLOCKS,
+    **recipe_blocks.BLOCKS,
+}
 _FUNCTIONS: Final[Mapping[str, Callable[..., Any]]] = alarm_functions.FUNCTIONS
 
 
@@ -71,8 +74,9 @@ class MappFunctionBody(NamedTuple):
         return partial(_FUNCTIONS[self.name], context)
 
 
-def _text(_name: str) -> str:
-    return "the alarms of its core"
+def _text(name: str) -> str:
+    is_recipe = name in recipe_blocks.BLOCKS
+    return "recipes of registered variables in files" if is_recipe else "the alarms of its core"
 
 
 def mapp_block(data_type: DataBlockType[Any], find_type: FindType) -> MappBlockBody | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.document import DocumentError, XmlElement, read_document
 from plcsim.library.mapp.configuration import (
     Acknowledgement,
     AlarmBehavior,
@@ -18,7 +19,6 @@ from plcsim.library.mapp.configuration import (
     MappConfiguration,
     Monitoring,
 )
-from plcsim.program.document import DocumentError, XmlElement, read_document
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping

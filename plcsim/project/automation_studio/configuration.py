@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.document import DocumentError, XmlElement, read_document
 from plcsim.library.library import CBuild
-from plcsim.program.document import DocumentError, XmlElement, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware, read_hardware
 from plcsim.project.automation_studio.software import Software, read_software

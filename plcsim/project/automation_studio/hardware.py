@@ -8,14 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.program.document import DocumentError, read_document
+from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from pathlib import Path
 
-    from plcsim.program.document import XmlElement
+    from plcsim.library.document import XmlElement
 
 SIMULATED_CPU: Final = "PC_any"
 """Type of the module that is a simulated CPU."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.program.document import DocumentError, read_document
+from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.names import FileNames, names_in
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from plcsim.program.document import XmlElement
+    from plcsim.library.document import XmlElement
 
 MAX_DEPTH: Final = 32
 """Packages one inside the other; real ones stay below 7."""

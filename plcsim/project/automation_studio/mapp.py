@@ -10,7 +10,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.program.document import DocumentError, read_document
+from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.suggestion import did_you_mean
+from plcsim.library.document import DocumentError, read_document
 from plcsim.library.library import CBuild
-from plcsim.program.document import DocumentError, read_document
 from plcsim.project.automation_studio.configuration import (
     IO_MAP,
     PERMANENT,

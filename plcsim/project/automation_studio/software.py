@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from plcsim.program.document import DocumentError, read_document
+from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from plcsim.program.document import XmlElement
+    from plcsim.library.document import XmlElement
 
 SUFFIX: Final = ".prg"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
-from plcsim.program.document import DocumentError, parse
+from plcsim.library.document import DocumentError, parse
 from plcsim.program.structured_text.codes import FindingCode
 from plcsim.program.structured_text.languages.ladder_networks import NetworkReader
 from plcsim.program.structured_text.languages.ladder_rungs import NetworkStatements

@@ -16,7 +16,7 @@ from plcsim.program.structured_text.codes import FindingCode
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from plcsim.program.document import XmlElement
+    from plcsim.library.document import XmlElement
     from plcsim.program.structured_text.languages.placed import PlacedTokens
     from st_types.syntax.diagnostics import DiagnosticLog
 

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from plcsim.program import document
+from plcsim.library import document
 from plcsim.project.automation_studio import logical_view
 from plcsim.project.automation_studio.logical_view import (
     is_listed,

@@ -1,7 +1,7 @@
 import pytest
 
-from plcsim.program import document
-from plcsim.program.document import DocumentError, parse, read_document
+from plcsim.library import document
+from plcsim.library.document import DocumentError, parse, read_document
 
 TEXT = """\ufeff<?xml version="1.0" encoding="utf-8"?>
 <?AutomationStudio Version=4.1.17.113 SP?>

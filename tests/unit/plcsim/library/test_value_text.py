@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plcsim.library.value_text import text_of, value_of
 from plcsim.testing.strategies import values_of
-from plcsim.testing.values import text_of, value_of
 from st_types import BOOL, DINT, ENUM, LREAL, REAL, STRING, TIME, ULINT
 from st_types.types.values import decode, encode
 
