@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 MOST_AXES: Final = 1024
 """Axes of one controller; what is beyond is no axis."""
 
+FIRST_HANDLE: Final = 0x4000
+"""What stands for the first axis that a program made, in its McAxisType; nothing lies there."""
+
 FARTHEST: Final = 1e12
 """Positions and velocities that commands may ask for."""
 
@@ -70,11 +73,13 @@ class MotionCommand:
     Attributes:
         status: of it; REACHED where it has what it was for, and goes on.
         error_id: why it was refused, 0 where it was not.
+        is_shown: whether a block has shown its end.
     """
 
     def __init__(self) -> None:
         self.status = CommandStatus.BUSY
         self.error_id = 0
+        self.is_shown = False
 
     @property
     def is_in_control(self) -> bool:
@@ -142,6 +147,11 @@ class Axis:
         self._command.finish()
         if not (self.state is AxisState.STOPPING and self._is_held):
             self.state = AxisState.STANDSTILL
+
+    def place(self, position: float) -> None:
+        """Be at rest at a known position."""
+        self.position, self.is_homed = position, True
+        self._rest(self.state)
 
     # Commands
 
@@ -264,19 +274,48 @@ class Axis:
 class Axes:
     """The axes of a controller, by the addresses that programs name them with.
 
+    An axis that a program made, such as a shuttle, has a handle, which programs copy with the
+    structures that it stands in: at whatever address it stands, that is the axis.
+
     Args:
-        _context: of the controller.
+        context: of the controller.
     """
 
-    def __init__(self, _context: Context) -> None:
+    def __init__(self, context: Context) -> None:
+        self._memory = context.memory
         self._axes: dict[int, Axis] = {}
+        self._made: dict[int, Axis] = {}
 
     def at(self, address: int) -> Axis | None:
-        """Return the axis that an address stands for, None for address 0."""
+        """Return the axis that an address stands for, None for address 0.
+
+        Raises:
+            PageFault: a program makes axes, and nothing lies at the address.
+        """
+        if address and self._made:
+            made = self.by_handle(int.from_bytes(self._memory.read(address, 4), "little"))
+            if made is not None:
+                return made
         axis = self._axes.get(address)
-        if axis is None and address and len(self._axes) < MOST_AXES:
+        if axis is None and address and not self._is_full:
             axis = self._axes[address] = Axis()
         return axis
+
+    def add(self) -> tuple[int, Axis] | None:
+        """Return a new axis and its handle, None where there are too many."""
+        if self._is_full:
+            return None
+        handle = FIRST_HANDLE + len(self._made)
+        axis = self._made[handle] = Axis()
+        return handle, axis
+
+    def by_handle(self, handle: int) -> Axis | None:
+        """Return the axis with a handle."""
+        return self._made.get(handle)
+
+    @property
+    def _is_full(self) -> bool:
+        return len(self._axes) + len(self._made) >= MOST_AXES
 
 
 def axes_of(context: Context) -> Axes:

@@ -109,10 +109,11 @@ class ExecuteBlock(MotionBlock):
             return
         if is_edge and axis is not None:
             self.end(axis)
-        self._show(variables, command_of(context, address))
         found = command_of(context, address)
-        if found is not None and not execute and not found.is_in_control:
+        if found is not None and found.is_shown and not execute:
             forget_command(context, address)
+            found = None
+        self._show(variables, found)
 
     def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Give the command to the axis."""
@@ -124,9 +125,13 @@ class ExecuteBlock(MotionBlock):
     def _show(self, variables: BlockVariables, command: MotionCommand | None) -> None:
         status = None if command is None else command.status
         is_busy = command is not None and command.is_in_control
-        variables.set(**{self.reached: status in (CommandStatus.REACHED, CommandStatus.DONE)})
+        if command is not None:
+            command.is_shown = not is_busy
+        is_reached = status in (CommandStatus.REACHED, CommandStatus.DONE)
+        variables.set(**{self.reached: is_reached, "PositionReached": is_reached})
         variables.set(Busy=is_busy, Active=is_busy, CommandAborted=status is CommandStatus.ABORTED)
         error_id = 0 if command is None else command.error_id
+        variables.set(Acknowledge=is_busy or status is CommandStatus.DONE)
         variables.set(Error=error_id != 0, ErrorID=error_id)
 
 

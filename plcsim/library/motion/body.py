@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from plcsim.library.motion import mapp, plcopen
+from plcsim.library.motion import assembly, mapp, plcopen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -16,7 +16,11 @@ if TYPE_CHECKING:
 
 LANGUAGE: Final = "model"
 
-_BLOCKS: Final[Mapping[str, type[MotionBlock]]] = {**plcopen.BLOCKS, **mapp.BLOCKS}
+_BLOCKS: Final[Mapping[str, type[MotionBlock]]] = {
+    **plcopen.BLOCKS,
+    **mapp.BLOCKS,
+    **assembly.BLOCKS,
+}
 
 
 class MotionBody(NamedTuple):

@@ -47,8 +47,8 @@ def test_a_movement_is_busy_then_done_as_long_as_execute(plc):
     assert (position(plc), velocity(plc), state(plc)) == (10.0, 0.0, "StandStill")
     plc.run(5, move)
     assert move.on == {"Done"}
-    move(Execute=False)
-    assert move().on == set()
+    assert move(Execute=False).on == set()  # so Execute may rise in the next call already
+    assert move(Execute=True, Position=20.0).on == {"Busy", "Active"}
 
 
 def test_the_end_shows_for_one_call_when_execute_is_false_before(plc):
