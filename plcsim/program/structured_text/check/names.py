@@ -16,6 +16,7 @@ from plcsim.program.structured_text.check.typed import (
     Variable,
 )
 from plcsim.program.structured_text.codes import FindingCode
+from st_types.resolve.absent import absent_type
 from st_types.resolve.constants import UnknownValueError
 from st_types.resolve.index import VariableEntry
 from st_types.resolve.scope import Hit
@@ -205,7 +206,7 @@ class ScopeNames:
                 message = f"{entry.name} is of type {type_name}, which is not supported"
                 self.findings.error(node, FindingCode.NOT_SUPPORTED, message)
             else:
-                message = f"the type of {entry.name} is not known"
+                message = f"the type of {entry.name} is not known{absent_type(entry)}"
                 self.findings.error(node, FindingCode.UNKNOWN_TYPE, message)
             return NOTHING
         symbol.used = True
