@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.installed import Scopes
-from plcsim.library.mapp.body import mapp_block, mapp_function
-from plcsim.library.motion.body import motion_body
+from plcsim.library.models import modelled_block, modelled_function
 from plcsim.library.simulated import Rules, built_in_rules, table_body
 from plcsim.library.stub import Stub
 from plcsim.settings import is_settings
@@ -20,14 +19,11 @@ if TYPE_CHECKING:
 
     from plcsim.library.executable import BodyLanguage, Executable
     from plcsim.library.library import Library
-    from plcsim.library.mapp.body import MappBlockBody, MappFunctionBody
-    from plcsim.library.motion.body import MotionBody
+    from plcsim.library.models import ModelledBlock, ModelledFunction
     from plcsim.library.simulated import TableBody
     from plcsim.settings import Table
     from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.index import NameSpace
-
-    ModelledBody = MotionBody | MappBlockBody | TableBody
 
 SETTINGS: Final = "settings"
 """The module of a library's package that holds the class of its settings, where it has some."""
@@ -107,18 +103,19 @@ class Catalogue:
     def _stub(self, library: Library, name: str) -> Executable:
         """Return what stands for a body that is not here."""
         data_type = library.scope.find_type(name)
-        body: ModelledBody | MappFunctionBody | None = mapp_function(name)
+        body: ModelledBlock | ModelledFunction | TableBody | None = modelled_function(name)
         if isinstance(data_type, DataBlockType):
             body = self._simulated(library, data_type)
         self.stubbed.setdefault(library.name, {})[name] = "" if body is None else body.text
         return body or Stub(_zero(library.scope.find_function(name)))
 
-    def _simulated(self, library: Library, data_type: DataBlockType[Any]) -> ModelledBody | None:
+    def _simulated(
+        self, library: Library, data_type: DataBlockType[Any]
+    ) -> ModelledBlock | TableBody | None:
         """Return what stands for the body of a block; rules of a project count first."""
         name = data_type.name
         if name not in self._rules.own:
-            find_type = library.scope.find_type
-            body = motion_body(data_type, find_type) or mapp_block(data_type, find_type)
+            body = modelled_block(data_type, library.scope.find_type)
             if body is not None:
                 return body
         return table_body(data_type, self._rules.of(name))

@@ -5,7 +5,7 @@ import pytest
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.members import StructMembers
-from plcsim.library.motion.body import motion_body
+from plcsim.library.models import modelled_block
 from st_types import BOOL, DINT, LREAL, REAL, UDINT, UINT, USINT
 from st_types.types.derived import DataBlockType, Member, Section, StructType
 
@@ -82,7 +82,7 @@ class Block:
         self._type = plc.types.get(name) or block_type(name, *more)
         self._members = StructMembers(self._type)
         self._address = plc.memory.allocate(self._type.size)
-        self._run = motion_body(self._type, {"MC_DRIVESTATUS_TYP": DRIVE_STATUS}.get).bind(
+        self._run = modelled_block(self._type, {"MC_DRIVESTATUS_TYP": DRIVE_STATUS}.get).bind(
             plc.context
         )
         self.set(Axis=axis)

@@ -6,9 +6,9 @@ from plcsim.core.context import Context
 from plcsim.core.errors import PageFault
 from plcsim.core.memory import Memory
 from plcsim.library.members import StructMembers
+from plcsim.library.models import modelled_block
 from plcsim.library.motion.assembly import SHUTTLES
 from plcsim.library.motion.axis import MOST_AXES, axes_of
-from plcsim.library.motion.body import motion_body
 from st_types import BOOL, DINT, LREAL, REAL, UDINT, UINT
 from st_types.types.derived import DataBlockType, EnumerationType, Member, Section, StructType
 
@@ -85,7 +85,7 @@ class Block:
         self._members = StructMembers(self._type)
         self._memory = track.memory
         self._address = track.memory.allocate(self._type.size)
-        self._run = motion_body(self._type, {}.get).bind(track.context)
+        self._run = modelled_block(self._type, {}.get).bind(track.context)
 
     def place(self, name):
         return self._address + self._type.find(name)[1]

@@ -1,0 +1,116 @@
+"""Models of what vendors bring compiled: bodies that work on whatever version is declared.
+
+They find the members of a data block by name, for versions of a library differ in them.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
+
+from plcsim.library.loops import pid, signals
+from plcsim.library.mapp import alarm_blocks, alarm_functions, recipe_blocks
+from plcsim.library.motion import assembly, mapp, plcopen
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from plcsim.core.context import Context
+    from plcsim.library.members import FindType
+    from st_types.types.derived import DataBlockType
+
+LANGUAGE: Final = "model"
+
+
+class BlockModel(Protocol):
+    """Runs the blocks of one type on one controller."""
+
+    def __init__(
+        self, data_type: DataBlockType[Any], context: Context, find_type: FindType, /
+    ) -> None:
+        """Make it, of the data block of the blocks; ``find_type`` finds types of the library."""
+
+    def run(self, address: int, /) -> None:
+        """Run the block whose data block lies at an address."""
+
+
+_AXIS: Final = "an axis with trapezoidal profile"
+_ALARMS: Final = "the alarms of its core"
+_RECIPES: Final = "recipes of registered variables in files"
+_LOOPS: Final = "the common formulas of closed loops"
+
+_GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
+    (plcopen.BLOCKS, _AXIS),
+    (mapp.BLOCKS, _AXIS),
+    (assembly.BLOCKS, _AXIS),
+    (alarm_blocks.BLOCKS, _ALARMS),
+    (recipe_blocks.BLOCKS, _RECIPES),
+    (signals.BLOCKS, _LOOPS),
+    (pid.BLOCKS, _LOOPS),
+)
+"""What runs the blocks by their names, and what they do, in words."""
+
+_BLOCKS: Final = {name: (model, text) for group, text in _GROUPS for name, model in group.items()}
+_FUNCTIONS: Final[Mapping[str, tuple[Callable[..., Any], str]]] = {
+    name: (function, _ALARMS) for name, function in alarm_functions.FUNCTIONS.items()
+}
+
+
+class ModelledBlock(NamedTuple):
+    """The body of a block; see `plcsim.library.executable.Executable`.
+
+    Attributes:
+        data_type: of its data block.
+        find_type: finds the types of its library.
+    """
+
+    data_type: DataBlockType[Any]
+    find_type: FindType
+
+    @property
+    def language(self) -> str:
+        """It is a model."""
+        return LANGUAGE
+
+    @property
+    def text(self) -> str:
+        """What it does, in words."""
+        return _BLOCKS[self.data_type.name][1]
+
+    def bind(self, context: Context) -> Callable[[int], None]:
+        """Return what runs the block on the data block at an address."""
+        return _BLOCKS[self.data_type.name][0](self.data_type, context, self.find_type).run
+
+
+class ModelledFunction(NamedTuple):
+    """The body of a function, likewise.
+
+    Attributes:
+        name: of the function.
+    """
+
+    name: str
+
+    @property
+    def language(self) -> str:
+        """It is a model."""
+        return LANGUAGE
+
+    @property
+    def text(self) -> str:
+        """What it does, in words."""
+        return _FUNCTIONS[self.name][1]
+
+    def bind(self, context: Context) -> Callable[..., Any]:
+        """Return the function with its context."""
+        return partial(_FUNCTIONS[self.name][0], context)
+
+
+def modelled_block(data_type: DataBlockType[Any], find_type: FindType) -> ModelledBlock | None:
+    """Return the body of a block, None for one that there is no model of."""
+    return ModelledBlock(data_type, find_type) if data_type.name in _BLOCKS else None
+
+
+def modelled_function(name: str) -> ModelledFunction | None:
+    """Return the body of a function, likewise."""
+    return ModelledFunction(name) if name in _FUNCTIONS else None
