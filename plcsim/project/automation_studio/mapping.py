@@ -205,7 +205,17 @@ def _lines(file: Path) -> tuple[list[_Line], list[Finding]]:
         return [], [Finding(file, 0, err.strerror or str(err))]
     if len(data) > MAX_BYTES:
         return [], [Finding(file, 0, f"it is larger than {MAX_BYTES >> 20} MiB")]
-    return [_line(text, number) for text, number in _statements(_decoded(data))], []
+    text = _COMMENT.sub(_blank, _decoded(data))
+    return [_line(part, number) for part, number in _statements(text)], _open_end(file, text)
+
+
+def _open_end(file: Path, text: str) -> list[Finding]:
+    """Return a finding where a VAR_CONFIG has no end: what stood there was lost in saving."""
+    frames = [found[0].upper() for found in _FRAME.finditer(text)]
+    if frames.count("VAR_CONFIG") <= frames.count("END_VAR"):
+        return []
+    line = text.rstrip().count("\n") + 1
+    return [Finding(file, line, "END_VAR is missing: the file ends in the middle")]
 
 
 def _line(text: str, number: int) -> _Line:
@@ -224,8 +234,7 @@ def _decoded(data: bytes) -> str:
 
 
 def _statements(text: str) -> Iterator[tuple[str, int]]:
-    """Yield what stands between semicolons, without comments, and the line it begins in."""
-    text = _COMMENT.sub(_blank, text)
+    """Yield what stands between semicolons, and the line it begins in."""
     text = _FRAME.sub(lambda found: " " * len(found[0]), text)
     line = 1
     for part in text.split(";"):

@@ -47,7 +47,8 @@ def test_maps_are_read_in_the_encoding_that_they_have(tmp_path, encoding):
 def test_copies_and_permanent_variables(write):
     folder = write(
         {
-            "PvMap.vvm": "VAR_CONFIG\n::A:x.y AT %Q.::gZ;\nCyclic#1.::B:a AT %Q.Cyclic#1.::C:b;\n",
+            "PvMap.vvm": "VAR_CONFIG\n::A:x.y AT %Q.::gZ;\nCyclic#1.::B:a AT %Q.Cyclic#1.::C:b;\n"
+            "END_VAR",
             "Cpu.per": "VAR_CONFIG\n gCount AT %MD16200; (* *)\nEND_VAR",
         }
     )
@@ -62,7 +63,7 @@ def test_copies_and_permanent_variables(write):
 
 @pytest.mark.parametrize("read", [read_channels, read_copies, read_permanent])
 def test_what_is_no_mapping_is_found_with_its_line(write, read):
-    found, findings = read(write({"x": "VAR_CONFIG\n\n nonsense;\n a AT %ZZ;\n"}) / "x")
+    found, findings = read(write({"x": "VAR_CONFIG\n\n nonsense;\n a AT %ZZ;\nEND_VAR\n"}) / "x")
     assert found == []
     assert [each.line for each in findings] == [3, 4]
 
@@ -83,3 +84,12 @@ def test_files_that_cannot_be_read(tmp_path, monkeypatch):
 def test_an_endless_comment_ends_with_the_file(write):
     found, findings = read_channels(write({"x": 'a AT %IX."M".C; (* b AT %IX."M".D;'}) / "x")
     assert (len(found), findings) == (1, [])
+
+
+@pytest.mark.parametrize("end", ["", "(* END_VAR", " b AT %IX."])
+def test_a_map_that_ends_in_the_middle_is_found(write, end):
+    file = write({"x": f'VAR_CONFIG\na AT %IX."M".C;\n{end}'}) / "x"
+    found, findings = read_channels(file)
+    assert len(found) == 1
+    assert findings[0].message == "END_VAR is missing: the file ends in the middle"
+    assert findings[0].line == (3 if "AT" in end else 2)
