@@ -14,6 +14,7 @@ from plcsim.core.duration import format_duration
 from plcsim.core.tag import leaves
 from plcsim.host.processors import missing_cpu
 from plcsim.project.assembly import load, still_controller
+from plcsim.project.automation_studio.io_channels import unmapped
 from plcsim.project.extension import check_settings
 from plcsim.project.plc_toml import read_project
 from plcsim.project.survey import survey
@@ -21,6 +22,7 @@ from st_types.syntax.collector import collector_paused
 
 if TYPE_CHECKING:
     import argparse
+    from collections.abc import Iterable
 
     from plcsim.core.tag import Tag
     from plcsim.core.task import TaskClass
@@ -57,7 +59,9 @@ def check(options: argparse.Namespace) -> int:
     project = read_project(options.project, configuration_of(options))
     if project.automation_studio is not None:
         found = survey(project, project.automation_studio)
-        show(CommandConsole(), project.automation_studio, found, everything=options.all)
+        console = CommandConsole()
+        show(console, project.automation_studio, found, everything=options.all)
+        _show_notes(console, [*found.notes, *notes_on_cpu(project)])
         return ExitCode.DONE if found.is_right else ExitCode.FAILED
     application = load(project)
     controller = still_controller(application)
@@ -81,9 +85,15 @@ def check(options: argparse.Namespace) -> int:
     )
     for warning in application.warnings:
         print_error(warning)
+    for warning in unmapped(controller, application.maps):
+        print_error(warning)
+    _show_notes(console, notes)
+    return 0
+
+
+def _show_notes(console: CommandConsole, notes: Iterable[str]) -> None:
     for note in notes:
         console.print(f"on this host: {note}", soft_wrap=True)
-    return 0
 
 
 def notes_on_cpu(project: Project) -> list[str]:

@@ -72,6 +72,8 @@ class _Sheet:
         self._list("wrong in what several programs see", survey.common)
         self._list("no controller", survey.trouble)
         self._list("wrong in the project's files", map(str, survey.findings))
+        self._list("wrong in the maps", survey.unmapped)
+        self._list("wrong in plc.toml", survey.settings)
         if self._everything:
             self._list("warnings", survey.warnings)
         print_()

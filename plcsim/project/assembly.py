@@ -74,8 +74,7 @@ class Application:
         common: what is wrong in what several programs see; with "keep going" only.
         stubbed: blocks and functions that are looked for and that nothing executes, by library.
         notes: what is not as on the controller: what is left out, what is idle.
-        maps: of I/O channels and of variables.
-        permanent: tags of its permanent variables (Cpu.per).
+        maps: of I/O channels, of variables and of permanent ones.
         unload: forgets its modules, so that the next to load it has them afresh.
     """
 
@@ -88,7 +87,6 @@ class Application:
     stubbed: Mapping[str, Collection[str]] = field(default_factory=dict)
     notes: Sequence[str] = ()
     maps: Maps = NO_MAPS
-    permanent: Sequence[str] = ()
     unload: Callable[[], None] = _nothing
 
     def in_process(self, ip: str, *, is_test: bool = False) -> Application:
@@ -281,7 +279,6 @@ def _load(
         catalogue.stubbed,
         [*project.left_out, *_notes(project, left_out), *_stub_notes(catalogue)],
         maps,
-        tuple(pv.tag for pv in maps.permanent),
         loader.unload,
     )
 
@@ -382,8 +379,7 @@ def assemble(
         system_fd=system_fd,
         watch=watch,
     )
-    notes = *application.notes, *connect(controller, application.maps)
-    for note in (*notes, *_make_permanent(controller, application.permanent)):
+    for note in (*application.notes, *connect(controller, application.maps)):
         controller.log(Severity.WARNING, "system", note)
     attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
     if image is not None:
@@ -400,15 +396,6 @@ def assemble(
             if attachment.feed is not None:
                 attachment.feed(writer.stream_of(name))
     return controller
-
-
-def _make_permanent(controller: Controller, paths: Sequence[str]) -> list[str]:
-    """Let variables be permanent; return what is not there, a line for each."""
-    found = {path: controller.tags.get(path) for path in paths}
-    for tag in found.values():
-        if tag is not None:
-            controller.retained.add_permanent(tag)
-    return [f"Cpu.per: there is no variable {path}" for path, tag in found.items() if tag is None]
 
 
 def still_controller(application: Application) -> Controller:

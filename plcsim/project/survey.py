@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from plcsim.core.errors import ConfigurationError
 from plcsim.project.assembly import load, still_controller, with_controller
 from plcsim.project.automation_studio import problems
+from plcsim.project.automation_studio.io_channels import unmapped
 from plcsim.project.automation_studio.stub_calls import stub_calls
+from plcsim.project.extension import check_settings
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -56,6 +58,9 @@ class Survey(NamedTuple):
         warnings: of the sources.
         controller: of the tasks that can run, None where none can.
         trouble: why there is no controller of these tasks.
+        unmapped: what is wrong in the maps of I/O channels and of variables.
+        settings: what is wrong in the tables of plc.toml for extensions, and in files they name.
+        notes: what of these tables will not work on this host.
     """
 
     project: Project
@@ -67,13 +72,16 @@ class Survey(NamedTuple):
     warnings: Sequence[str]
     controller: Controller | None
     trouble: Sequence[str]
+    unmapped: Sequence[str]
+    settings: Sequence[str]
+    notes: Sequence[str]
 
     @property
     def is_right(self) -> bool:
         """Whether everything runs."""
         errors = [each for each in self.findings if each.severity == "error"]
         cannot = [row for row in self.rows if row.reasons]
-        return not (errors or cannot or self.common or self.trouble)
+        return not (errors or cannot or self.common or self.trouble or self.settings)
 
 
 def survey(project: Project, found: AutomationStudioProject) -> Survey:
@@ -100,6 +108,7 @@ def survey(project: Project, found: AutomationStudioProject) -> Survey:
             size = sizes.get(entry.name, 0)
             languages = _languages(project, entry)
             rows.append(TaskRow(task_class, entry, languages, size, reasons, stubs))
+    settings, notes = _settings(project, controller)
     application.unload()
     names = {row.entry.name for row in rows}
     skipped = [task.name for task in found.tasks if task.name not in names]
@@ -113,7 +122,22 @@ def survey(project: Project, found: AutomationStudioProject) -> Survey:
         application.warnings,
         controller,
         trouble,
+        () if controller is None else unmapped(controller, application.maps),
+        settings,
+        notes,
     )
+
+
+def _settings(
+    project: Project, controller: Controller | None
+) -> tuple[Sequence[str], Sequence[str]]:
+    """Return what is wrong in the settings of extensions, and what this host makes of them."""
+    if controller is None:
+        return (), ()
+    try:
+        return (), check_settings(project.extensions, controller)
+    except ConfigurationError as err:
+        return err.findings, ()
 
 
 def _controller(application: Application) -> tuple[Controller | None, Sequence[str]]:

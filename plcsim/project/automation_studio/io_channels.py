@@ -105,28 +105,56 @@ class _Ends(NamedTuple):
     inputs: dict[int, list[Line]]
     outputs: dict[int, list[Line]]
     copies: list[VariableCopy]
-    notes: list[str]
+    permanent: list[Tag]
+    missing: list[str]
+
+
+def unmapped(controller: Controller, maps: Maps) -> list[str]:
+    """Return what the lines of maps name and is not there, with file and line.
+
+    Args:
+        controller: with the tag `plcsim.core.tag.CHANNELS`.
+        maps: of its configuration.
+    """
+    return _ends(controller, maps).missing
 
 
 def connect(controller: Controller, maps: Maps) -> list[str]:
-    """Let a controller latch and publish the channels of its maps.
+    """Let a controller latch and publish the channels of its maps, and keep permanent variables.
 
     Args:
         controller: with the tag `plcsim.core.tag.CHANNELS`, not booted yet.
         maps: of its configuration.
 
     Returns:
-        what is mapped and not there, a line for each.
+        what is mapped and not there, and what is simulated, a line for each.
     """
-    ends = _Ends({}, {}, [], [])
+    ends = _ends(controller, maps)
+    if ends.inputs or ends.outputs or ends.copies:
+        IoImage(controller, ends.inputs, ends.outputs, ends.copies)
+    for tag in ends.permanent:
+        controller.retained.add_permanent(tag)
+    return [*ends.missing, *_module_states(controller, maps)]
+
+
+def _ends(controller: Controller, maps: Maps) -> _Ends:
+    ends = _Ends({}, {}, [], [], [])
     classes = _Classes(controller)
     for channel in maps.channels:
         _add_channel(controller, classes, channel, ends)
     for copy in maps.copies:
         _add_copy(controller, classes, copy, ends)
-    if ends.inputs or ends.outputs or ends.copies:
-        IoImage(controller, ends.inputs, ends.outputs, ends.copies)
-    return [*ends.notes, *_module_states(controller, maps)]
+    for line in maps.permanent:
+        tag = controller.tags.get(line.pv.tag)
+        if tag is None:
+            ends.missing.append(_missing(line.location, line.pv))
+        else:
+            ends.permanent.append(tag)
+    return ends
+
+
+def _missing(location: str, pv: Pv) -> str:
+    return f"{location}: warning: there is no variable {pv.tag}"
 
 
 def _module_states(controller: Controller, maps: Maps) -> list[str]:
@@ -151,9 +179,13 @@ def _add_channel(controller: Controller, classes: _Classes, channel: Channel, en
     variable = controller.tags.get(channel.pv.tag)
     place = controller.tags.get(".".join((CHANNELS, *names_of(channel))))
     if variable is None or place is None:
-        ends.notes.append(f"{channel.name}: there is no variable {channel.pv.tag}")
+        ends.missing.append(f"{_missing(channel.location, channel.pv)} for {channel.name}")
         return
-    size = min(variable.data_type.size, place.data_type.size)
+    sizes = variable.data_type.size, place.data_type.size
+    size = min(sizes)
+    if size < max(sizes):
+        text = f"{channel.pv.tag} has {sizes[0]} bytes and {channel.name} {sizes[1]}"
+        ends.missing.append(f"{channel.location}: warning: {text}: {size} are copied")
     line = Line(place.address, variable.address, size, channel.is_inverse and size == 1)
     lines = ends.inputs if channel.direction == "I" else ends.outputs
     lines.setdefault(classes.of(channel.pv, variable), []).append(line)
@@ -163,12 +195,11 @@ def _add_copy(controller: Controller, classes: _Classes, copy: PvMapLine, ends: 
     source = controller.tags.get(copy.source.tag)
     target = controller.tags.get(copy.target.tag)
     if source is None or target is None:
-        missing = copy.source if source is None else copy.target
-        ends.notes.append(f"PvMap: there is no variable {missing.tag}")
+        ends.missing.append(_missing(copy.location, copy.source if source is None else copy.target))
         return
     if source.data_type.size != target.data_type.size:
-        text = f"{copy.source.tag} and {copy.target.tag} differ in size"
-        ends.notes.append(f"PvMap: {text}, nothing is copied")
+        text = f"{copy.source.tag} and {copy.target.tag} differ in size, nothing is copied"
+        ends.missing.append(f"{copy.location}: warning: {text}")
         return
     from_class, to_class = classes.of(copy.source, source), classes.of(copy.target, target)
     size = source.data_type.size

@@ -70,7 +70,7 @@ class Channel(NamedTuple):
         module: the I/O module.
         channel: of the module, with what follows it.
         is_inverse: the variable has the negated value.
-        line: of the file.
+        location: file and line.
     """
 
     pv: Pv
@@ -79,7 +79,7 @@ class Channel(NamedTuple):
     module: str
     channel: str
     is_inverse: bool
-    line: int
+    location: str
 
     @property
     def name(self) -> str:
@@ -88,11 +88,29 @@ class Channel(NamedTuple):
 
 
 class PvMapLine(NamedTuple):
-    """A line of PvMap.vvm: the value of a variable goes to another one."""
+    """A line of PvMap.vvm: the value of a variable goes to another one.
+
+    Attributes:
+        source: the variable that is read.
+        target: the one that is written.
+        location: file and line.
+    """
 
     source: Pv
     target: Pv
-    line: int
+    location: str
+
+
+class Permanent(NamedTuple):
+    """A line of Cpu.per: a variable that outlives a cold restart.
+
+    Attributes:
+        pv: the variable.
+        location: file and line.
+    """
+
+    pv: Pv
+    location: str
 
 
 class Maps(NamedTuple):
@@ -106,7 +124,7 @@ class Maps(NamedTuple):
 
     channels: Sequence[Channel] = ()
     copies: Sequence[PvMapLine] = ()
-    permanent: Sequence[Pv] = ()
+    permanent: Sequence[Permanent] = ()
 
 
 NO_MAPS: Final = Maps()
@@ -157,14 +175,14 @@ def read_channels(file: Path) -> tuple[list[Channel], list[Finding]]:
         if found is None or line.pv is None:
             findings.append(_unknown(file, line, "no mapping of an I/O channel"))
         else:
-            channels.append(_channel(line.pv, found, line.number))
+            channels.append(_channel(line.pv, found, _location(file, line)))
     return channels, findings
 
 
-def _channel(pv: Pv, found: re.Match[str], line: int) -> Channel:
+def _channel(pv: Pv, found: re.Match[str], location: str) -> Channel:
     direction, width = found["direction"].upper(), found["width"].upper()
     inverse = found["inverse"] is not None
-    return Channel(pv, direction, width, found["module"], found["channel"], inverse, line)
+    return Channel(pv, direction, width, found["module"], found["channel"], inverse, location)
 
 
 def read_copies(file: Path) -> tuple[list[PvMapLine], list[Finding]]:
@@ -177,20 +195,24 @@ def read_copies(file: Path) -> tuple[list[PvMapLine], list[Finding]]:
         if line.pv is None or target is None:
             findings.append(_unknown(file, line, "no mapping of a variable to another"))
         else:
-            copies.append(PvMapLine(line.pv, target, line.number))
+            copies.append(PvMapLine(line.pv, target, _location(file, line)))
     return copies, findings
 
 
-def read_permanent(file: Path) -> tuple[list[Pv], list[Finding]]:
+def read_permanent(file: Path) -> tuple[list[Permanent], list[Finding]]:
     """Read the names of permanent variables from Cpu.per."""
     lines, findings = _lines(file)
-    variables: list[Pv] = []
+    variables: list[Permanent] = []
     for line in lines:
         if line.pv is None or not line.place.upper().startswith("M"):
             findings.append(_unknown(file, line, "no mapping of a permanent variable"))
         else:
-            variables.append(line.pv)
+            variables.append(Permanent(line.pv, _location(file, line)))
     return variables, findings
+
+
+def _location(file: Path, line: _Line) -> str:
+    return f"{file}:{line.number}"
 
 
 def _unknown(file: Path, line: _Line, message: str) -> Finding:

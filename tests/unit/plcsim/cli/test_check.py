@@ -131,3 +131,15 @@ def test_a_program_that_does_not_return_when_it_is_loaded_is_told(project, capsy
         r"plcsim: .*/main/main\.py:[12]: the programs were not loaded within 500 ms\n",
         capsys.readouterr().err,
     )
+
+
+def test_what_a_map_names_and_is_not_there_is_a_warning(project, capsys):
+    folder = project(
+        {
+            "plc.toml": '[task_class.1]\nprograms = ["main"]\n[io]\nchannels = ["io.iom"]\n',
+            "main/main.py": PROGRAM,
+            "io.iom": 'VAR_CONFIG ::main:gone AT %IX."M".C; END_VAR',
+        }
+    )
+    assert main(["check", str(folder)]) == 0
+    assert "io.iom:1: warning: there is no variable main.gone" in capsys.readouterr().err

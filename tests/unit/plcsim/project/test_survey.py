@@ -138,3 +138,26 @@ def test_a_library_that_does_not_compile_is_told_and_its_callers(surveyed, write
     assert good.reasons == ()
     assert bad.reasons
     assert any("Logical/Lib/Lib.c:1" in text for text in found.common)
+
+
+def test_what_maps_and_plc_toml_name_and_is_not_there_is_told(surveyed, write_project):
+    folder = write_project(
+        {
+            "Logical/Package.pkg": ["Program:Good"],
+            "Logical/Good/IEC.prg": ["File:Main.st"],
+            "Logical/Good/Main.st": "PROGRAM _CYCLIC\nEND_PROGRAM",
+            "Physical/C/CP/Cpu.pkg": ["File:Cpu.sw", "File:IoMap.iom"],
+            "Physical/C/CP/IoMap.iom": 'VAR_CONFIG\n::gone AT %IX."M".C;\nEND_VAR',
+            "plc.toml": '[operator.inputs]\n"IoMap.M.D" = true\n',
+        },
+        ["Good"],
+    )
+    found = surveyed(folder)
+    (text,) = found.unmapped
+    assert text.endswith('IoMap.iom:2: warning: there is no variable gone for %IX."M".C')
+    (text,) = found.settings
+    assert "operator.inputs: no tag 'IoMap.M.D': M has no member D" in text
+    assert not found.is_right
+    (folder / "plc.toml").write_text('[operator.inputs]\n"IoMap.M.C" = true\n')
+    found = surveyed(folder)
+    assert (found.settings, found.is_right) == ((), True)

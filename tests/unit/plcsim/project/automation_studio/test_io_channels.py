@@ -1,7 +1,8 @@
 import pytest
 
-from plcsim.project.automation_studio.io_channels import channels_type
+from plcsim.project.automation_studio.io_channels import channels_type, unmapped
 from plcsim.project.automation_studio.mapping import Channel, Pv
+from plcsim.project.plc_toml import read_project
 from plcsim.testing.target import open_plc
 from st_types import BOOL, DINT, INT, REAL, UDINT, UINT
 
@@ -16,7 +17,7 @@ TYPES = {"level": INT, "speed": REAL, "wide": DINT}
 
 
 def channel(name, direction, width, variable="x", module="M"):
-    return Channel(Pv("", variable), direction, width, module, name, False, 1)
+    return Channel(Pv("", variable), direction, width, module, name, False, "io.iom:1")
 
 
 def test_a_channel_has_the_width_of_its_letter_and_the_type_of_its_variable():
@@ -74,3 +75,42 @@ def test_modules_say_that_they_are_there_until_somebody_takes_them_out(plc):
     plc.restart()
     plc.run("100ms")
     assert plc["main.good"] == 10
+
+
+def test_what_is_mapped_and_not_there_or_does_not_fit_is_told_with_its_line(project):
+    folder = project(
+        {
+            "plc.toml": """
+                [task_class.1]
+                programs = ["main"]
+                [io]
+                channels = ["io.iom"]
+                copies = ["pv.vvm"]
+                permanent = ["cpu.per"]
+                """,
+            "main/Main.st": MODULES_ARE_THERE,
+            "main/Main.var": "VAR\na, b : BOOL;\ngood : UDINT;\nEND_VAR",
+            "io.iom": """VAR_CONFIG
+                ::main:a AT %IX."X20DI".DigitalInput01;
+                ::main:gone AT %IX."X20DI".DigitalInput02;
+                ::main:good AT %IW."X20AI".AnalogInput01;
+                END_VAR""",
+            "pv.vvm": """VAR_CONFIG
+                ::main:a AT %Q.::nowhere;
+                ::main:a AT %Q.::main:good;
+                ::main:a AT %Q.::main:b;
+                END_VAR""",
+            "cpu.per": "VAR_CONFIG\nlost AT %MD0;\nEND_VAR",
+        }
+    )
+    expected = [
+        'io.iom:3: warning: there is no variable main.gone for %IX."X20DI".DigitalInput02',
+        'io.iom:4: warning: main.good has 4 bytes and %IW."X20AI".AnalogInput01 2: 2 are copied',
+        "pv.vvm:2: warning: there is no variable nowhere",
+        "pv.vvm:3: warning: main.a and main.good differ in size, nothing is copied",
+        "cpu.per:2: warning: there is no variable lost",
+    ]
+    with open_plc(project=folder) as plc:
+        told = [entry.text.removeprefix(f"{folder}/") for entry in plc.controller.logbook]
+        assert told[: len(expected)] == expected
+        assert len(unmapped(plc.controller, read_project(folder).maps)) == len(expected)

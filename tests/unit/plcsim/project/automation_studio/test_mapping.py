@@ -3,6 +3,7 @@ import pytest
 from plcsim.project.automation_studio import mapping
 from plcsim.project.automation_studio.mapping import (
     Channel,
+    Permanent,
     Pv,
     PvMapLine,
     read_channels,
@@ -23,14 +24,15 @@ var_config
 
 
 def test_channels_with_their_variables_modules_and_lines(write):
-    found, findings = read_channels(write({"IoMap.iom": CHANNELS}) / "IoMap.iom")
+    file = write({"IoMap.iom": CHANNELS}) / "IoMap.iom"
+    found, findings = read_channels(file)
     assert findings == []
     assert found == [
-        Channel(Pv("", "gStart"), "I", "X", "X20 DI.9371", "DigitalInput01", False, 2),
-        Channel(Pv("Valve", "io[2].open"), "Q", "X", "Out", "Digital.Output01", True, 4),
-        Channel(Pv("", "gAxis.speed", 1), "Q", "W", "8I64.00x-1", "Speed", False, 5),
-        Channel(Pv("Task", "x", 4), "I", "B", "In", "B", False, 6),
-        Channel(Pv("", "last"), "I", "D", "In", "D", False, 9),
+        Channel(Pv("", "gStart"), "I", "X", "X20 DI.9371", "DigitalInput01", False, f"{file}:2"),
+        Channel(Pv("Valve", "io[2].open"), "Q", "X", "Out", "Digital.Output01", True, f"{file}:4"),
+        Channel(Pv("", "gAxis.speed", 1), "Q", "W", "8I64.00x-1", "Speed", False, f"{file}:5"),
+        Channel(Pv("Task", "x", 4), "I", "B", "In", "B", False, f"{file}:6"),
+        Channel(Pv("", "last"), "I", "D", "In", "D", False, f"{file}:9"),
     ]
     assert found[0].name == '%IX."X20 DI.9371".DigitalInput01'
     assert [each.pv.tag for each in found[:2]] == ["gStart", "Valve.io[2].open"]
@@ -55,10 +57,11 @@ def test_copies_and_permanent_variables(write):
     copies, findings = read_copies(folder / "PvMap.vvm")
     assert findings == []
     assert copies == [
-        PvMapLine(Pv("A", "x.y"), Pv("", "gZ"), 2),
-        PvMapLine(Pv("B", "a", 1), Pv("C", "b", 1), 3),
+        PvMapLine(Pv("A", "x.y"), Pv("", "gZ"), f"{folder}/PvMap.vvm:2"),
+        PvMapLine(Pv("B", "a", 1), Pv("C", "b", 1), f"{folder}/PvMap.vvm:3"),
     ]
-    assert read_permanent(folder / "Cpu.per") == ([Pv("", "gCount")], [])
+    file = folder / "Cpu.per"
+    assert read_permanent(file) == ([Permanent(Pv("", "gCount"), f"{file}:2")], [])
 
 
 @pytest.mark.parametrize("read", [read_channels, read_copies, read_permanent])

@@ -92,7 +92,7 @@ def test_all_that_is_wrong_is_found_in_one_go(write):
             "Logical/Package.pkg": "<Package>\n<Objects>",
             "Physical/Physical.pkg": '<P><Object Type="Configuration">C</Object></P>',
             "Physical/C/CP/Cpu.sw": sw,
-            "Physical/C/CP/IoMap.iom": "VAR_CONFIG\nnonsense;",
+            "Physical/C/CP/IoMap.iom": "VAR_CONFIG\nnonsense;\nEND_VAR",
             "Physical/C/CP/mappView/a.mpx": "<",
             "Physical/C/Hardware.hw": "<Hardware/>",
         }
