@@ -9,7 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.loops import pid, signals
-from plcsim.library.mapp import alarm_blocks, alarm_functions, recipe_blocks
+from plcsim.library.mapp import alarm_blocks, alarm_functions, packml_blocks, recipe_blocks
 from plcsim.library.motion import assembly, mapp, plcopen
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ class BlockModel(Protocol):
 _AXIS: Final = "an axis with trapezoidal profile"
 _ALARMS: Final = "the alarms of its core"
 _RECIPES: Final = "recipes of registered variables in files"
+_PACKML: Final = "the states of PackML"
 _LOOPS: Final = "the common formulas of closed loops"
 
 _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
@@ -45,6 +46,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (assembly.BLOCKS, _AXIS),
     (alarm_blocks.BLOCKS, _ALARMS),
     (recipe_blocks.BLOCKS, _RECIPES),
+    (packml_blocks.BLOCKS, _PACKML),
     (signals.BLOCKS, _LOOPS),
     (pid.BLOCKS, _LOOPS),
 )
@@ -52,7 +54,12 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
 
 _BLOCKS: Final = {name: (model, text) for group, text in _GROUPS for name, model in group.items()}
 _FUNCTIONS: Final[Mapping[str, tuple[Callable[..., Any], str]]] = {
-    name: (function, _ALARMS) for name, function in alarm_functions.FUNCTIONS.items()
+    name: (function, text)
+    for group, text in (
+        (alarm_functions.FUNCTIONS, _ALARMS),
+        (packml_blocks.FUNCTIONS, _PACKML),
+    )
+    for name, function in group.items()
 }
 
 
