@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.mends import Mends
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
-from plcsim.ansi_c.symbols import chosen, symbols_of, without_weak
+from plcsim.ansi_c.symbols import chosen, symbols_of, with_common, without_weak
 from plcsim.ansi_c.undeclared import undeclared
 from plcsim.core.errors import ConfigurationError
 
@@ -220,7 +220,7 @@ class _Object:
     def __init__(
         self, source: Path, work: _WorkFolder, order: BuildOrder, toolchain: Toolchain
     ) -> None:
-        self._is_c = is_c = source.suffix.lower() == ".c"
+        self.is_c = is_c = source.suffix.lower() == ".c"
         self.source = source
         self.content = b""
         self.errors: list[str] = []
@@ -263,7 +263,7 @@ class _Object:
 
     @cached_property
     def _mends(self) -> Mends:
-        is_c, sources, folders = self._is_c, self._sources, self._folders
+        is_c, sources, folders = self.is_c, self._sources, self._folders
         return Mends(
             self.source, is_c=is_c, sources=sources, folders=folders, file=lambda: self.file
         )
@@ -285,7 +285,7 @@ class _Object:
     def is_made_at_once(self) -> bool:
         """Whether the first run of the compiler makes the object."""
         try:
-            return self._is_c and seems_without_loops(self.source.read_text("latin-1"))
+            return self.is_c and seems_without_loops(self.source.read_text("latin-1"))
         except OSError:  # the compiler will tell
             return False
 
@@ -301,7 +301,7 @@ class _Object:
 
     def command_to_object(self) -> list[str]:
         """Return what makes an object of the bitcode."""
-        has_loops = not self._is_c or _LOOP in self._bitcode.read_bytes()
+        has_loops = not self.is_c or _LOOP in self._bitcode.read_bytes()
         passes = self._rounds if has_loops else _NO_PASSES
         options = [*_OPTIONS, *self._options, *passes, "-Wno-unused-command-line-argument"]
         return [*self.toolchain.c, *options, str(self._bitcode), "-o", str(self.file)]
@@ -427,11 +427,11 @@ def _link(
     cache: CodeCache,
     work: _WorkFolder,
 ) -> bytes:
-    key = _key("module", toolchain.identity, *_LINK_OPTIONS, *(o.content for o in objects))
+    key = _key("module 2", toolchain.identity, *_LINK_OPTIONS, *(o.content for o in objects))
     known = cache.load(key)
     if known is not None:
         return known
-    for compiled, content in zip(objects, without_weak([o.content for o in objects]), strict=True):
+    for compiled, content in zip(objects, _as_one(objects), strict=True):
         compiled.file.write_bytes(content)
     target = work.folder / "module.wasm"
     command = [
@@ -455,6 +455,12 @@ def _link(
     wasm = target.read_bytes()
     cache.store(key, wasm)
     return wasm
+
+
+def _as_one(objects: Sequence[_Object]) -> list[bytes]:
+    """Return the objects of one module, in which the same name is the same as far as C has it."""
+    common = iter(with_common([o.content for o in objects if o.is_c]))
+    return without_weak([next(common) if o.is_c else o.content for o in objects])
 
 
 def _linker_findings(order: BuildOrder, objects: Sequence[_Object], told: str) -> list[str]:

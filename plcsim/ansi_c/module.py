@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
 from plcsim.ansi_c.line_table import read_line_table
 from plcsim.ansi_c.nonlocal_jumps import NonlocalJumps
+from plcsim.ansi_c.plain_words import first_use, plain_name
 from plcsim.core.errors import ConfigurationError
 from plcsim.machine.placement import Placement, initial_values, place
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
 
     from plcsim.ansi_c.line_table import LineTable
     from plcsim.machine import Extern, Frame, Instance, Machine, MachineCode
@@ -50,6 +52,7 @@ class CModule:
         machine: what it runs on.
         surroundings: where it finds what it does not hold itself.
         address: of its data; None allocates it.
+        sources: its files, to tell where it uses what is nowhere.
 
     Attributes:
         name: as above.
@@ -67,8 +70,10 @@ class CModule:
         machine: Machine,
         surroundings: ModuleSurroundings,
         address: int | None = None,
+        sources: Sequence[Path] = (),
     ) -> None:
         self.name = name
+        self._sources = sources
         self._linked = linked
         self._machine = machine
         self._surroundings = surroundings
@@ -140,10 +145,14 @@ class CModule:
     def _complete(self, found: Mapping[str, V | None], kind: str) -> dict[str, V]:
         missing = sorted(name for name, value in found.items() if value is None)
         if missing:
-            raise ConfigurationError(
-                *(f"{self.name}: uses {kind} {name}, which is nowhere" for name in missing)
-            )
+            raise ConfigurationError(*(self._told_missing(kind, name) for name in missing))
         return {name: value for name, value in found.items() if value is not None}
+
+    def _told_missing(self, kind: str, symbol: str) -> str:
+        name = plain_name(symbol)
+        place = first_use(name, self._sources)
+        who = f"{place}: {self.name}" if place else f"{self.name}:"
+        return f"{who} uses {kind} {name}, which is nowhere"
 
     def __contains__(self, name: str) -> bool:
         return name in self._linked.functions
@@ -154,7 +163,7 @@ class CModule:
             return self.instance.extern(name)
         found = self._surroundings.function(name)
         if found is None:
-            raise ConfigurationError(f"{self.name}: uses {name}, which is nowhere")
+            raise ConfigurationError(self._told_missing("function", name))
         return found
 
     def function(self, name: str, params: str | None = None, results: str | None = None) -> Any:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _NO_HEADER = re.compile(r"'([^']+)' file not found$")
 _DUPLICATE = re.compile(r"duplicate symbol: (.+?), defined in (.+?), defined in (.+)$")
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)", re.DOTALL)
 _DEEPEST = 5
 _MOST_HEADERS = 5_000
 _ASSEMBLER = "this is assembler of the controller's processor; plcsim compiles for another machine"
@@ -108,6 +109,42 @@ def defined_twice(text: str) -> str:
     name, *files = found.groups()
     first, second = (place_of(name, Path(file)) for file in files)
     return f"{name} is defined at {first} and at {second}; one of them goes, or is static or extern"
+
+
+def plain_name(symbol: str) -> str:
+    """Return the name of a function or a variable of C++ without its types: ``Motor::start``."""
+    left, names = re.match(r"_ZN?K?(.*)", symbol), []
+    rest = left[1] if left else ""
+    while found := re.match(r"(\d+)(.*)", rest):
+        names.append(found[2][: int(found[1])])
+        rest = found[2][int(found[1]) :]
+    return "::".join(names) or symbol
+
+
+def first_use(name: str, sources: Iterable[Path]) -> str:
+    """Return "file:line" where a name is used first outside of comments, "" where it is not seen.
+
+    Args:
+        name: as `plain_name` gives it.
+        sources: files to look into.
+    """
+    word = re.escape(name.rpartition("::")[2])
+    used = re.compile(rf"(?:[;{{}}()=,&|!+\-/<>?:\[.]|\b(?:return|else|do))\s*({word})\b")
+    seen = re.compile(rf"\b({word})\b")
+    texts = {source: _without_comments(source) for source in sources}
+    for pattern in (used, seen):
+        for source, text in texts.items():
+            if found := pattern.search(text):
+                return f"{source}:{text.count(chr(10), 0, found.start(1)) + 1}"
+    return ""
+
+
+def _without_comments(source: Path) -> str:
+    try:
+        text = source.read_text("latin-1")
+    except OSError:
+        return ""
+    return _COMMENT.sub(lambda found: "\n" * found[0].count("\n"), text)
 
 
 def place_of(name: str, source: Path) -> str:

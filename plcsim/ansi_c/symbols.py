@@ -19,6 +19,20 @@ _WEAK, _LOCAL, _UNDEFINED, _EXPLICIT_NAME = 1, 2, 0x10, 0x40
 _KIND_OF_IMPORT: Final = {_OF_FUNCTION: FUNCTION, _OF_GLOBAL: GLOBAL}
 
 
+class DataSymbol(NamedTuple):
+    """A variable that an object holds.
+
+    Attributes:
+        place: of its flags in the object.
+        segment: number of its segment.
+        size: in bytes.
+    """
+
+    place: int
+    segment: int
+    size: int
+
+
 class ObjectSymbols(NamedTuple):
     """Names that an object shares with others.
 
@@ -28,6 +42,7 @@ class ObjectSymbols(NamedTuple):
         weak: functions among what it holds for which another definition would be taken, with the
             places of their flags in the object.
         weak_data: variables likewise, with the numbers of their segments.
+        data: other variables that it holds.
         segments: names of the segments.
     """
 
@@ -35,12 +50,21 @@ class ObjectSymbols(NamedTuple):
     needed: set[str]
     weak: dict[str, int]
     weak_data: dict[str, int]
+    data: dict[str, DataSymbol]
     segments: list[str]
 
     @property
     def valued(self) -> list[str]:
         """Weak variables, those that are marked _GLOBAL or _LOCAL, with an initial value."""
-        return [n for n, s in self.weak_data.items() if not self.segments[s].startswith(".bss")]
+        return [n for n, s in self.weak_data.items() if not self._is_zero(s)]
+
+    def _is_zero(self, segment: int) -> bool:
+        return self.segments[segment].startswith(".bss")
+
+    @property
+    def without_value(self) -> dict[str, DataSymbol]:
+        """Variables that are not weak, without an initial value."""
+        return {name: each for name, each in self.data.items() if self._is_zero(each.segment)}
 
 
 def symbols_of(wasm: bytes) -> ObjectSymbols:
@@ -50,7 +74,7 @@ def symbols_of(wasm: bytes) -> ObjectSymbols:
         MachineError: it is none.
     """
     imported: dict[int, list[str]] = {FUNCTION: [], GLOBAL: []}
-    found = ObjectSymbols(set(), set(), {}, {}, [])
+    found = ObjectSymbols(set(), set(), {}, {}, {}, [])
     for section in sections(wasm):
         if section.number == IMPORTS:
             for each in imports(wasm, section):
@@ -81,10 +105,11 @@ def _read(reader: Reader, imported: dict[int, list[str]], found: ObjectSymbols) 
     if kind == _OF_DATA:
         name = reader.name()
         if not flags & _UNDEFINED:
-            segment = reader.uleb()
-            reader.uleb(), reader.uleb()
+            segment, _, size = reader.uleb(), reader.uleb(), reader.uleb()
             if flags & _WEAK:
                 found.weak_data[name] = segment
+            elif not flags & _LOCAL:
+                found.data[name] = DataSymbol(place, segment, size)
     else:
         index = reader.uleb()
         if kind != _OF_SECTION and (flags & _EXPLICIT_NAME or not flags & _UNDEFINED):
@@ -137,3 +162,20 @@ def without_weak(objects: Sequence[bytes]) -> list[bytes]:
                 settled.add(name)
         changed.append(bytes(content))
     return changed
+
+
+def with_common(objects: Sequence[bytes]) -> list[bytes]:
+    """Return objects of C in which a variable without an initial value is one with its namesakes.
+
+    So GCC had it up to version 9: ``int counter;`` in a header is one variable for all files. Of
+    several the one with an initial value counts, else the largest one.
+    """
+    symbols = [symbols_of(wasm) for wasm in objects]
+    changed = [bytearray(wasm) for wasm in objects]
+    for name in {name for each in symbols for name in each.without_value}:
+        same = [(each.without_value.get(name), n) for n, each in enumerate(symbols)]
+        common = sorted(((s.size, s.place, n) for s, n in same if s), reverse=True)
+        has_other = any(name in each.data and name not in each.without_value for each in symbols)
+        for _, place, number in common if has_other else common[1:]:
+            changed[number][place] |= _WEAK
+    return [bytes(content) for content in changed]

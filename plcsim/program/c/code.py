@@ -78,6 +78,7 @@ class CCode:
     ) -> None:
         self._default_heap = heap_size
         self._module = compiled.module
+        self._sources = compiled.sources
         self._scope = scope
         self._variables = variables
         self.warnings = compiled.warnings
@@ -88,7 +89,7 @@ class CCode:
         own = [variables] if constants is None else [variables, constants]
         size = heap_size_of(self._module, self._default_heap)
         surroundings = ProgramSurroundings(name, site, self._scope, own, size)
-        module = CModule(name, self._module, site.machine, surroundings)
+        module = CModule(name, self._module, site.machine, surroundings, sources=self._sources)
         placed = partial(self._task, name, site, own, surroundings, module)
         return PlacedProgram(module.compile, placed)
 

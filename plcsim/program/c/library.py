@@ -33,7 +33,7 @@ def bodies_in(library: Library, files: Sequence[Path]) -> dict[str, Executable]:
     Raises:
         ConfigurationError: there are errors in them; all are told.
     """
-    whole = CLibraryCode(library, compile_library(library, files).module)
+    whole = CLibraryCode(library, compile_library(library, files).module, files)
     known = set(whole.module.functions)
     found: dict[str, Executable] = {
         block.name: CompiledBody(whole, block.name)
@@ -71,13 +71,15 @@ class CLibraryCode:
     Args:
         library: the library.
         module: its module.
+        sources: its files.
 
     Attributes:
         module: as above.
     """
 
-    def __init__(self, library: Library, module: SharedModule) -> None:
+    def __init__(self, library: Library, module: SharedModule, sources: Sequence[Path]) -> None:
         self._library = library
+        self._sources = sources
         self.module = module
 
     language: Final = NAME
@@ -98,7 +100,9 @@ class CLibraryCode:
         scope = self._library.scope
         size = heap_size_of(self.module, self._library.c_build.heap_size)
         surroundings = ProgramSurroundings(name, site, scope, (), size)
-        module = CModule(name, self.module, site.machine, surroundings).link()
+        module = CModule(
+            name, self.module, site.machine, surroundings, sources=self._sources
+        ).link()
         CompiledPrograms.of(site).locate_by(name, locator(module))
 
         def reset() -> None:

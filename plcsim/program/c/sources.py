@@ -36,10 +36,11 @@ if TYPE_CHECKING:
 
 
 class LinkedModule(NamedTuple):
-    """A linked module, and what the compiler said about its sources."""
+    """A linked module, what the compiler said about its sources, and these."""
 
     module: SharedModule
     warnings: Sequence[str]
+    sources: Sequence[Path]
 
 
 def compile_program(source: ProgramSource) -> LinkedModule:
@@ -166,4 +167,4 @@ def _compiled(order: BuildOrder) -> LinkedModule:
     options = [*order.options, "-Xclang", "-ivfsoverlay", "-Xclang", str(overlay)]
     order = replace(order, folders=folders, options=options)
     built = build(order, find_toolchain(), CodeCache(cache.parent / "c" if cache else None))
-    return LinkedModule(read_shared(built.wasm), built.warnings)
+    return LinkedModule(read_shared(built.wasm), built.warnings, order.sources)

@@ -80,7 +80,8 @@ class ProgramSurroundings:
         """Return a block, a FUNCTION of a library or a function of C, None where there is none.
 
         A FUNCTION goes before one of C, other than where only the latter is of the type that is
-        wanted: ``floor`` is one of AsMath with REAL, and one of math.h with double.
+        wanted: ``floor`` is one of AsMath with REAL, and one of math.h with double. Where no type
+        is known, as for a pointer, it is that of C: so the headers declare it.
         """
         if is_of_heap(name):
             return self._own_heap().extern(name)
@@ -88,7 +89,9 @@ class ProgramSurroundings:
         if found is None:
             return self._any_function(name)
         of_c = self._library.extern(name)
-        return found if of_c is None or found.type == wanted or of_c.type != wanted else of_c
+        if of_c is None or found.type in (wanted, of_c.type):
+            return found
+        return of_c if wanted in (None, of_c.type) else found
 
     def _block(self, name: str) -> Extern | None:
         block = self._scope.find_function_block(name)

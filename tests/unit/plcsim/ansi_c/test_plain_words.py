@@ -1,6 +1,6 @@
 import pytest
 
-from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
+from plcsim.ansi_c.plain_words import defined_twice, explained, first_use, place_of, plain_name
 
 
 @pytest.fixture
@@ -65,3 +65,23 @@ def test_the_line_of_a_definition(tmp_path, text, line):
     file = tmp_path / "a.c"
     file.write_text(text)
     assert place_of("Machine::speed(int)" if "::" in text else "speed", file) == f"{file}{line}"
+
+
+def test_a_use_is_found_behind_comments_and_declarations(tmp_path):
+    file = tmp_path / "Main.c"
+    file.write_text(
+        "// go();\nvoid go(int);\n/* x = go(1);\n*/ int y;\nint f() { return go(2); }\n"
+    )
+    missing = tmp_path / "gone.c"
+    assert first_use("go", [missing, file]) == f"{file}:5"
+    assert first_use("y", [file]) == f"{file}:4"
+    assert first_use("Class::go", [file]) == f"{file}:5"
+    assert first_use("else", [file]) == ""
+
+
+@pytest.mark.parametrize(
+    ("symbol", "name"),
+    [("strupr", "strupr"), ("_Z4stepv", "step"), ("_ZN5Motor5startEi", "Motor::start")],
+)
+def test_names_of_cpp_are_told_as_they_are_written(symbol, name):
+    assert plain_name(symbol) == name

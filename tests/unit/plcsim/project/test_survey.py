@@ -111,9 +111,10 @@ def test_a_program_that_calls_what_is_nowhere_is_left_out(surveyed, write_projec
         ["Good", "Bad"],
     )
     good, bad = surveyed(folder).rows
-    assert (good.reasons, bad.reasons) == ((), ("Bad: uses function gone, which is nowhere",))
+    reason = f"{folder}/Logical/Bad/Main.c:3: Bad uses function gone, which is nowhere"
+    assert (good.reasons, bad.reasons) == ((), (reason,))
     left = runnable(read_project(folder))
-    assert left.left_out == ("Bad is left out: Bad: uses function gone, which is nowhere",)
+    assert left.left_out == (f"Bad is left out: {reason}",)
     assert [entry.name for entry in left.programs] == ["Good"]
 
 

@@ -153,3 +153,44 @@ def test_a_unit_that_is_there_twice_is_told_with_both_places(run):
     files["main/Old.c"] = _with_head("\nvoid _CYCLIC old(void) {}\n")
     with pytest.raises(ConfigurationError, match=r"main: _CYCLIC .*Main.c:3 and .*Old.c:4"):
         run(files)
+
+
+def test_a_variable_of_a_header_is_one_for_all_files(results):
+    files = {
+        "shared.h": "int counter;\nstruct { char a; int b[3]; } whole;\nlong first, last;\n",
+        "Main.c": _with_head(
+            '#include "shared.h"\nvoid step(void);\nchar text[4];\nint known = 5;\n'
+            "void _CYCLIC run(void) { counter++; step(); result[0] = counter; result[1] = known;\n"
+            "result[2] = text[3]; result[3] = whole.b[2]; result[4] = first * 10 + last; }\n"
+        ),
+        "Step.c": _with_head(
+            '#include "shared.h"\nint known;\nchar text[60];\nint known, counter;\n'
+            "void step(void) { memset(text, 7, sizeof text); whole.b[2] = ++counter;\n"
+            "first = 1; last = 2; }\n"
+        ),
+    }
+    assert results(files, 5) == [6, 5, 7, 6, 12]
+
+
+def test_what_has_a_value_in_two_files_is_refused(run):
+    files = {"main/Main.c": _with_head("int x = 1;\nvoid _CYCLIC run(void) {}\n")}
+    files["main/More.c"] = "int x = 2;\n"
+    with pytest.raises(ConfigurationError, match=r"x is defined at .*Main.c:3 and at .*More.c:1"):
+        run(files)
+
+
+def test_a_pointer_to_a_function_of_math_is_one_to_that_of_math_h(results):
+    text = _with_head("""
+#include <math.h>
+#include <setjmp.h>
+static double (*const table[])(double) = {floor, ceil, sqrt, fabs};
+static jmp_buf here;
+void _CYCLIC run(void)
+{
+	int n;
+	for (n = 0; n < 4; n++) result[n] = table[n](6.25) * 100;
+	if (setjmp(here) == 0) longjmp(here, 1);
+	result[4] = fmod(7, 4) + floor(2.5);
+}
+""")
+    assert results({"Main.c": text}, 5) == [600, 700, 250, 625, 5]

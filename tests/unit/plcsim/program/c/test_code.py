@@ -197,7 +197,9 @@ def test_a_program_without_a_unit_is_refused(load):
 
 def test_what_is_nowhere_is_told_when_the_task_is_made(controller):
     text = "#include <bur/plctypes.h>\nvoid Mp(void*);\nvoid _CYCLIC run(void) { Mp(0); }"
-    with pytest.raises(ConfigurationError, match="conveyor: uses function Mp, which is nowhere"):
+    with pytest.raises(
+        ConfigurationError, match=r"Main.c:\d+: conveyor uses function Mp, which is nowhere"
+    ):
         controller({"Main.c": text})
 
 
