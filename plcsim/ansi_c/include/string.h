@@ -51,6 +51,8 @@ char *strdup(const char *text); /* on the heap */
 char *strndup(const char *text, size_t most);
 size_t strlcpy(char *target, const char *source, size_t size);
 size_t strlcat(char *target, const char *source, size_t size);
+char *strlwr(char *text); /* in place, as in newlib */
+char *strupr(char *text);
 size_t strxfrm(char *target, const char *source, size_t count);
 
 #ifdef __cplusplus

@@ -218,3 +218,17 @@ char *strchrnul(const char *text, int character)
 }
 
 void *rawmemchr(const void *area, int value) { return memchr(area, value, (size_t)-1 >> 1); }
+
+char *strlwr(char *text)
+{
+	for (char *next = text; *next; next++)
+		*next = (char)tolower((unsigned char)*next);
+	return text;
+}
+
+char *strupr(char *text)
+{
+	for (char *next = text; *next; next++)
+		*next = (char)toupper((unsigned char)*next);
+	return text;
+}

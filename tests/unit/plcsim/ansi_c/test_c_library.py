@@ -144,6 +144,14 @@ def test_texts_are_joined(a, b, count):
     assert WORLD.memory.string(target, 100) == a + b[:count]
 
 
+@given(texts)
+def test_letters_of_ascii_become_small_and_large_in_place(a):
+    for name, method in (("strlwr", bytes.lower), ("strupr", bytes.upper)):
+        target = WORLD.text(FIRST, a)
+        assert WORLD.call(name, target, results="I") == target
+        assert WORLD.memory.string(target, 100) == method(a)
+
+
 def test_words_are_cut_off_one_by_one():
     text, separators = WORLD.text(FIRST, b",,one, two,;three;"), WORLD.text(FIRST + 50, b",; ")
     words, at = [], WORLD.call("strtok", text, separators, results="I")
