@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from st_types.types.derived import (
@@ -12,6 +13,7 @@ from st_types.types.derived import (
     StructType,
     resolve_alias,
 )
+from st_types.types.elementary import ElementaryType, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,10 +26,17 @@ if TYPE_CHECKING:
 
 
 class MemberPlace(NamedTuple):
-    """Where a member lies in its structure."""
+    """Where a member lies in its structure.
+
+    Attributes:
+        data_type: of it.
+        offset: of it.
+        form: its bytes, where it is of an elementary type.
+    """
 
     data_type: DataType[Any]
     offset: int
+    form: Struct | None
 
 
 class StructMembers:
@@ -39,6 +48,7 @@ class StructMembers:
 
     def __init__(self, data_type: StructType[Any]) -> None:
         self._places: dict[str, MemberPlace] = {}
+        self._found: dict[str, MemberPlace | None] = {}
         self._add("", data_type, 0)
 
     def _add(self, prefix: str, data_type: StructType[Any], start: int) -> None:
@@ -48,11 +58,24 @@ class StructMembers:
             if isinstance(kind, StructType):
                 self._add(f"{name}.", kind, start + offset)
             else:
-                self._places[name.upper()] = MemberPlace(kind, start + offset)
+                self._places[name.upper()] = MemberPlace(kind, start + offset, _form(kind))
 
     def find(self, name: str) -> MemberPlace | None:
-        """Return where a member lies, None where there is none; names count in any case."""
-        return self._places.get(name.upper())
+        """Return where a member lies, None where there is none; names count in any case.
+
+        Of ``Info.Ready`` the name may be ``Info__Ready``, too.
+        """
+        if name not in self._found:
+            spelling = name.upper()
+            place = self._places.get(spelling) or self._places.get(spelling.replace("__", "."))
+            self._found[name] = place
+        return self._found[name]
+
+
+def _form(kind: DataType[Any]) -> Struct | None:
+    if not isinstance(kind, ElementaryType):
+        return None
+    return Struct("<B" if kind.kind is Kind.BOOL else f"<{kind.code}")
 
 
 class BlockVariables:
@@ -76,8 +99,13 @@ class BlockVariables:
         place = self._members.find(name)
         if place is None:
             return 0
-        value: float = self._memory.get(place.data_type, self._address + place.offset)
-        return value
+        at, form = self._address + place.offset, place.form
+        found: float
+        if form is None:
+            found = self._memory.get(place.data_type, at)
+        else:
+            (found,) = form.unpack(self._memory.read(at, form.size))
+        return found
 
     def is_true(self, name: str) -> bool:
         """Return a BOOL."""
@@ -89,11 +117,16 @@ class BlockVariables:
 
     def set(self, **values: float | str) -> None:
         """Write values; what the structure does not have is left out."""
+        write, start = self._memory.write, self._address
         for name, value in values.items():
-            place = self._members.find(name.replace("__", "."))
-            if place is not None:
-                at = self._address + place.offset
-                self._memory.set(place.data_type, at, fitting(place.data_type, value))
+            place = self._members.find(name)
+            if place is None:
+                continue
+            data_type, offset, form = place
+            if form is not None and isinstance(value, bool):
+                write(start + offset, form.pack(value))
+            else:
+                self._memory.set(data_type, start + offset, fitting(data_type, value))
 
     def text(self, name: str, limit: int = 255) -> str:
         """Return the text at the address that an input holds, "" for address 0.

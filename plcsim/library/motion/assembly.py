@@ -145,6 +145,7 @@ class AssemblyInfo(EnableBlock):
     """MC_BR_AsmReadInfo_AcpTrak, MC_BR_GroupReadInfo and their like."""
 
     axis_names: ClassVar[tuple[str, ...]] = NAMES
+    settles: ClassVar[bool] = False
 
     def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show what there is, in the structure of the block or beside it."""
@@ -182,6 +183,7 @@ class GetShuttle(EnableBlock):
     """MC_BR_AsmGetShuttle_AcpTrak and its like: one shuttle, and at an edge of Next another."""
 
     axis_names: ClassVar[tuple[str, ...]] = ("Assembly", "Sector")
+    settles: ClassVar[bool] = False
 
     def read(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Show it; all are on each assembly and in each sector."""

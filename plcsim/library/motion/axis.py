@@ -118,14 +118,16 @@ class Axis:
         self._command.finish()
         self._master: Axis | None = None
         self._is_held = False
+        self._has_begun = True
         self._ratio = 1.0
         self._master_position = 0.0
 
     def update(self, now_ns: int) -> None:
         """Move on to a time; one that is past changes nothing."""
-        if now_ns < self._now_ns:
+        is_moved = now_ns == self._now_ns and not self._has_begun and self._master is None
+        if now_ns < self._now_ns or is_moved:
             return
-        self._now_ns = now_ns
+        self._now_ns, self._has_begun = now_ns, False
         if self._master is not None:
             self._follow(self._master, now_ns)
             return
@@ -262,7 +264,7 @@ class Axis:
     ) -> None:
         if self._command.is_in_control and self._command is not command:
             self._command.status = CommandStatus.ABORTED
-        self._command, self._master, self.state = command, None, state
+        self._command, self._master, self.state, self._has_begun = command, None, state, True
         self._profile = MotionProfile(self._now_ns, self.position, self.velocity, segments, target)
 
     def _rest(self, state: AxisState) -> None:

@@ -225,6 +225,8 @@ class ReadAxisError(EnableBlock):
 class ReadDriveStatus(EnableBlock):
     """MC_BR_ReadDriveStatus: into the structure at AdrDriveStatus."""
 
+    settles: ClassVar[bool] = False
+
     def __init__(
         self,
         data_type: StructType[Any],
