@@ -55,8 +55,12 @@ class ActionClient:
         self._goals: dict[str, ClientGoal] = {}
         self._numbers = count(1)
         kinds = self.action_type
-        self._goal_out = node.register_publisher(f"{name}/goal", kinds.action_goal.name)
-        self._cancel_out = node.register_publisher(f"{name}/cancel", "actionlib_msgs/GoalID")
+        self._goal_out = node.register_publisher(
+            f"{name}/goal", kinds.action_goal.name, queue_size=MOST_GOALS
+        )
+        self._cancel_out = node.register_publisher(
+            f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=MOST_GOALS
+        )
         self._status_in = node.register_subscriber(
             f"{name}/status", "actionlib_msgs/GoalStatusArray"
         )

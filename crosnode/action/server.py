@@ -25,7 +25,8 @@ KEPT_NS: Final = 5_000_000_000
 """Nanoseconds that a goal stays in the status after its end, as at actionlib's servers."""
 
 MOST_GOALS: Final = 100
-"""Goals that are known at once; further ones are rejected."""
+"""Goals that are known at once. Those that are over make room early; beyond that, new ones are
+rejected."""
 
 
 class Goal:
@@ -134,7 +135,7 @@ class ActionServer:
     Attributes:
         action_type: the type.
         has_news: a status is due.
-        rejected: goals that came while too many were known.
+        rejected: goals that came while too many were under way; their clients are told.
     """
 
     def __init__(self, node: CrosNode, name: str, type_name: str) -> None:
@@ -145,11 +146,16 @@ class ActionServer:
         self._node = node
         self._goals: dict[str, Goal] = {}
         self._canceled: dict[str, int] = {}
+        self._canceled_until_ns = 0
         self._new: DropOldestQueue[Goal] = DropOldestQueue(MOST_GOALS)
         self._status_ns = 0
         kinds = self.action_type
-        self._goal_in = node.register_subscriber(f"{name}/goal", kinds.action_goal.name)
-        self._cancel_in = node.register_subscriber(f"{name}/cancel", "actionlib_msgs/GoalID")
+        self._goal_in = node.register_subscriber(
+            f"{name}/goal", kinds.action_goal.name, queue_size=MOST_GOALS
+        )
+        self._cancel_in = node.register_subscriber(
+            f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=MOST_GOALS
+        )
         self._status_out = node.register_publisher(
             f"{name}/status", "actionlib_msgs/GoalStatusArray", latching=True
         )
@@ -183,18 +189,29 @@ class ActionServer:
         if goal_id in self._goals:
             return
         goal = Goal(self, message.goal, goal_id, stamp if stamp.to_ns() else Time.from_ns(now_ns))
-        if len(self._goals) >= MOST_GOALS:
+        if not self._has_room():
             self.rejected += 1
+            goal.reject(f"{MOST_GOALS} goals are under way")
             return
         self._goals[goal_id] = goal
         self._new.push(goal)
         self.has_news = True
-        if goal_id in self._canceled:  # the cancel was faster
-            goal.cancel()
+        if goal_id in self._canceled or 0 < stamp.to_ns() <= self._canceled_until_ns:
+            goal.cancel()  # the cancel was faster
+
+    def _has_room(self) -> bool:
+        """Return whether one more goal may be known, after the first that is over is forgotten."""
+        if len(self._goals) >= MOST_GOALS:
+            over = next((goal for goal in self._goals.values() if goal.is_over), None)
+            if over is None:
+                return False
+            del self._goals[over.goal_id]
+        return True
 
     def _cancel(self, message: Message, now_ns: int) -> None:
         """Cancel the goal that is named, or those that are older than a time, or all."""
         goal_id, stamp_ns = message.id, message.stamp.to_ns()
+        self._canceled_until_ns = max(self._canceled_until_ns, stamp_ns)
         for goal in self._goals.values():
             is_all = not goal_id and not stamp_ns
             if is_all or goal.goal_id == goal_id or (stamp_ns and goal.stamp.to_ns() <= stamp_ns):

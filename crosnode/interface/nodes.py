@@ -243,7 +243,7 @@ def dropped(context: Context, handle: int) -> int:
     role = found.role if found else None
     if isinstance(role, Publisher):
         return role.dropped
-    return role.queue.dropped if isinstance(role, Subscriber) else 0
+    return role.dropped if isinstance(role, Subscriber) else 0
 
 
 @function("cRosPeers")

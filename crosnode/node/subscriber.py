@@ -76,6 +76,11 @@ class Subscriber:
         """Publishers connected now."""
         return sum(peer.is_streaming for peer in self.peers.values())
 
+    @property
+    def dropped(self) -> int:
+        """Messages dropped because the program did not take them in time."""
+        return self.queue.dropped
+
     def pop(self) -> Message | None:
         """Return the oldest message, None where there is none.
 
@@ -145,7 +150,7 @@ class Subscriber:
 
     def _ends(self) -> TopicEnds:
         uris = [uri for uri, peer in self.peers.items() if peer.is_streaming]
-        return TopicEnds(uris, self.queue.dropped)
+        return TopicEnds(uris, self.dropped)
 
     def close(self) -> None:
         """Part from all publishers."""

@@ -31,7 +31,7 @@ class Listener(Program):
             self.word = to_latin1(message.aWord)
             self.heard += 1
             self.node.log(LogLevel.INFO, f"I heard: [{message.aWord}]")
-        self.lost = self.chatter.queue.dropped
+        self.lost = self.chatter.dropped
 
     def exit(self) -> None:
         """Take the registration back."""

@@ -8,6 +8,7 @@ from crosnode.action.client import ActionClient, ClientGoal
 from crosnode.action.goal_states import GoalState
 from crosnode.action.server import KEPT_NS, MOST_GOALS, ActionServer
 from crosnode.errors import LocalProtocolError
+from crosnode.messages import Time
 from crosnode.node.ros_time import Epoch
 
 from ..node.world import MS, OTHER_IP, World, drain
@@ -113,16 +114,54 @@ def test_statuses_are_told_five_times_a_second_and_ended_goals_forgotten() -> No
     assert cell.server.goals == ()
 
 
-def test_goals_beyond_the_bound_are_not_taken() -> None:
+def test_goals_beyond_the_bound_are_rejected_and_their_clients_told() -> None:
     cell = Cell()
-    publisher = cell.other.publishers["/follow/goal"]
-    for number in range(MOST_GOALS + 20):
-        message = publisher.new()
-        message.goal_id.id = f"g{number}"
-        publisher.send(message)
-        cell.world.run(2)
-    assert len(cell.server.goals) == MOST_GOALS
-    assert cell.server.rejected == 20
+    known = [cell.send() for _ in range(MOST_GOALS)]
+    for _, goal in known:
+        goal.accept()
+    beyond, nothing = cell.send()
+    assert nothing is None
+    assert (beyond.state, beyond.text) == (
+        GoalState.REJECTED,
+        f"{MOST_GOALS} goals are under way",
+    )
+    assert (len(cell.server.goals), cell.server.rejected) == (MOST_GOALS, 1)
+    known[7][1].succeed()
+    sent, goal = cell.send()
+    assert goal.goal_id == sent.goal_id
+    assert (len(cell.server.goals), cell.server.rejected) == (MOST_GOALS, 1)
+
+
+def test_all_goals_and_cancels_of_one_cycle_are_taken() -> None:
+    cell = Cell()
+    cell.world.steps.remove(cell.server.step)
+    sent = [cell.client.send() for _ in range(MOST_GOALS)]
+    cell.world.run(50)
+    for goal in sent:
+        cell.client.cancel(goal)
+    cell.world.run(50)
+    cell.server.step()
+    taken = drain(cell.server.pop)
+    assert [goal.goal_id for goal in taken] == [goal.goal_id for goal in sent]
+    assert {goal.state for goal in taken} == {GoalState.RECALLING}
+
+
+def test_a_goal_from_before_a_cancel_is_canceled_when_it_comes_later() -> None:
+    cell = Cell()
+    cancels, goals = (cell.other.publishers[f"/follow/{name}"] for name in ("cancel", "goal"))
+    stamps = [Time(100, 0), Time(100, 1), Time()]
+    cancels.send(cancels.new(stamp=stamps[0]))
+    cell.world.run(5)
+    for number, stamp in enumerate(stamps):
+        message = goals.new()
+        message.goal_id.id, message.goal_id.stamp = f"g{number}", stamp
+        goals.send(message)
+    cell.world.run(5)
+    assert [goal.state for goal in drain(cell.server.pop)] == [
+        GoalState.RECALLING,
+        GoalState.PENDING,
+        GoalState.PENDING,
+    ]
 
 
 def test_a_client_whose_server_has_gone_gives_up() -> None:
