@@ -73,7 +73,7 @@ class EventLog:
     def __init__(self, name: str, size: int) -> None:
         self.name = name
         self._records: OrderedDict[int, EventRecord] = OrderedDict()
-        self._free = size
+        self._size = self._free = size
         self._last = 0
 
     def write(self, record: EventRecord) -> int:
@@ -85,6 +85,11 @@ class EventLog:
         self._last += 1
         self._records[self._last] = record
         return self._last
+
+    def clear(self) -> None:
+        """Delete all records; numbers go on."""
+        self._records.clear()
+        self._free = self._size
 
     @property
     def records(self) -> Mapping[int, EventRecord]:
