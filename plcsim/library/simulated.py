@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from plcsim.core.context import Context
+    from plcsim.core.memory import Memory
 
 LANGUAGE: Final = "table"
 
@@ -91,10 +92,12 @@ class TableBody(NamedTuple):
     Attributes:
         moves: what a call does.
         text: the same in words.
+        size: of a data block, bytes.
     """
 
     moves: tuple[_Move, ...]
     text: str
+    size: int
 
     @property
     def language(self) -> str:
@@ -103,23 +106,31 @@ class TableBody(NamedTuple):
 
     def bind(self, context: Context) -> Callable[[int], None]:
         """Return what runs the block on the data block at an address."""
-        memory, moves = context.memory, self.moves
+        memory, moves, size = context.memory, self.moves, self.size
+        last: dict[int, bytes] = {}
 
         def run(address: int) -> None:
-            for target, size, sources, data, _, kept in moves:
-                value = data
-                for source in sources:
-                    value = memory.read(address + source, size)
-                    if any(value):
-                        break
-                if kept is not None:
-                    if not any(memory.read(address + kept, size)):
-                        value = bytes(size)
-                    elif not any(value):
-                        continue
-                memory.write(address + target, value)
+            # What is as the last call left it stays so: outputs depend on inputs alone.
+            if memory.read(address, size) != last.get(address):
+                for move in moves:
+                    _apply(move, memory, address)
+                last[address] = memory.read(address, size)
 
         return run
+
+
+def _apply(move: _Move, memory: Memory, address: int) -> None:
+    value, size = move.data, move.size
+    for source in move.sources:
+        value = memory.read(address + source, size)
+        if any(value):
+            break
+    if move.kept is not None:
+        if not any(memory.read(address + move.kept, size)):
+            value = bytes(size)
+        elif not any(value):
+            return
+    memory.write(address + move.target, value)
 
 
 def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> TableBody | None:
@@ -133,7 +144,7 @@ def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> Tab
             moves.append(move)
             if move.followed:
                 texts.append(f"{output} follows {' or '.join(move.followed)}")
-    return TableBody(tuple(moves), ", ".join(texts)) if texts else None
+    return TableBody(tuple(moves), ", ".join(texts), data_type.size) if texts else None
 
 
 def _named(data_type: StructType[Any], rules: Mapping[str, Value]) -> dict[str, Value]:

@@ -154,3 +154,9 @@ def test_an_output_that_is_named_after_an_input_follows_it(robot):
 @pytest.mark.parametrize("rule", ["Home while Nothing", "Nothing while ENABLE"])
 def test_what_is_held_by_no_input_is_no_rule(rule):
     assert table_body(ROBOT, {"IsHomed": rule}) is None
+
+
+def test_an_output_that_a_program_wrote_is_written_again(robot):
+    assert robot(ENABLE=True) == {"Active", "Info"}
+    assert robot() == {"Active", "Info"}
+    assert robot(Active=False, PowerOn=True) == {"Active", "Info"}
