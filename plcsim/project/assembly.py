@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import sys
+import time
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -53,8 +54,8 @@ VIRTUAL_IP: Final = "192.168.0.10"
 """Address of the controller on a virtual network."""
 
 
-MANY_PROGRAMS: Final = 30
-"""Programs of which a person at a terminal is told how many are loaded."""
+PATIENCE_S: Final = 1.0
+"""After this time a person at a terminal is told how many programs are loaded."""
 
 
 def _nothing() -> None:
@@ -131,7 +132,7 @@ def load(project: Project, *, watched: bool = False, errors_fd: int | None = 2) 
     wrong = _wrong_before(project)
     layout = project.layout
     usable = {name: place for name, place in layout.programs.items() if name not in wrong}
-    loader = ProgramLoader(replace(layout, programs=usable), progress=_tell_progress)
+    loader = ProgramLoader(replace(layout, programs=usable), progress=_Progress())
     try:
         with nullcontext() if watched else _limit(project, errors_fd):
             return _load(project, loader, wrong)
@@ -157,13 +158,21 @@ def _limit(project: Project, errors_fd: int | None) -> Iterator[None]:
         yield
 
 
-def _tell_progress(done: int, total: int) -> None:
-    """Say on a terminal how far loading is, where there are many programs."""
-    if total < MANY_PROGRAMS or not sys.stderr.isatty():
-        return
-    end = "" if done < total else "\r\x1b[K"
-    sys.stderr.write(f"\r{done} of {total} programs are loaded{end}")
-    sys.stderr.flush()
+class _Progress:
+    """Says on a terminal how far loading is, where it takes long."""
+
+    def __init__(self) -> None:
+        self._start = time.monotonic()
+        self._is_shown = False
+
+    def __call__(self, done: int, total: int) -> None:
+        is_long = self._is_shown or time.monotonic() - self._start >= PATIENCE_S
+        if not is_long or not sys.stderr.isatty():
+            return
+        self._is_shown = done < total
+        end = "" if self._is_shown else "\r\x1b[K"
+        sys.stderr.write(f"\r{done} of {total} programs are loaded{end}")
+        sys.stderr.flush()
 
 
 def _first(error: BaseException) -> BaseException:

@@ -163,9 +163,10 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_a_person_is_told_how_many_programs_are_loaded(application, monkeypatch):
+def test_a_person_who_waits_is_told_how_many_programs_are_loaded(application, monkeypatch):
     two = CLASS + 'programs = ["main", "other"]\n'
-    monkeypatch.setattr(assembly, "MANY_PROGRAMS", 2)
+    patience = assembly.PATIENCE_S
+    monkeypatch.setattr(assembly, "PATIENCE_S", 0.0)
     for stream, told in ((Terminal(), True), (io.StringIO(), False)):
         monkeypatch.setattr(sys, "stderr", stream)
         application(two, other=PROGRAM)
@@ -175,6 +176,7 @@ def test_a_person_is_told_how_many_programs_are_loaded(application, monkeypatch)
             if told
             else [""]
         )
-    monkeypatch.setattr(sys, "stderr", few := Terminal())
-    application()
-    assert few.getvalue() == ""
+    monkeypatch.setattr(assembly, "PATIENCE_S", 100 * patience)
+    monkeypatch.setattr(sys, "stderr", fast := Terminal())
+    application(two, other=PROGRAM)
+    assert fast.getvalue() == ""
