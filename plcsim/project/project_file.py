@@ -18,6 +18,10 @@ FILE_NAME: Final = "plc.toml"
 
 AUTOMATION_STUDIO: Final = ".apj"
 
+PROJECT_IS: Final = "a project is a folder with plc.toml, or one of Automation Studio with *.apj"
+
+ARCHIVES: Final = (".zip", ".7z", ".gz", ".tar", ".tgz", ".rar")
+
 DEEPEST: Final = 3
 """Folders one in another that are looked through for an Automation Studio project."""
 
@@ -44,8 +48,12 @@ def find_project(path: Path) -> Path:
     Raises:
         ConfigurationError: there is none, or there are several; projects nearby are named.
     """
-    if path.name == FILE_NAME or path.suffix.lower() == AUTOMATION_STUDIO:
+    is_folder = os.path.isdir(path)  # noqa: PTH112  # no error for what can be no path
+    if path.name == FILE_NAME or (path.suffix.lower() == AUTOMATION_STUDIO and not is_folder):
         return _readable(path, path)
+    if os.path.isfile(path):  # noqa: PTH113
+        kind = "an archive to unpack" if path.suffix.lower() in ARCHIVES else "a file"
+        raise ConfigurationError(f"{path}: is no project but {kind}{_nearby(path)}")
     found = project_file(path)
     if found is None:
         below = _below(path)
@@ -88,4 +96,4 @@ def _nearby(path: Path) -> str:
         files = itertools.islice(folder.glob(f"*/{FILE_NAME}"), MOST_HINTS)
         folders += [file.parent for file in files]
     found = sorted(dict.fromkeys(map(str, folders)))
-    return f"; there are projects in {', '.join(found)}" if found else "; a project has one"
+    return f"; there are projects in {', '.join(found)}" if found else f"; {PROJECT_IS}"

@@ -17,7 +17,7 @@ from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.names import FileNames, names_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     from plcsim.library.document import XmlElement
@@ -105,15 +105,17 @@ def project_file(folder: Path) -> Path | None:
     Some repositories hold the logical view only: then it is the folder ``Logical``.
     """
     names = names_in(folder)
-    found = next((name for name in sorted(names.values()) if _is_project(name)), None)
+    found = _named_as_project(folder, names)
     if found is not None:
-        return folder / found
+        return found
     logical = folder / names.get("logical", "Logical")
     return logical if is_package(logical) else None
 
 
-def _is_project(name: str) -> bool:
-    return name.lower().endswith(".apj")
+def _named_as_project(folder: Path, names: Mapping[str, str]) -> Path | None:
+    """Return the first file called ``*.apj``; a folder may be called so, too."""
+    found = (folder / name for name in sorted(names.values()) if name.lower().endswith(".apj"))
+    return next((path for path in found if not path.is_dir()), None)
 
 
 def logical_folder(project: Path) -> Path | None:
@@ -122,7 +124,7 @@ def logical_folder(project: Path) -> Path | None:
     That is ``Logical`` beside a project file (``*.apj``).
     """
     names = names_in(project)
-    if not any(map(_is_project, names)) or "logical" not in names:
+    if _named_as_project(project, names) is None or "logical" not in names:
         return None
     folder = project / names["logical"]
     return folder if is_package(folder) else None

@@ -8,6 +8,7 @@ import pytest
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.task import Policy
 from plcsim.project.plc_toml import read_project
+from plcsim.project.project_file import PROJECT_IS
 from plcsim.project.tables import ProgramEntry
 
 MS = 1_000_000
@@ -240,7 +241,7 @@ def test_near_projects_are_named_where_one_is_missing(project, monkeypatch):
         with pytest.raises(ConfigurationError) as raised:
             read_project(path)
         hint = "" if path.name == "plc.toml" else f"; there are projects in {folder}"
-        assert str(raised.value).endswith(hint or "; a project has one")
+        assert str(raised.value).endswith(hint or f"; {PROJECT_IS}")
     monkeypatch.chdir(folder / "main")
     with pytest.raises(ConfigurationError, match=re.escape("plc.toml: there is no such file; did")):
         read_project(Path())
@@ -255,6 +256,20 @@ def test_the_one_automation_studio_project_below_a_folder_is_meant(project):
     both = "projects in .*zip/inner, .*zip/second"
     with pytest.raises(ConfigurationError, match=both):
         read_project(folder)
+
+
+def test_a_folder_of_a_project_may_be_called_as_its_file_and_an_archive_is_none(project):
+    folder = project({"plc.toml": MAIN, "main/main.py": PROGRAM})
+    named = folder.rename(folder.with_name("cell.apj"))
+    assert read_project(named).folder == named
+    (archive := folder.with_name("cell.zip")).touch()
+    text = f"{archive}: is no project but an archive to unpack; there are projects in {named}"
+    with pytest.raises(ConfigurationError, match=re.escape(text)):
+        read_project(archive)
+    (named / "notes.txt").touch()
+    text = f"{named}/notes.txt: is no project but a file; did you mean {named}?"
+    with pytest.raises(ConfigurationError, match=re.escape(text)):
+        read_project(named / "notes.txt")
 
 
 @pytest.mark.parametrize("path", ["a\0b", "x" * 300])
