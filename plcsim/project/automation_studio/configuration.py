@@ -119,8 +119,10 @@ class Configurations:
             return None
         try:
             root = read_document(file)
-        except DocumentError:
-            return None  # it holds no part of the project, only what somebody looked at last
+        except DocumentError as err:  # a warning: it holds no part of the project
+            message = f"it does not tell which configuration is active: {err}"
+            self.findings.append(Finding(file, err.line, message, "LastUser"))
+            return None
         for element in root.all("ConfigurationManager"):
             name = element.get("ActiveConfigurationName")
             if name in self.folders:
@@ -138,13 +140,25 @@ class Configurations:
         made_for_it = [name for name in self.folders if self._is_simulation(name)]
         order += sorted(made_for_it, key=self._task_count, reverse=True)
         chosen = next((name for name in order if self._task_count(name)), None)
-        return chosen or max([*order, *self.folders], key=self._task_count, default=None)
+        chosen = chosen or max([*order, *self.folders], key=self._task_count, default=None)
+        if active not in (None, chosen):
+            self.findings += self._tasks_of(active)[1]
+        return chosen
 
     def _task_count(self, name: str) -> int:
+        return len(self._tasks_of(name)[0].tasks)
+
+    def _tasks_of(self, name: str) -> tuple[Software, list[Finding]]:
+        """Return what Cpu.sw of a configuration says, and why that cannot be read."""
         known = len(self.findings)
-        file = self._software_file(self._cpu(self._cpu_folder(self.folders[name]))[1])
+        folder = self.folders[name]
+        file = self._software_file(self._cpu(self._cpu_folder(folder))[1])
         del self.findings[known:]  # they are told when the configuration is read
-        return 0 if file is None else len(read_software(file)[0].tasks)
+        if file is not None:
+            return read_software(file)
+        return Software(), [
+            Finding(folder, 0, "the active configuration has no Cpu.sw, and so no task", name)
+        ]
 
     def _is_simulation(self, name: str) -> bool:
         file = self._hardware_file(self.folders[name])

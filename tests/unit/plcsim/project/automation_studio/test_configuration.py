@@ -1,3 +1,5 @@
+import pytest
+
 from plcsim.project.automation_studio.configuration import Configurations
 from plcsim.project.automation_studio.names import FileNames
 
@@ -79,6 +81,36 @@ def test_one_that_runs_something_is_preferred_to_the_active_one(write):
     assert found.findings == []
     write({"Physical/Real/CP/Cpu.sw": "<Sw/>"})
     assert configurations(folder).preferred() == "Sim"
+
+
+@pytest.mark.parametrize(
+    ("software", "severity", "message"),
+    [
+        ("<Sw>", "error", "it is no XML: no element found"),
+        (None, "warning", "the active configuration has no Cpu.sw, and so no task"),
+    ],
+)
+def test_why_the_active_one_does_not_run_is_told(write, software, severity, message):
+    folder = write(FILES)
+    write({"LastUser.set": '<P><ConfigurationManager ActiveConfigurationName="Sim"/></P>'})
+    file = folder / "Physical/Sim/PC/Cpu.sw"
+    if software is None:
+        file.unlink()
+    else:
+        file.write_text(software)
+    found = configurations(folder)
+    assert found.preferred() == "real"
+    assert [(each.severity, each.message) for each in found.findings] == [(severity, message)]
+
+
+def test_a_broken_last_user_is_a_warning_where_it_would_choose(write):
+    folder = write({**FILES, "LastUser.set": "<P"})
+    found = configurations(folder)
+    assert found.preferred() == "real"
+    (finding,) = found.findings
+    assert (finding.severity, finding.location) == ("warning", f"{folder}/LastUser.set:1")
+    (found := configurations(folder)).read("Sim")
+    assert found.findings == []
 
 
 def test_a_project_saved_half(write):
