@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.loops import pid, signals
 from plcsim.library.mapp import alarm_blocks, alarm_functions, packml_blocks, recipe_blocks
-from plcsim.library.motion import assembly, mapp, plcopen
+from plcsim.library.motion import assembly, cyclic, mapp, plcopen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,6 +42,7 @@ _LOOPS: Final = "the common formulas of closed loops"
 
 _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (plcopen.BLOCKS, _AXIS),
+    (cyclic.BLOCKS, _AXIS),
     (mapp.BLOCKS, _AXIS),
     (assembly.BLOCKS, _AXIS),
     (alarm_blocks.BLOCKS, _ALARMS),

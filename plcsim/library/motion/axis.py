@@ -5,16 +5,25 @@ Movements may interrupt one another; none is buffered, jerk is not limited.
 
 from __future__ import annotations
 
+import math
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
-from plcsim.library.motion.profile import MotionLimits, MotionProfile, to_position, to_velocity
+from plcsim.library.motion.coupling import Coupling
+from plcsim.library.motion.profile import (
+    MotionLimits,
+    MotionProfile,
+    MotionSegment,
+    S,
+    to_position,
+    to_velocity,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from plcsim.core.context import Context
-    from plcsim.library.motion.profile import MotionSegment
+    from plcsim.library.motion.coupling import Approach
 
 MOST_AXES: Final = 1024
 """Axes of one controller; what is beyond is no axis."""
@@ -24,6 +33,9 @@ FIRST_HANDLE: Final = 0x4000
 
 FARTHEST: Final = 1e12
 """Positions and velocities that commands may ask for."""
+
+SLOWEST: Final = 1e-6
+"""Velocity with an override of 0."""
 
 NO_AXIS: Final = 1
 NOT_ALLOWED: Final = 2
@@ -74,12 +86,14 @@ class MotionCommand:
         status: of it; REACHED where it has what it was for, and goes on.
         error_id: why it was refused, 0 where it was not.
         is_shown: whether a block has shown its end.
+        cyclic_value: that a block gave last, where it gives one in every call.
     """
 
     def __init__(self) -> None:
         self.status = CommandStatus.BUSY
         self.error_id = 0
         self.is_shown = False
+        self.cyclic_value: float | None = None
 
     @property
     def is_in_control(self) -> bool:
@@ -116,31 +130,34 @@ class Axis:
         self._profile = MotionProfile(0, 0.0, 0.0)
         self._command = MotionCommand()
         self._command.finish()
-        self._master: Axis | None = None
+        self._coupling: Coupling | None = None
         self._is_held = False
         self._has_begun = True
-        self._ratio = 1.0
-        self._master_position = 0.0
+        self._factors = (1.0, 1.0)
+        self._asked: tuple[float, MotionLimits] | None = None
+        self._torque = 0.0
+        self._tracked_ns = 0
 
     def update(self, now_ns: int) -> None:
         """Move on to a time; one that is past changes nothing."""
-        is_moved = now_ns == self._now_ns and not self._has_begun and self._master is None
+        is_moved = now_ns == self._now_ns and not self._has_begun and self._coupling is None
         if now_ns < self._now_ns or is_moved:
             return
         self._now_ns, self._has_begun = now_ns, False
-        if self._master is not None:
-            self._follow(self._master, now_ns)
+        if self._coupling is not None:
+            self._follow(self._coupling, now_ns)
             return
         self.position, self.velocity = self._profile.at(now_ns)
+        if self._tracked_ns and now_ns <= self._profile.end_ns:
+            self.velocity = self._profile.velocity
         if now_ns >= self._profile.end_ns and self._command.status is CommandStatus.BUSY:
             self._arrive()
 
-    def _follow(self, master: Axis, now_ns: int) -> None:
-        master.update(now_ns)
-        self.position += self._ratio * (master.position - self._master_position)
-        self.velocity = self._ratio * master.velocity
-        self._master_position = master.position
-        self._command.status = CommandStatus.REACHED
+    def _follow(self, coupling: Coupling, now_ns: int) -> None:
+        coupling.master.update(now_ns)
+        self.position, self.velocity, is_synchronous = coupling.at()
+        if is_synchronous:
+            self._command.status = CommandStatus.REACHED
 
     def _arrive(self) -> None:
         if self.state is AxisState.CONTINUOUS_MOTION:
@@ -185,8 +202,10 @@ class Axis:
     def move_to(self, command: MotionCommand, position: float, limits: MotionLimits) -> None:
         """Go to a position, and stay there."""
         if self._takes(command, [position], MOVABLE):
-            segments = to_position(position - self.position, self.velocity, limits)
+            distance = position - self.position
+            segments = to_position(distance, self.velocity, self._overridden(limits))
             self._begin(command, AxisState.DISCRETE_MOTION, segments, position)
+            self._asked = (position, limits)
 
     def move_by(self, command: MotionCommand, distance: float, limits: MotionLimits) -> None:
         """Go on over a distance: from the target of the movement that is under way."""
@@ -196,8 +215,70 @@ class Axis:
     def move_at(self, command: MotionCommand, velocity: float, limits: MotionLimits) -> None:
         """Take a velocity, and keep it."""
         if self._takes(command, [velocity], MOVABLE):
-            segments = to_velocity(self.velocity, velocity, limits)
+            wanted = velocity * self._factors[0]
+            segments = to_velocity(self.velocity, wanted, self._overridden(limits))
             self._begin(command, AxisState.CONTINUOUS_MOTION, segments)
+            self._asked = (velocity, limits)
+
+    def turn(
+        self, command: MotionCommand, torque: float, velocity: float, limits: MotionLimits
+    ) -> None:
+        """Turn with a torque: nothing holds the axis, so it takes the velocity it may have."""
+        self.move_at(command, math.copysign(velocity, torque) if torque else 0.0, limits)
+        if command.is_in_control:
+            self._torque = torque
+
+    @property
+    def torque(self) -> float:
+        """The torque that was asked for last and is still in control, else 0."""
+        return self._torque if self._command.is_in_control else 0.0
+
+    def override(self, velocity: float, acceleration: float) -> None:
+        """Multiply velocities and accelerations of movements, of the one under way too.
+
+        Args:
+            velocity: factor of velocities, 0 stops; what is below 0 or no number changes nothing.
+            acceleration: likewise of accelerations; 0 is as 1.
+        """
+        factors = (velocity, acceleration or 1.0)
+        if factors == self._factors or not all(0 <= each <= FARTHEST for each in factors):
+            return
+        self._factors = factors
+        command, asked = self._command, self._asked
+        if asked is None or not command.is_in_control:
+            return
+        if command.status is CommandStatus.REACHED:
+            command.status = CommandStatus.BUSY
+        torque = self._torque
+        if self.state is AxisState.DISCRETE_MOTION:
+            self.move_to(command, *asked)
+        elif self.state is AxisState.CONTINUOUS_MOTION:
+            self.move_at(command, *asked)
+        self._torque = torque
+
+    def _overridden(self, limits: MotionLimits) -> MotionLimits:
+        velocity, rate = self._factors
+        return MotionLimits(
+            max(limits.velocity * velocity, SLOWEST),
+            limits.acceleration * rate,
+            limits.deceleration * rate,
+        )
+
+    def track(self, command: MotionCommand, position: float) -> None:
+        """Be at a position one call later; called with one position after the other."""
+        if not self._takes(command, [position], MOVABLE):
+            return
+        before_ns, start = self._tracked_ns, self.position
+        self._begin(command, AxisState.SYNCHRONIZED_MOTION, ())
+        passed_ns = self._now_ns - before_ns if before_ns else 0
+        if passed_ns > 0:
+            duration = passed_ns / S
+            velocity = (position - start) / duration
+            segments = [MotionSegment(duration, 0.0)]
+            self._profile = MotionProfile(self._now_ns, start, velocity, segments, position)
+            self.velocity = velocity
+        self._tracked_ns = self._now_ns
+        command.status = CommandStatus.REACHED
 
     def halt(self, command: MotionCommand, limits: MotionLimits) -> None:
         """Come to rest; another movement may interrupt that."""
@@ -218,20 +299,26 @@ class Axis:
         if self.state is AxisState.STOPPING and not self._command.is_in_control:
             self.state = AxisState.STANDSTILL
 
-    def couple(self, command: MotionCommand, master: Axis, ratio: float) -> None:
+    def couple(
+        self,
+        command: MotionCommand,
+        master: Axis,
+        ratio: float,
+        approach: Approach | None = None,
+    ) -> None:
         """Follow another axis from here on, with its velocity times ``ratio``."""
-        if not self._takes(command, [ratio], MOVABLE):
+        if not self._takes(command, [ratio, *(approach or ())], MOVABLE):
             return
         if master is self or self in master.masters():
             command.refuse(NOT_ALLOWED)
             return
         master.update(self._now_ns)
         self._begin(command, AxisState.SYNCHRONIZED_MOTION, ())
-        self._master, self._ratio, self._master_position = master, ratio, master.position
+        self._coupling = Coupling(master, ratio, self.position, approach)
 
     def uncouple(self, command: MotionCommand) -> None:
         """Go on with the velocity that the coupled axis has."""
-        if self._master is None:
+        if self._coupling is None:
             command.refuse(NOT_ALLOWED)
             return
         self._begin(MotionCommand(), AxisState.CONTINUOUS_MOTION, ())
@@ -240,10 +327,10 @@ class Axis:
     def masters(self) -> Sequence[Axis]:
         """Return the axes that this one follows, and those that they follow."""
         found = []
-        axis = self._master
-        while axis is not None:
-            found.append(axis)
-            axis = axis._master
+        coupling = self._coupling
+        while coupling is not None:
+            found.append(coupling.master)
+            coupling = coupling.master._coupling
         return found
 
     def _takes(
@@ -253,7 +340,7 @@ class Axis:
             command.refuse(NOT_ALLOWED)
         elif not all(abs(number) <= FARTHEST for number in numbers):
             command.refuse(NO_NUMBER)
-        return command.status is CommandStatus.BUSY
+        return command.is_in_control
 
     def _begin(
         self,
@@ -264,7 +351,9 @@ class Axis:
     ) -> None:
         if self._command.is_in_control and self._command is not command:
             self._command.status = CommandStatus.ABORTED
-        self._command, self._master, self.state, self._has_begun = command, None, state, True
+        self._command, self._coupling, self.state = command, None, state
+        self._asked, self._torque, self._tracked_ns = None, 0.0, 0
+        self._has_begun = True
         self._profile = MotionProfile(self._now_ns, self.position, self.velocity, segments, target)
 
     def _rest(self, state: AxisState) -> None:

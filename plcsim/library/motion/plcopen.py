@@ -17,6 +17,7 @@ from plcsim.library.motion.block import (
     give_command,
     limits_of,
 )
+from plcsim.library.motion.coupling import Approach
 from st_types.types.derived import StructType
 
 if TYPE_CHECKING:
@@ -123,16 +124,57 @@ class GearIn(ExecuteBlock):
 
     def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
         """Couple."""
-        master = self.axes.at(variables.address("Master"))
         ratio = variables.number("RatioNumerator") / (variables.number("RatioDenominator") or 1)
-        if master is None:
-            command.refuse(NO_AXIS)
-        else:
-            axis.couple(command, master, ratio)
+        couple(self, variables, axis, command, ratio)
+
+
+class GearInPos(ExecuteBlock):
+    """MC_GearInPos: over a straight line to the synchronous positions."""
+
+    axis_names: ClassVar[tuple[str, ...]] = ("Slave",)
+    reached: ClassVar[str] = "InSync"
+
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
+        """Couple."""
+        approach = Approach(
+            variables.number("MasterSyncPosition"),
+            variables.number("SlaveSyncPosition"),
+            variables.number("MasterStartDistance"),
+        )
+        ratio = variables.number("RatioNumerator") / (variables.number("RatioDenominator") or 1)
+        couple(self, variables, axis, command, ratio, approach)
+
+
+class CamIn(ExecuteBlock):
+    """MC_CamIn: every cam is a straight line, by the scalings of slave and master."""
+
+    axis_names: ClassVar[tuple[str, ...]] = ("Slave",)
+    reached: ClassVar[str] = "InSync"
+
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
+        """Couple."""
+        scalings = (variables.number(f"{each}Scaling") or 1 for each in ("Slave", "Master"))
+        couple(self, variables, axis, command, next(scalings) / next(scalings))
+
+
+def couple(
+    block: MotionBlock,
+    variables: BlockVariables,
+    axis: Axis,
+    command: MotionCommand,
+    ratio: float,
+    approach: Approach | None = None,
+) -> None:
+    """Let an axis follow the one at the input Master, or MpLinkMaster of mapp."""
+    master = block.axes.at(variables.address("Master", "MpLinkMaster"))
+    if master is None:
+        command.refuse(NO_AXIS)
+    else:
+        axis.couple(command, master, ratio, approach)
 
 
 class GearOut(ExecuteBlock):
-    """MC_GearOut."""
+    """MC_GearOut and MC_CamOut: the slave keeps its velocity."""
 
     axis_names: ClassVar[tuple[str, ...]] = ("Slave",)
 
@@ -264,7 +306,10 @@ BLOCKS: Final[Mapping[str, type[MotionBlock]]] = {
     "MC_Stop": Stop,
     "MC_Reset": Reset,
     "MC_GearIn": GearIn,
+    "MC_GearInPos": GearInPos,
+    "MC_CamIn": CamIn,
     "MC_GearOut": GearOut,
+    "MC_CamOut": GearOut,
     "MC_BR_JogVelocity": JogVelocity,
     "MC_BR_JogLimitPosition": JogVelocity,
     "MC_ReadActualPosition": ReadPosition,

@@ -26,6 +26,16 @@ _IN = {
     "HomingMode": USINT,
     "RatioNumerator": DINT,
     "RatioDenominator": DINT,
+    "MasterSyncPosition": REAL,
+    "SlaveSyncPosition": REAL,
+    "MasterStartDistance": REAL,
+    "MasterScaling": DINT,
+    "SlaveScaling": DINT,
+    "VelFactor": REAL,
+    "AccFactor": REAL,
+    "Torque": REAL,
+    "CyclicVelocity": REAL,
+    "CyclicPosition": LREAL,
     "Execute": BOOL,
     "Enable": BOOL,
     "JogPositive": BOOL,
@@ -43,6 +53,8 @@ _OUT = {
     "Valid": BOOL,
     "InVelocity": BOOL,
     "InGear": BOOL,
+    "InSync": BOOL,
+    "InTorque": BOOL,
     "Jogging": BOOL,
     "PowerOn": BOOL,
     "IsHomed": BOOL,
@@ -63,9 +75,12 @@ DRIVE_STATUS = StructType(
 )
 
 
+NUMBERS = ("Position", "Velocity", "Torque", "CyclicPosition")
+
+
 def block_type(name, *more):
     """A block with all the members that any has, and some more outputs."""
-    outputs = {each: LREAL if each in ("Position", "Velocity") else BOOL for each in more}
+    outputs = {each: LREAL if each in NUMBERS else BOOL for each in more}
     inputs = {each: kind for each, kind in _IN.items() if each not in outputs}
     members = [Member(each, kind, section=Section.INPUT) for each, kind in inputs.items()]
     members += [

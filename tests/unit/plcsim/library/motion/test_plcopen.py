@@ -245,3 +245,61 @@ def test_a_restart_forgets_axes_and_commands(plc):
     plc.context.restart()
     assert state(plc) == "Disabled"
     assert move(Execute=False).on == set()
+
+
+def test_gear_in_pos_is_in_sync_at_the_positions_of_both(plc):
+    for axis in (AXIS, AXIS + 8):
+        plc.powered(axis)
+    plc.block("MC_MoveVelocity")(Execute=True, Velocity=100.0, Acceleration=1e6)
+    gear = plc.block("MC_GearInPos", axis=0)
+    gear.set(Master=AXIS, Slave=AXIS + 8, RatioNumerator=2, RatioDenominator=1)
+    gear(Execute=True, MasterSyncPosition=50.0, SlaveSyncPosition=20.0, MasterStartDistance=40.0)
+    plc.run(100, gear)
+    assert position(plc, AXIS + 8) == 0.0  # the master has 10, from where the slave starts
+    plc.run(390, gear)
+    assert "InSync" not in gear.on
+    plc.run(20, gear)
+    assert "InSync" in gear.on
+    assert position(plc, AXIS + 8) == pytest.approx(20.0 + 2 * (position(plc) - 50.0))
+    assert velocity(plc, AXIS + 8) == pytest.approx(200.0)
+    assert state(plc, AXIS + 8) == "SynchronizedMotion"
+
+
+def test_a_master_that_is_beyond_is_followed_at_once(plc):
+    for axis in (AXIS, AXIS + 8):
+        plc.powered(axis)
+    plc.block("MC_Home")(Execute=True, Position=100.0)
+    gear = plc.block("MC_GearInPos", axis=0)
+    gear.set(Master=AXIS, Slave=AXIS + 8, RatioNumerator=1, MasterSyncPosition=50.0)
+    gear(Execute=True)
+    plc.run(1, gear)
+    assert "InSync" in gear.on
+    assert position(plc, AXIS + 8) == 0.0
+
+
+def test_a_cam_is_a_line_by_its_scalings_until_cam_out(plc):
+    for axis in (AXIS, AXIS + 8):
+        plc.powered(axis)
+    plc.block("MC_MoveVelocity")(Execute=True, Velocity=100.0, Acceleration=1e6)
+    cam = plc.block("MC_CamIn", axis=0)
+    cam.set(Master=AXIS, Slave=AXIS + 8, MasterScaling=2, SlaveScaling=3)
+    cam(Execute=True)
+    plc.run(100, cam)
+    assert "InSync" in cam.on
+    assert velocity(plc, AXIS + 8) == pytest.approx(150.0)
+    out = plc.block("MC_CamOut", axis=0)
+    out.set(Slave=AXIS + 8)
+    out(Execute=True)
+    plc.run(1, cam, out)
+    assert "Done" in out.on
+    assert "CommandAborted" in cam.on
+    assert state(plc, AXIS + 8) == "ContinuousMotion"
+
+
+def test_no_axis_follows_what_is_none_or_itself(plc):
+    plc.powered()
+    cam = plc.block("MC_CamIn", axis=0)
+    cam.set(Slave=AXIS)
+    assert cam(Execute=True)["ErrorID"] == NO_AXIS
+    cam(Execute=False)
+    assert cam(Execute=True, Master=AXIS)["ErrorID"] == NOT_ALLOWED
