@@ -12,8 +12,9 @@ process, which does what is due before a step and says so; then the step is done
 is counted, not read. So a step finds in its sockets what it found in the other rounds, byte by
 byte. All else is as in a scan: rights, memory, and Python's collector, which runs between steps. A
 step of a round is compared with those alone that had as much to do: that left as much of each part
-of their budget, and for which about as many pages were laid out. One that has no like counts as it
-is.
+of their budget, and for which about as many pages were laid out. What came a little earlier or
+later than in the other rounds has its like there a few steps before or behind. One that has no like
+counts as it is.
 """
 
 from __future__ import annotations
@@ -57,6 +58,9 @@ FAULTS = 16
 
 LATER_NS = 3_600_000_000_000
 """By which the counted time is ahead of the clock, which a peer has read at its start."""
+
+NEAR = 5
+"""Steps by which a round may be ahead of the others."""
 
 SHOWN = 8
 """Numbers of steps over their budget in a row of the table."""
@@ -167,17 +171,27 @@ def page_faults() -> int:
 
 
 def places_of(rounds: list[list[Step]]) -> list[Place]:
-    """Return what each step came to in all rounds."""
-    return [place_of(number, steps) for number, steps in enumerate(zip(*rounds, strict=True))]
+    """Return what each step came to in all rounds, which have as many steps."""
+    return [place_of(number, rounds) for number in range(len(rounds[0]))]
 
 
-def place_of(number: int, steps: tuple[Step, ...]) -> Place:
+def place_of(number: int, rounds: list[list[Step]]) -> Place:
     """Return what a step came to."""
     likes = defaultdict(list)
-    for step in steps:
-        likes[step.like].append(step.ns)
-    least_ns = max(min(times) for times in likes.values())
-    return Place(number, least_ns, max(step.ns for step in steps), len(likes))
+    for steps in rounds:
+        likes[steps[number].like].append(steps[number].ns)
+    least_ns = max(
+        min(times if len(times) > 1 else times + near_by(number, like, rounds))
+        for like, times in likes.items()
+    )
+    return Place(number, least_ns, max(steps[number].ns for steps in rounds), len(likes))
+
+
+def near_by(number: int, like: tuple[object, ...], rounds: list[list[Step]]) -> list[int]:
+    """Return the times of the steps like one of a single round, in the others and near by."""
+    near = slice(max(0, number - NEAR), number + NEAR + 1)
+    others = (steps for steps in rounds if steps[number].like != like)
+    return [step.ns for steps in others for step in steps[near] if step.like == like]
 
 
 def run_rounds(case: Case, rounds: int, ticks: int) -> list[list[Step]]:

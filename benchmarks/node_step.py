@@ -123,6 +123,12 @@ class Case(NamedTuple):
         """What no step may take."""
         return OVER * BUDGET_SHARE * self.tick_ms * NS_PER_MS
 
+    @property
+    def rate(self) -> float | None:
+        """Messages a second that the peer sends and numbers; None for none, or without a pause."""
+        act, *arguments = self.peer.split()
+        return float(arguments[2]) or None if act == "talk" else None
+
 
 NOTHING, STRINGS = "nothing connected", "500 String/s in and out"
 CASES = [
@@ -134,6 +140,7 @@ CASES = [
         for name, kind, rate, size in (
             ("5000 String/s in", STRING, 5000, 16),
             ("50 Hz of 1 MB in", BYTES, 50, 1_000_000),
+            ("1 MB without a pause in", BYTES, 0, 1_000_000),
             ("30 Hz of VGA in", IMAGE, 30, VGA),
         )
         for tick_ms in (1, 10)
@@ -148,6 +155,7 @@ class Program:
     def __init__(self, case: Case, node: CrosNode) -> None:
         self.received = self.lost = 0
         self._every = case.publish_every
+        self._is_numbered = case.rate is not None
         self._next: int | None = None
         self._subscriber = self._publisher = None
         if "talk" in case.peer:
@@ -171,10 +179,11 @@ class Program:
         """Do what the program does in a cycle."""
         if self._subscriber:
             while (message := self._subscriber.pop()) is not None:
-                number = number_of(message)
-                self.lost += 0 if self._next is None else number - self._next
-                self._next = number + 1
                 self.received += 1
+                if self._is_numbered:
+                    number = number_of(message)
+                    self.lost += 0 if self._next is None else number - self._next
+                    self._next = number + 1
         if self._publisher and cycle % self._every == 0:
             self._publisher.send(self._publisher.new(data="from the cycle"))
 
@@ -347,11 +356,13 @@ def targets(found: dict[str, Figures]) -> list[Target]:
     for name, figures in found.items():
         if "talk" not in figures.case.peer:
             continue
-        rate = float(figures.case.peer.split()[3])
-        made.append(Target(f"{name}: lost", figures.lost, 0, "messages"))
-        made.append(
-            Target(f"{name}: received", figures.received_per_s, 0.98 * rate, "/s", at_least=True)
-        )
+        if rate := figures.case.rate:
+            made.append(Target(f"{name}: lost", figures.lost, 0, "messages"))
+            made.append(
+                Target(
+                    f"{name}: received", figures.received_per_s, 0.98 * rate, "/s", at_least=True
+                )
+            )
         limit = f"{figures.case.limit_ns / 1e3:,.0f} us"
         made.append(Target(f"{name}: steps over {limit}", figures.over, 0, "steps"))
         over, host = figures.over, figures.by_host

@@ -142,6 +142,11 @@ class TcprosConnection(ProtocolConnection):
         self._reader.filled(size)
         self._is_drained = False
 
+    def handle_timer(self, now_ns: int) -> Failed | None:
+        """As in ``ProtocolConnection``; what large messages have left is given back by and by."""
+        self._reader.give_back(now_ns)
+        return super().handle_timer(now_ns)
+
     def receive_eof(self) -> None:
         """Take the end of the stream; then call ``next_event`` as for bytes."""
         self._reader.feed_eof()

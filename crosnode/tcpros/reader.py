@@ -26,23 +26,37 @@ BEHIND_LARGE: Final = 4_096
 """Bytes that are read behind a large block, to learn the length of the next one."""
 
 KEPT: Final = 3
-"""Memories that a reader keeps for the next large blocks."""
+"""Memories that a reader keeps for the next large blocks, whatever their size."""
+
+KEPT_BYTES: Final = 1 << 24
+"""Bytes of the memories that it keeps beyond these: as many wait for the program with what comes in
+a step of 10 ms."""
+
+MOST_KEPT: Final = 64
+"""Memories that it keeps at most, for each is looked at."""
+
+UNUSED_NS: Final = 1_000_000_000
+"""Nanoseconds after which a memory that was not used goes back to the system."""
+
+GIVEN_BACK: Final = 1 << 16
+"""Bytes of it that go at once: a large one as a whole takes longer than a step may."""
 
 
 class BlockMemory:
     """Memory for large blocks: reserved at once, but the system lays out a page when it is filled.
 
     A memory is used again when nobody has a view of it, so a stream of images costs page faults
-    for the first ones only, and gives nothing back.
+    for the first ones only. Beyond ``KEPT`` of them, what is not used for long is given back.
 
     Attributes:
         is_fresh: whether the system has yet to lay out the pages of what was taken last.
     """
 
-    __slots__ = ("_kept", "is_fresh")
+    __slots__ = ("_kept", "_oldest", "_oldest_ns", "is_fresh")
 
     def __init__(self) -> None:
-        self._kept: list[mmap.mmap] = []
+        self._kept: list[mmap.mmap] = []  # in the order in which they were taken
+        self._oldest = self._oldest_ns = 0
         self.is_fresh = True
 
     def take(self, size: int) -> mmap.mmap:
@@ -55,9 +69,23 @@ class BlockMemory:
                 return kept[-1]
         # Private: pages of shared memory cost more.
         kept.append(mmap.mmap(-1, size, flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS))
-        del kept[:-KEPT]
+        while len(kept) > KEPT and (len(kept) > MOST_KEPT or sum(map(len, kept)) > KEPT_BYTES):
+            del kept[0]
         self.is_fresh = True
         return kept[-1]
+
+    def give_back(self, now_ns: int) -> None:
+        """Give the system a piece of what was not used for long; called now and then."""
+        kept = self._kept
+        if len(kept) <= KEPT:
+            return
+        if id(kept[0]) != self._oldest:
+            self._oldest, self._oldest_ns = id(kept[0]), now_ns
+        elif now_ns - self._oldest_ns >= UNUSED_NS and getrefcount(kept[0]) == _UNUSED:
+            if len(kept[0]) > GIVEN_BACK:
+                kept[0].resize(len(kept[0]) - GIVEN_BACK)
+            else:
+                del kept[0]
 
 
 _PROBE: Final = [object()]
@@ -140,6 +168,10 @@ class ByteReader:
         """Note that bytes of a large block lie in their ``room``."""
         assert self._large is not None
         self._large.have += size
+
+    def give_back(self, now_ns: int) -> None:
+        """Give the system a piece of the memory of large blocks that was not used for long."""
+        self._memory.give_back(now_ns)
 
     @property
     def is_idle(self) -> bool:

@@ -14,10 +14,10 @@ POLL_WORK: Final = 1_024
 
 LARGE_SHARE: Final = 1
 """Bytes of a large message, which go between the socket and their place without a copy in pieces
-of up to a mebibyte, that cost as much as one byte of others. Mostly five do; but how fast memory is
-moves with what else the host does, and a message now and then may as well take more steps."""
+of up to a mebibyte, that cost as much as one byte of others. Mostly seven do; but how fast memory
+is moves with what else the host does, and a message now and then may as well take more steps."""
 
-STREAM_SHARE: Final = 5
+STREAM_SHARE: Final = 7
 """The same in a node that large messages reach or leave without a pause: there each step takes what
 it can, so that all of them get through."""
 
@@ -37,7 +37,7 @@ MESSAGE_WORK: Final = 608
 REQUEST_WORK: Final = 4_096
 """Price of a request or a reply of a service, beside its bytes."""
 
-START_WORK: Final = 57_344
+START_WORK: Final = 65_536
 """Price of a connection that is begun: what it is in this program."""
 
 CONNECT_WORK: Final = 114_688

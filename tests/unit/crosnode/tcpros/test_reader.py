@@ -11,7 +11,17 @@ from hypothesis import strategies as st
 
 import crosnode.tcpros.reader as reader_module
 from crosnode.errors import TcprosError
-from crosnode.tcpros.reader import ByteReader, length_of
+from crosnode.tcpros.reader import (
+    GIVEN_BACK,
+    KEPT,
+    KEPT_BYTES,
+    LARGE,
+    MOST_KEPT,
+    UNUSED_NS,
+    BlockMemory,
+    ByteReader,
+    length_of,
+)
 
 
 def test_exactly_waits_for_bytes() -> None:
@@ -128,6 +138,61 @@ def test_of_the_memories_that_nobody_has_a_view_of_the_one_used_last_is_taken() 
     used = id(second.obj)
     del first, second
     assert [id(read_large(reader, 1 << 20).obj) for _ in range(3)] == 3 * [used]
+
+
+def held_at_once(memory: BlockMemory, sizes: list[int]) -> int:
+    """Take memory for blocks that wait for the program at once; return how much of it is fresh."""
+    blocks, fresh = [], 0
+    for size in sizes:
+        blocks.append(memoryview(memory.take(size)))
+        fresh += memory.is_fresh
+    return fresh
+
+
+def kept(memory: BlockMemory) -> tuple[int, int]:
+    """Return how many memories are kept, and their bytes."""
+    return len(memory._kept), sum(map(len, memory._kept))
+
+
+def test_what_comes_in_a_step_of_ten_milliseconds_costs_page_faults_once() -> None:
+    memory = BlockMemory()
+    assert [held_at_once(memory, 8 * [1_000_004]) for _ in range(5)] == [8, 0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("size", [LARGE + 1, 1 << 20, KEPT_BYTES])
+def test_memory_that_waits_for_the_next_blocks_is_bounded(size: int) -> None:
+    memory = BlockMemory()
+    held_at_once(memory, 100 * [size])
+    count, size_of_all = kept(memory)
+    assert count == max(KEPT, min(MOST_KEPT, KEPT_BYTES // size))
+    assert size_of_all <= max(KEPT_BYTES, KEPT * size)
+
+
+def test_memory_that_is_not_used_any_more_is_given_back_in_pieces() -> None:
+    memory = BlockMemory()
+    held_at_once(memory, 8 * [1 << 20])
+    for step in range(50):  # a second, in which a block comes now and then
+        held_at_once(memory, [1 << 20])
+        memory.give_back(step * UNUSED_NS // 50)
+    assert kept(memory) == (8, 8 << 20)
+    sizes = [kept(memory)[1]]
+    for step in range(50, 5_000):
+        held_at_once(memory, [1 << 20])
+        memory.give_back(step * UNUSED_NS // 50)
+        sizes.append(kept(memory)[1])
+    assert kept(memory) == (KEPT, KEPT << 20)
+    assert {before - after for before, after in itertools.pairwise(sizes)} == {0, GIVEN_BACK}
+
+
+def test_memory_that_somebody_has_a_view_of_is_not_given_back() -> None:
+    memory = BlockMemory()
+    views = [memoryview(memory.take(1 << 20)) for _ in range(5)]
+    for view in views:
+        view[-1] = 7
+    for second in range(100):
+        memory.give_back(second * UNUSED_NS)
+    assert kept(memory) == (5, 5 << 20)
+    assert [view[-1] for view in views] == 5 * [7]
 
 
 def test_a_large_block_that_ends_early_is_an_error() -> None:
