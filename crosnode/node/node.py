@@ -209,7 +209,7 @@ class CrosNode:
             loop_period_ns=loop_period_ns,
             border=self._border(topic, message_type, is_sent=True, is_latching=latching),
         )
-        self.core.master.add(registration)
+        self._register(registration)
         return publisher
 
     def register_subscriber(
@@ -234,8 +234,16 @@ class CrosNode:
             border=self._border(topic, message_type),
         )
         registration.on_value = subscriber.registered
-        self.core.master.add(registration)
+        self._register(registration)
         return subscriber
+
+    def _register(self, registration: Registration) -> None:
+        """Let the master know; in INIT, which has more time than a cycle, it is told at once."""
+        core, now_ns = self.core, self._context.release_ns
+        core.master.add(registration)
+        if self._is_first and core.api.is_connected(core.master.uri):
+            core.master.step(now_ns)
+            core.api.step(now_ns, StepBudget(UNPACED))
 
     def _border(
         self,
@@ -274,7 +282,7 @@ class CrosNode:
         provider = self.providers[service] = ServiceProvider(
             service, service_type, registration, queue_size=queue_size
         )
-        self.core.master.add(registration)
+        self._register(registration)
         return provider
 
     def register_service_caller(
@@ -319,7 +327,7 @@ class CrosNode:
         param = ParameterSubscription(name, registration, queue_size=queue_size)
         registration.on_value = param.registered
         self.params.append(param)
-        self.core.master.add(registration)
+        self._register(registration)
         return param
 
     def unregister(

@@ -185,7 +185,9 @@ class PeerLink:
         budget.work -= POLL_WORK
         if self.state is LinkState.CONNECTING and not self._connect(now_ns, budget):
             return
-        if self._options == 0:
+        if self._options == 0:  # the first before anything is said, others where there is time
+            if not budget.affords(OPTION_WORK):
+                return
             self._set_option(budget)
         self._exchange(now_ns, budget)
         if self.state is LinkState.OVER:
@@ -194,7 +196,7 @@ class PeerLink:
             self._set_option(budget)
 
     def _set_option(self, budget: StepBudget) -> None:
-        """Set the next option: the first before anything is said, others where there is time."""
+        """Set the next option."""
         self.socket.set_option(self._options)
         self._options += 1
         budget.work -= OPTION_WORK

@@ -1,4 +1,4 @@
-"""The first message reaches a new node within 24 ticks of a millisecond (issue of the node, speed).
+"""The first message reaches a new node within 20 ticks of a millisecond (issue of the node, speed).
 
 The master is Debian's or ours, the publisher rospy's and latched: what is counted is the way to it,
 which is a registration, a call, a connection and a header, and not the wait for its next message.
@@ -12,8 +12,7 @@ TRIES = 9
 MOST_TRIES = 90
 """The master and the publisher share the host with other tests, which may have it for a while."""
 
-MOST_TICKS = 24
-"""It was 20 when a step of the start could take more than its budget; in parts it is 15 to 20."""
+MOST_TICKS = 20
 
 
 def ticks_to_first_message(ros: Ros, number: int) -> int:

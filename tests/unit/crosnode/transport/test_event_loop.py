@@ -3,9 +3,10 @@
 from itertools import pairwise
 
 from crosnode.tcpros.header import encode_header
-from crosnode.transport.budget import StepLimits
+from crosnode.transport.budget import POLL_WORK, StepLimits
 from crosnode.xmlrpc.api_caller import ApiCall, CallState
 from crosnode.xmlrpc.writer import dump_call
+from plcsim.network import Address
 
 from ..node.world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, words
 
@@ -57,6 +58,24 @@ def test_calls_of_many_nodes_at_once_are_spread_over_steps() -> None:
         answered.append(sum(socket.recv(65_536).data.count(b"HTTP/1.1 200") for socket in sockets))
     assert sum(answered) == 80
     assert max(answered) <= 2
+
+
+def test_who_connects_has_a_first_turn_where_the_step_has_time_for_it() -> None:
+    world = World()
+    node = world.node("n")
+    world.until(lambda: node.is_registered)
+    world.run(50)
+    port = int(node.uri.rstrip("/").rpartition(":")[2])
+    for socket in [world.peer().open("", 0).socket for _ in range(6)]:
+        assert socket is not None
+        socket.connect(Address(PLC_IP, port))
+    left = []
+    for _ in range(20):
+        world.run(1)
+        left.append((node.core.budget.work, node.core.budget.polls))
+    looks = StepLimits().polls
+    assert all(work >= POLL_WORK * (polls - looks) for work, polls in left)
+    assert len(node.core.loop.links) == 1 + 6
 
 
 def flood(callers: int) -> tuple[int, int]:
