@@ -20,6 +20,9 @@ _NO_RETURN: Final = re.compile(
     r"(.+?):(\d+):(\d+): non-void (?:function|lambda) does not return a value"
 )
 _NO_NUMBER: Final = re.compile(r"(.+?):(\d+):\d+: returning 'int' from a function with")
+_NO_NAME: Final = re.compile(r"(.+?):(\d+):(\d+): expected identifier")
+_TRUTH: Final = re.compile(rb"\b(?:TRUE|FALSE)\b")
+_OWN_TRUTH: Final = "#define PLCSIM_OWN_TRUTH\n"
 _VALUE_IN_C: Final = b"return ((0));"
 _VALUE_IN_CPP: Final = b"return plcsim_no_value();"
 _ANY_VALUE: Final = """
@@ -80,7 +83,7 @@ class Mends:
             errors: of the last run of the compiler, as "file:line:column: text".
             warnings: likewise.
         """
-        found = [self._declare(warnings), self._find_headers(errors)]
+        found = [self._declare(warnings), self._find_headers(errors), self._own_truth(errors)]
         return any([*found, self._without_numbers(errors) or self._give_values(warnings)])
 
     def _declare(self, warnings: Sequence[str]) -> bool:
@@ -90,6 +93,15 @@ class Mends:
         self._head += text
         self.told += [each for each in warnings if undeclared([each]) & names] if text else []
         return bool(text)
+
+    def _own_truth(self, errors: Sequence[str]) -> bool:
+        """Leave TRUE and FALSE to a source that declares them itself: ``enum { FALSE, TRUE };``."""
+        is_new = _OWN_TRUTH not in self._head and any(
+            _TRUTH.match(self._rewriting.line(Path(m[1]), int(m[2])), int(m[3]) - 1)
+            for m in filter(None, map(_NO_NAME.match, errors))
+        )
+        self._head += _OWN_TRUTH if is_new else ""
+        return is_new
 
     def _find_headers(self, errors: Sequence[str]) -> bool:
         r"""Give headers that were not found the spelling that they have on the disk.
@@ -140,19 +152,18 @@ class Mends:
 
     def _insert(self, file: Path, line: int, column: int) -> bool:
         """Insert a return before the brace at a place."""
-        lines = self._rewriting.text(file).split(b"\n")
-        head, tail = lines[line - 1][: column - 1], lines[line - 1][column - 1 :]
+        whole = self._rewriting.line(file, line)
+        head, tail = whole[: column - 1], whole[column - 1 :]
         if not tail.startswith(b"}"):
             return False  # it comes out of a macro
-        lines[line - 1] = head + (_VALUE_IN_C if self._is_c else _VALUE_IN_CPP) + tail
-        return self._rewriting.put(file, b"\n".join(lines))
+        value = _VALUE_IN_C if self._is_c else _VALUE_IN_CPP
+        return self._rewriting.put_line(file, line, head + value + tail)
 
     def _without_numbers(self, errors: Sequence[str]) -> bool:
         """Take the 0 away again where a function of C returns a structure."""
         is_new = False
         for found in filter(None, map(_NO_NUMBER.match, errors)):
             file, line = Path(found[1]), int(found[2])
-            lines = self._rewriting.text(file).split(b"\n")
-            lines[line - 1] = lines[line - 1].replace(_VALUE_IN_C, b"")
-            is_new |= self._rewriting.put(file, b"\n".join(lines))
+            text = self._rewriting.line(file, line).replace(_VALUE_IN_C, b"")
+            is_new |= self._rewriting.put_line(file, line, text)
         return is_new

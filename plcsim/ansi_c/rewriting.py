@@ -37,6 +37,17 @@ class Rewriting:
         except OSError:  # the compiler will tell
             return b""
 
+    def line(self, file: Path, number: int) -> bytes:
+        """Return a line of a file as it is read now, from 1 on; nothing where there is none."""
+        lines = self.text(file).split(b"\n")
+        return lines[number - 1] if 0 < number <= len(lines) else b""
+
+    def put_line(self, file: Path, number: int, text: bytes) -> bool:
+        """Let a line be read as another text; return whether that is a change."""
+        lines = self.text(file).split(b"\n")
+        lines[number - 1] = text
+        return self.put(file, b"\n".join(lines))
+
     def put(self, file: Path, text: bytes) -> bool:
         """Let a file be read as another text; return whether that is a change."""
         is_new = text != self.text(file)

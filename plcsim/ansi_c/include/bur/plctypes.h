@@ -52,7 +52,7 @@ typedef plcdt DATE_AND_TIME, DT;
 typedef plcstring STRING;
 typedef plcwstring WSTRING;
 
-#ifndef TRUE
+#if !defined(TRUE) && !defined(PLCSIM_OWN_TRUTH)
 #define TRUE 1
 #define FALSE 0
 #endif

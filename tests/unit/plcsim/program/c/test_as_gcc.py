@@ -194,3 +194,20 @@ void _CYCLIC run(void)
 }
 """)
     assert results({"Main.c": text}, 5) == [600, 700, 250, 625, 5]
+
+
+@pytest.mark.parametrize(
+    "own",
+    [
+        "typedef enum {FALSE, TRUE} bool;",
+        "enum { FALSE = 0, TRUE = !FALSE };\ntypedef int bool;",
+        "static const int TRUE = 1, FALSE = 0;\ntypedef long bool;",
+        "typedef enum\n{\n\tFALSE,\n\tTRUE\n} bool;",
+    ],
+)
+def test_a_source_may_have_truth_of_its_own(results, own):
+    text = _with_head(
+        f"{own}\nbool here;\n"
+        "void _CYCLIC run(void) { here = TRUE; if (here != FALSE) result[0] = here + 3; }\n"
+    )
+    assert results({"Main.c": text}, 1) == [4]
