@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.case_blind import spelled
+from plcsim.ansi_c.nested_functions import NEEDED, OPTION, as_block
 from plcsim.ansi_c.rewriting import Rewriting
 from plcsim.ansi_c.undeclared import declarations, undeclared
 
@@ -17,9 +18,10 @@ if TYPE_CHECKING:
 _NO_FILE: Final = re.compile(r"(.+?):\d+:\d+: '[^']+' file not found$")
 _INCLUDE: Final = re.compile(rb'^([ \t]*#[ \t]*include[ \t]*["<])([^">\n]+)(?=[">])', re.MULTILINE)
 _NO_RETURN: Final = re.compile(
-    r"(.+?):(\d+):(\d+): non-void (?:function|lambda) does not return a value"
+    r"(.+?):(\d+):(\d+): non-void (?:function|lambda|block) does not return a value"
 )
 _NO_NUMBER: Final = re.compile(r"(.+?):(\d+):\d+: returning 'int' from a function with")
+_NESTED: Final = re.compile(r"(.+?):(\d+):(\d+): function definition is not allowed here")
 _NO_NAME: Final = re.compile(r"(.+?):(\d+):(\d+): expected identifier")
 _TRUTH: Final = re.compile(rb"\b(?:TRUE|FALSE)\b")
 _OWN_TRUTH: Final = "#define PLCSIM_OWN_TRUTH\n"
@@ -74,7 +76,8 @@ class Mends:
         if not self._head:
             return self._rewriting.options()
         self.header.write_text(self._head, "utf-8")
-        return ["-include", str(self.header), *self._rewriting.options()]
+        blocks = [OPTION] if NEEDED in self._head else []
+        return [*blocks, "-include", str(self.header), *self._rewriting.options()]
 
     def find(self, errors: Sequence[str], warnings: Sequence[str]) -> bool:
         """Mend what can be mended; return whether the source is to be compiled again.
@@ -84,7 +87,8 @@ class Mends:
             warnings: likewise.
         """
         found = [self._declare(warnings), self._find_headers(errors), self._own_truth(errors)]
-        return any([*found, self._without_numbers(errors) or self._give_values(warnings)])
+        found.append(self._use_blocks(errors))
+        return any([*found, self._without_numbers(errors) or self._give_values(warnings, errors)])
 
     def _declare(self, warnings: Sequence[str]) -> bool:
         """Declare functions that are called undeclared, and are not what C takes them for."""
@@ -102,6 +106,16 @@ class Mends:
         )
         self._head += _OWN_TRUTH if is_new else ""
         return is_new
+
+    def _use_blocks(self, errors: Sequence[str]) -> bool:
+        """Make a function in a function a block; the next one comes the next time."""
+        for found in filter(None, map(_NESTED.match, errors if self._is_c else ())):
+            file = Path(found[1])
+            text = as_block(self._rewriting.text(file), int(found[2]), int(found[3]))
+            if self._rewriting.put(file, text):
+                self._head += "" if NEEDED in self._head else NEEDED
+                return True
+        return False
 
     def _find_headers(self, errors: Sequence[str]) -> bool:
         r"""Give headers that were not found the spelling that they have on the disk.
@@ -131,14 +145,14 @@ class Mends:
         is_new = self._rewriting.put(file, text)
         return any([is_new, *(self._spell_headers(each, seen) for each in further)])
 
-    def _give_values(self, warnings: Sequence[str]) -> bool:
+    def _give_values(self, warnings: Sequence[str], errors: Sequence[str]) -> bool:
         """Let functions that end without a return give 0, as if a register happened to hold that.
 
         clang takes for granted that no function of C++ comes there, and that of C nobody looks at
         the value.
         """
         is_new = False
-        found = {m[0]: m for text in warnings if (m := _NO_RETURN.match(text))}
+        found = {m[0]: m for text in (*warnings, *errors) if (m := _NO_RETURN.match(text))}
         places = [(Path(m[1]), int(m[2]), int(m[3])) for m in found.values()]
         for file, line, column in sorted(places, reverse=True):  # so that columns before stay
             if (file, line) not in self._given:

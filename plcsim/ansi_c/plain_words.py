@@ -25,6 +25,11 @@ _IS_NESTED = (
     "is a nested function, an extension of GCC that clang does not have: move it out of the other "
     "function, and hand it what it uses of that"
 )
+_OF_BLOCKS = re.compile(r"inside block|block pointer|__block type|\(\^\)")
+_IS_BLOCK = (
+    "a nested function, an extension of GCC, is a block of clang here, which can neither use an "
+    "array of the other function nor change its parameters nor be taken for a pointer: move it out"
+)
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
 _THREADS = "a controller has no threads: a program's units run in its task class"
 _PROCESSES = "a controller has one process, and no system around it"
@@ -55,6 +60,8 @@ def explained(finding: str, folders: Sequence[Path]) -> str:
     nested = _NESTED.match(finding)
     if nested:
         return f"{finding}: {_nested_name(nested)}{_IS_NESTED}"
+    if _OF_BLOCKS.search(finding):
+        return f"{finding} ({_IS_BLOCK})"
     return f"{finding} ({_ASSEMBLER})" if " in asm" in finding else finding
 
 

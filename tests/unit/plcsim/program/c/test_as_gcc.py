@@ -211,3 +211,60 @@ def test_a_source_may_have_truth_of_its_own(results, own):
         "void _CYCLIC run(void) { here = TRUE; if (here != FALSE) result[0] = here + 3; }\n"
     )
     assert results({"Main.c": text}, 1) == [4]
+
+
+NESTED = """
+struct point { int x, y; };
+static int outer(struct point *p, int n)
+{
+	int sum = 0, i; struct point here = {1, 2};
+	// a nested { function
+	void add(int v)
+	{
+		sum += v * n;
+		here.x++;
+	}
+	static int twice(int v) { return v * 2; }
+	char *text(void)
+	{ /* } */
+		return "}";
+	}
+	int fibonacci(int k) { return k < 2 ? k : fibonacci(k - 1) + fibonacci(k - 2); }
+	int nothing(int k) { if (k > 100) return 1; }
+	for (i = 0; i < 3; i++) {
+		int j = i;
+		int inner(int z) { j += z; return j; }
+		add(inner(p->x));
+	}
+	sum += 1000; add(1);
+	return sum + here.x + twice(3) + (text()[0] == '}') + fibonacci(7) + nothing(n);
+}
+void _CYCLIC run(void)
+{
+	struct point p = {2, 3};
+	result[0] = outer(&p, 10);
+	result[1] = __LINE__;
+}
+"""
+
+
+def test_functions_in_functions_use_the_variables_around_them(results):
+    line = NESTED[: NESTED.index("__LINE__")].count("\n") + 3
+    assert results({"Main.c": _with_head(NESTED)}, 2) == [1125, line]
+
+
+@pytest.mark.parametrize(
+    ("inner", "use"),
+    [
+        ("int f(int i) { return list[i]; }", "f(1)"),
+        ("int f(int i) { return 1; }", "taken(f)"),
+        ("int f(int i) { return n++; }", "f(1)"),
+    ],
+)
+def test_what_a_nested_function_cannot_do_is_told(run, inner, use):
+    text = _with_head(
+        f"int taken(int (*take)(int));\nint g(int n)\n{{\n\tint list[3] = {{1, 2, 3}};\n\t{inner}\n"
+        f"\treturn {use} + list[0];\n}}\nvoid _CYCLIC run(void) {{ result[0] = g(1); }}\n"
+    )
+    with pytest.raises(ConfigurationError, match=r"Main.c:[78]:\d+: .*nested function"):
+        run({"main/Main.c": text, "main/V.var": VARIABLES})
