@@ -39,7 +39,7 @@ class Rules:
 
     Attributes:
         any: of every block that has both members; ``"*Done"`` with ``"*"`` are all outputs with the
-            name of an input before Done.
+            name of an input before Done, ``"*Initialized"`` with ``"Init*"`` likewise.
         blocks: of single blocks, by name.
         own: names of blocks that a project has rules for.
     """
@@ -150,8 +150,16 @@ def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> Tab
 def _named(data_type: StructType[Any], rules: Mapping[str, Value]) -> dict[str, Value]:
     """Return what rules for any name say of the outputs of a block."""
     inputs = [each.name for each in data_type.members if each.section is Section.INPUT]
-    patterns = [name for name, value in rules.items() if value == _ANY_NAME]
-    return {p.replace(_ANY_NAME, name): name for p in patterns for name in inputs}
+    found: dict[str, Value] = {}
+    for output, value in rules.items():
+        if not isinstance(value, str) or _ANY_NAME not in value:
+            continue
+        before, _, behind = value.partition(_ANY_NAME)
+        for name in inputs:
+            middle = name.removeprefix(before).removesuffix(behind)
+            if f"{before}{middle}{behind}" == name:
+                found[output.replace(_ANY_NAME, middle)] = name
+    return found
 
 
 def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None:

@@ -80,8 +80,8 @@ class MotionBlock:
         """Return what a call depends on, beside the data block."""
         if axis is None:
             return _seen(command)
-        state = (axis.state, axis.is_powered, axis.is_homed, axis.position, axis.velocity)
-        return (*_seen(command), *state)
+        state = (axis.state, axis.is_powered, axis.is_homed)
+        return (*_seen(command), *state, axis.position, axis.velocity, axis.torque)
 
     def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Run one call; the axis is as it is now, None where the block names none."""

@@ -96,10 +96,13 @@ def test_a_project_adds_rules_to_those_of_a_block():
 ROBOT = DataBlockType(
     "Robot",
     [
-        *(Member(n, BOOL, section=Section.INPUT) for n in ("ENABLE", "Power", "Home", "Jog")),
+        *(
+            Member(n, BOOL, section=Section.INPUT)
+            for n in ("ENABLE", "Power", "Home", "Jog", "InitCam")
+        ),
         *(
             Member(name, BOOL, section=Section.OUTPUT)
-            for name in ("Active", "PowerOn", "IsHomed", "JogActive", "OtherDone")
+            for name in ("Active", "PowerOn", "IsHomed", "JogActive", "OtherDone", "CamInitialized")
         ),
         Member(
             "Info",
@@ -149,6 +152,7 @@ def test_members_of_structures_and_names_in_any_case(robot):
 def test_an_output_that_is_named_after_an_input_follows_it(robot):
     assert robot(Jog=True) == {"JogActive"}
     assert robot(Jog=False) == set()
+    assert robot(InitCam=True) == {"CamInitialized"}
 
 
 @pytest.mark.parametrize("rule", ["Home while Nothing", "Nothing while ENABLE"])

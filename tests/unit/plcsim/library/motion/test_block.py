@@ -2,7 +2,8 @@
 
 import pytest
 
-from plcsim.library.motion.axis import axes_of
+from plcsim.library.motion.axis import MotionCommand, axes_of
+from plcsim.library.motion.block import DEFAULT
 from plcsim.library.motion.plcopen import MoveAbsolute, ReadDriveStatus, ReadPosition
 
 from .conftest import AXIS, STATES
@@ -52,6 +53,18 @@ def test_what_another_block_did_is_seen(plc):
     assert "Disabled" in status.on
     plc.powered()
     assert "StandStill" in status().on
+
+
+def test_another_torque_at_the_same_velocity_is_seen(plc):
+    plc.powered()
+    read = plc.block("MC_ReadActualTorque", "Torque")
+    axis, command = axes_of(plc.context).at(AXIS), MotionCommand()
+    axis.turn(command, 2.0, 0.0, DEFAULT)
+    read(Enable=True)
+    plc.run(10, read)
+    assert read["Torque"] == 2.0
+    axis.turn(command, 3.0, 0.0, DEFAULT)
+    assert read()["Torque"] == 3.0
 
 
 def test_an_output_that_a_program_wrote_is_written_again(plc):
