@@ -24,6 +24,8 @@ MAX_BYTES: Final = 32 << 20
 _DECLARED: Final = re.compile(rb"\s*<\?xml[^>]*encoding\s*=\s*[\"'](?!utf-?8)", re.IGNORECASE)
 """The head of a text that declares another encoding than UTF-8."""
 
+_FILE_VERSION: Final = re.compile(r"""\bFileVersion=["']?([^"'\s]+)""")
+
 MAX_DEPTH: Final = 100
 """Elements one inside the other; real ones stay below 20."""
 
@@ -53,6 +55,7 @@ class XmlElement:
         text: of the element itself, before its first child.
         children: the elements in it.
         offset: bytes of the document before it.
+        file_version: of the root: what the head of the file gives as FileVersion.
     """
 
     tag: str
@@ -61,6 +64,7 @@ class XmlElement:
     text: str = ""
     children: list[XmlElement] = field(default_factory=list)
     offset: int = 0
+    file_version: str = ""
 
     def get(self, key: str, default: str = "") -> str:
         """Return an attribute."""
@@ -145,6 +149,8 @@ class _Builder:
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
         self.parser.StartDoctypeDeclHandler = self._doctype
+        self.parser.ProcessingInstructionHandler = self._instruction
+        self._file_version = ""
 
     @property
     def line(self) -> int:
@@ -165,6 +171,7 @@ class _Builder:
             self._open[-1].children.append(element)
         else:
             self.root = element
+            element.file_version = self._file_version
         self._open.append(element)
 
     def _end(self, _name: str) -> None:
@@ -174,6 +181,11 @@ class _Builder:
         element = self._open[-1]
         if not element.children:
             element.text += text
+
+    def _instruction(self, target: str, text: str) -> None:
+        found = _FILE_VERSION.search(text) if target == "AutomationStudio" else None
+        if found is not None:
+            self._file_version = found[1]
 
     def _doctype(self, name: str, *_rest: object) -> None:
         raise DocumentError(f"a document type ({name}) has no place here", self.line)

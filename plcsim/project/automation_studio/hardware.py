@@ -22,6 +22,11 @@ SIMULATED_CPU: Final = "PC_any"
 
 US: Final = 1_000
 
+ROOT: Final = "Hardware"
+
+FILE_VERSION: Final = "4.9"
+"""Version of files that Automation Studio writes from 4.9 to 6; older ones give none."""
+
 
 class ClassTimes(NamedTuple):
     """Times of a task class, None where Hardware.hw does not give them."""
@@ -76,7 +81,17 @@ def read_hardware(file: Path) -> tuple[Hardware, list[Finding]]:
         values.text("Simulation") == "1" or cpu.get("Type").startswith(SIMULATED_CPU),
         types,
     )
-    return hardware, values.findings
+    return hardware, [*_unknown(file, root), *values.findings]
+
+
+def _unknown(file: Path, root: XmlElement) -> Iterator[Finding]:
+    """Yield a warning where the file is of a kind or version that nobody here has seen."""
+    if root.tag != ROOT:
+        text = f"the root is {root.tag}, and {ROOT} is known: it is read as that"
+        yield Finding(file, root.line, text, ROOT)
+    if root.file_version not in ("", FILE_VERSION):
+        text = f"file version {root.file_version} is not known, {FILE_VERSION} is: read as that"
+        yield Finding(file, 1, text, ROOT)
 
 
 def _is_cpu(module: XmlElement) -> bool:

@@ -76,7 +76,7 @@ def _resolved(files: Iterable[Path]) -> tuple[Path, ...]:
 def _library(library: SourceFolder) -> LibraryPlace:
     folder, files = library.folder.resolve(), _resolved(library.files)
     package = "_".join(("library", *library.path))
-    needs = tuple(name.upper() for name in library.dependencies)
+    needs = tuple(each.name.upper() for each in library.dependencies)
     return LibraryPlace(library.name, folder, files, package, library.is_binary, needs)
 
 

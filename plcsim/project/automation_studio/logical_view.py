@@ -13,6 +13,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.document import DocumentError, read_document
+from plcsim.project.automation_studio.dependencies import wrong_dependencies
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.names import FileNames, names_in
 
@@ -28,6 +29,13 @@ MAX_DEPTH: Final = 32
 PACKAGE_LIST: Final = "Package.pkg"
 PROGRAM_LISTS: Final = ("IEC.prg", "ANSIC.prg")
 LIBRARY_LISTS: Final = ("IEC.lby", "ANSIC.lby", "Binary.lby")
+
+
+class Dependency(NamedTuple):
+    """A library that another one needs, and the line that says so."""
+
+    name: str
+    line: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +58,7 @@ class SourceFolder:
     files: tuple[Path, ...]
     list_file: Path | None = None
     missing: tuple[Finding, ...] = ()
-    dependencies: tuple[str, ...] = ()
+    dependencies: tuple[Dependency, ...] = ()
 
     @property
     def is_binary(self) -> bool:
@@ -149,7 +157,9 @@ def read_logical_view(folder: Path, names: FileNames | None = None) -> LogicalVi
         names: of the project's files, where others look them up too.
     """
     reader = _Reader(names or FileNames(folder.parent))
-    return LogicalView(reader.package(folder, ()), reader.findings)
+    view = LogicalView(reader.package(folder, ()), reader.findings)
+    view.findings.extend(wrong_dependencies(view.libraries))
+    return view
 
 
 class _Object(NamedTuple):
@@ -168,7 +178,7 @@ class _List(NamedTuple):
     file: Path | None
     items: tuple[tuple[_Object, Path], ...] = ()
     missing: tuple[Finding, ...] = ()
-    dependencies: tuple[str, ...] = ()
+    dependencies: tuple[Dependency, ...] = ()
 
 
 class _Reader:
@@ -246,7 +256,7 @@ class _Reader:
             file,
             tuple(_renamed(item, path) for item, path in found if path is not None),
             (*wrong, *missing),
-            tuple(each.get("ObjectName") for each in root.all("Dependency")),
+            tuple(Dependency(e.get("ObjectName"), e.line) for e in root.all("Dependency")),
         )
 
     def _broken(self, file: Path | None, place: Path, line: int, message: str) -> _List:

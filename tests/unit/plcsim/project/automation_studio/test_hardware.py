@@ -1,3 +1,5 @@
+import pytest
+
 from plcsim.project.automation_studio.hardware import ClassTimes, read_hardware
 
 CPU = (
@@ -61,3 +63,29 @@ def test_a_file_that_does_not_say_which_module_is_the_cpu(write):
     assert finding.message == "there is no module, and so no CPU"
     _, (finding,) = read_hardware(write({"x.hw": "<Hard"}) / "x.hw")
     assert finding.message.startswith("it is no XML")
+
+
+@pytest.mark.parametrize(
+    ("text", "messages"),
+    [
+        ("<?AutomationStudio Version=4.8.4.50?>{}", []),
+        ('<?AutomationStudio WorkingVersion="6.5" FileVersion="4.9"?>{}', []),
+        (
+            '<?AutomationStudio FileVersion="9.1"?>{}',
+            ["file version 9.1 is not known, 4.9 is: read as that"],
+        ),
+        (
+            "<Machine>{}</Machine>",
+            ["the root is Machine, and Hardware is known: it is read as that"],
+        ),
+    ],
+)
+def test_a_file_of_an_unknown_version_is_read_and_told(write, text, messages):
+    inside = CPU.format(type="X", inside=parameter("Cyclic1Duration", "5000"))
+    if "Machine" in text:
+        inside = inside.removeprefix("<Hardware>").removesuffix("</Hardware>")
+    found, findings = read_hardware(write({"Hardware.hw": text.format(inside)}) / "Hardware.hw")
+    assert found.times(1).cycle_ns == 5_000_000
+    assert [(each.severity, each.message) for each in findings] == [
+        ("warning", message) for message in messages
+    ]

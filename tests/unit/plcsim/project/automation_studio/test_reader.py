@@ -37,7 +37,7 @@ def test_everything_that_a_project_says(bottling):
     assert [name for name, each in libraries.items() if each.is_binary] == [
         *("standard", "MpBase", "MpAlarm")
     ]
-    assert libraries["MpAlarm"].dependencies == ("MPBASE",)
+    assert [each.name for each in libraries["MpAlarm"].dependencies] == ["MPBASE"]
     assert libraries["Sums"].folder.parts[-2:] == ("shared", "Sums")
 
 
