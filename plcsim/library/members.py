@@ -94,6 +94,11 @@ class BlockVariables:
         self._members = members
         self._address = address
 
+    @property
+    def start(self) -> int:
+        """The address of the structure."""
+        return self._address
+
     def number(self, name: str) -> float:
         """Return a value, 0 where there is no such member."""
         place = self._members.find(name)

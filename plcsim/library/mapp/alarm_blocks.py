@@ -31,8 +31,15 @@ NS_PER_MS: Final = 1_000_000
 class _Monitors:
     """What looks at the variables of each core."""
 
-    def __init__(self, _context: Context) -> None:
-        self.by_core: dict[AlarmCore, AlarmMonitor] = {}
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._by_core: dict[AlarmCore, AlarmMonitor] = {}
+
+    def of(self, core: AlarmCore) -> AlarmMonitor:
+        """Return what looks at the variables of a core."""
+        if core not in self._by_core:
+            self._by_core[core] = AlarmMonitor(self._context, core)
+        return self._by_core[core]
 
 
 class AlarmBlock(MappBlock):
@@ -40,9 +47,17 @@ class AlarmBlock(MappBlock):
 
     def call(self, address: int, variables: BlockVariables, link: int) -> None:
         """Run one call."""
+        self.act(address, variables, self.core(link))
+
+    def core(self, link: int) -> AlarmCore:
+        """Return the core of an MpLink that is not 0."""
         core = links_of(self.context).at(link)
-        assert core is not None  # the link is not 0
-        self.act(address, variables, core)
+        assert core is not None
+        return core
+
+    def seen(self, _variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return how often something was done to the alarms."""
+        return (self.core(link).changes,)
 
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
         """Run one call on the core."""
@@ -56,12 +71,16 @@ class AlarmBlock(MappBlock):
 class Core(AlarmBlock):
     """MpAlarmXCore: counts alarms, and sets those that variables stand for."""
 
+    def run(self, address: int) -> None:
+        """Look at the variables, then run the block."""
+        variables = BlockVariables(self.context.memory, self._members, address)
+        link = variables.address("MpLink") if variables.is_true("Enable") else 0
+        if link:
+            self.context.library(_Monitors).of(self.core(link)).look()
+        super().run(address)
+
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
-        """Look at the variables, and count."""
-        monitors = self.context.library(_Monitors).by_core
-        if core not in monitors:
-            monitors[core] = AlarmMonitor(self.context, core)
-        monitors[core].look()
+        """Count."""
         if rises(self.context, address, variables, "AcknowledgeAll"):
             core.acknowledge(core.pending)
         variables.set(
@@ -92,6 +111,10 @@ class AcknowledgeAll(AlarmBlock):
 
 class AlarmControl(AlarmBlock):
     """MpAlarmXAlarmControl: one alarm, by Name, or by ID where that is not 0."""
+
+    def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return the same, and which alarm it is."""
+        return (*super().seen(variables, link), variables.text("Name"))
 
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
         """Take commands at their rising edges."""
@@ -131,6 +154,10 @@ class AlarmControl(AlarmBlock):
         return 0
 
 
+_ASKED: Final = ("Acknowledge", "AcknowledgeAll", "AcknowledgeID", "AlarmList.SelectedIndex")
+"""Members of UIConnect that the operator sets."""
+
+
 class ListUI(AlarmBlock):
     """MpAlarmXListUI: the pending alarms at UIConnect, the latest first."""
 
@@ -138,13 +165,24 @@ class ListUI(AlarmBlock):
         super().__init__(data_type, context, find_type)
         self._connect = referred(data_type, "UIConnect")
 
-    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
-        """Take what the operator asks for, and show the list."""
+    def _screen(self, variables: BlockVariables) -> BlockVariables | None:
         at = variables.address("UIConnect")
         if not at or self._connect is None:
+            return None
+        return BlockVariables(self.context.memory, self._connect, at)
+
+    def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return the same, and what the operator does."""
+        screen = self._screen(variables)
+        asked = () if screen is None else tuple(map(screen.number, _ASKED))
+        return (*super().seen(variables, link), *asked)
+
+    def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
+        """Take what the operator asks for, and show the list."""
+        screen, at = self._screen(variables), variables.address("UIConnect")
+        if screen is None:
             variables.set(StatusID=MISSING_UICONNECT)
             return
-        screen = BlockVariables(self.context.memory, self._connect, at)
         room = screen.count_of("AlarmList.Name")
         size = int(variables.number("UISetup.AlarmListSize")) or room
         shown = core.pending[::-1][: min(size, room)]

@@ -64,11 +64,13 @@ class AlarmCore:
     Attributes:
         configuration: as above.
         pending: in the order in which they were set.
+        changes: how often something was done to them.
     """
 
     def __init__(self, configuration: AlarmCoreConfiguration) -> None:
         self.configuration = configuration
         self.pending: list[PendingAlarm] = []
+        self.changes = 0
         self._last = 0
 
     def alarm(self, name: str) -> AlarmConfiguration | None:
@@ -111,6 +113,7 @@ class AlarmCore:
         if pending is None:
             return 0
         if not pending.is_active:
+            self.changes += 1
             pending.is_active, pending.set_ns = True, now_ns
             if alarm.behavior.acknowledgement is Acknowledgement.RESETTABLE:
                 pending.is_acknowledged = False
@@ -122,6 +125,7 @@ class AlarmCore:
         if len(self.pending) >= MOST_PENDING:
             return None
         self._last += 1
+        self.changes += 1
         self.pending.append(made := PendingAlarm(self._last, alarm, now_ns))
         return made
 
@@ -129,7 +133,8 @@ class AlarmCore:
         """Let alarms be inactive."""
         for each in alarms:
             each.is_active = False
-        self._forget()
+        if alarms:
+            self._forget()
 
     def acknowledge(self, alarms: list[PendingAlarm]) -> bool:
         """Acknowledge alarms; return whether all could be, for some must be inactive first."""
@@ -141,11 +146,13 @@ class AlarmCore:
         ]
         for each in alarms:
             each.is_acknowledged = each not in refused
-        self._forget()
+        if alarms:
+            self._forget()
         return not refused
 
     def _forget(self) -> None:
         """Forget what is neither active nor waits for anybody."""
+        self.changes += 1
         self.pending = [
             each for each in self.pending if each.is_active or each.waits_for_acknowledgement
         ]

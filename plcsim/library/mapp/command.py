@@ -66,6 +66,11 @@ class CommandBlock(MappBlock):
             StatusID=command.status,
         )
 
+    def running(self, variables: BlockVariables) -> str:
+        """Return the name of the command that was taken and is not yet done, "" for none."""
+        command = self.context.library(_Commands).by_block.get(variables.start)
+        return "" if command is None else command.running
+
     def do(self, name: str, address: int, variables: BlockVariables, link: int) -> int:
         """Do a command; return its status."""
         raise NotImplementedError(type(self).__name__)

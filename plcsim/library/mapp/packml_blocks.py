@@ -44,7 +44,16 @@ def _go(machine: PackMlMachine, variables: BlockVariables, prefix: str = "") -> 
         machine.complete()
 
 
-class Core(MappBlock):
+class MainBlock(MappBlock):
+    """A block that knows the machine of the modes."""
+
+    def seen(self, _variables: BlockVariables, _link: int) -> tuple[object, ...]:
+        """Return the state and the mode."""
+        machine = _main(self.context)
+        return machine.state, machine.mode
+
+
+class Core(MainBlock):
     """MpPackMLCore: shows the mode and the state."""
 
     def call(self, _address: int, variables: BlockVariables, _link: int) -> None:
@@ -61,7 +70,7 @@ def _shown(machine: PackMlMachine) -> int:
     return machine.state if machine.mode else PackMlState.UNDEFINED
 
 
-class Mode(MappBlock):
+class Mode(MainBlock):
     """MpPackMLMode: Activate makes ModeID the mode; the commands of the active mode count."""
 
     def call(self, address: int, variables: BlockVariables, _link: int) -> None:
@@ -87,10 +96,17 @@ class Mode(MappBlock):
 class Module(MappBlock):
     """MpPackMLModule: a machine of its own, ACTIVATING first."""
 
+    def _machine(self, link: int) -> PackMlMachine:
+        modules = self.context.library(_Machines).modules
+        return modules.setdefault(link, PackMlMachine(PackMlState.ACTIVATING))
+
+    def seen(self, _variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return the state."""
+        return (self._machine(link).state,)
+
     def call(self, _address: int, variables: BlockVariables, link: int) -> None:
         """Take the commands, and show what they led to."""
-        modules = self.context.library(_Machines).modules
-        machine = modules.setdefault(link, PackMlMachine(PackMlState.ACTIVATING))
+        machine = self._machine(link)
         _go(machine, variables, "Command.")
         variables.set(
             StateCurrent=machine.state,

@@ -41,6 +41,11 @@ UPDATE: Final = "UpdateNotification"
 class RegisterVariable(MappBlock):
     """MpRecipeRegPar, MpRecipeRegParSync: the variable PVName belongs to the recipe."""
 
+    def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return which variable it is, and how often it was loaded."""
+        name, recipe = variables.text("PVName"), recipe_of(self.context, link)
+        return name, recipe.loads, name in recipe.registered
+
     def call(self, address: int, variables: BlockVariables, link: int) -> None:
         """Register it, and tell for one call that it has new values."""
         recipe = recipe_of(self.context, link)
@@ -82,6 +87,10 @@ class RecipeFile(CommandBlock):
         super().__init__(data_type, context, find_type)
         self._header = referred(data_type, "Header")
 
+    def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return what it is about to do."""
+        return self.running(variables), recipe_of(self.context, link).loads
+
     def call(self, address: int, variables: BlockVariables, link: int) -> None:
         """Take a command, or do the one that was taken."""
         recipe = recipe_of(self.context, link)
@@ -118,6 +127,10 @@ class CsvFile(RecipeFile):
     is_csv: ClassVar[bool] = True
 
 
+_ASKED: Final = ("Recipe.Load", "Recipe.Save", "Recipe.Delete", "New.Create", "Recipe.Refresh")
+"""Commands at UIConnect; what is first counts where several rise."""
+
+
 class RecipeUI(MappBlock):
     """MpRecipeUI: the files of a recipe's device at UIConnect, and what is done with one of them.
 
@@ -129,23 +142,28 @@ class RecipeUI(MappBlock):
         super().__init__(data_type, context, find_type)
         self._connect = referred(data_type, "UIConnect")
 
-    def call(self, address: int, variables: BlockVariables, link: int) -> None:
-        """Take what the operator asks for, and show the files."""
+    def _screen(self, variables: BlockVariables) -> BlockVariables | None:
         at = variables.address("UIConnect")
         if not at or self._connect is None:
+            return None
+        return BlockVariables(self.context.memory, self._connect, at)
+
+    def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
+        """Return what the operator does, the operation shown, and how often a file was written."""
+        screen, recipe = self._screen(variables), recipe_of(self.context, link)
+        asked = () if screen is None else tuple(map(screen.number, (*_ASKED, "Status")))
+        return (*asked, recipe.saves, variables.address("DeviceName") or recipe.p_device)
+
+    def call(self, address: int, variables: BlockVariables, link: int) -> None:
+        """Take what the operator asks for, and show the files."""
+        screen, at = self._screen(variables), variables.address("UIConnect")
+        if screen is None:
             variables.set(StatusID=RECIPE_WITHOUT_UICONNECT)
             return
-        screen = BlockVariables(self.context.memory, self._connect, at)
         recipe = recipe_of(self.context, link)
         p_device = variables.address("DeviceName") or recipe.p_device
-        edges = [
-            name
-            for name in ("Recipe.Load", "Recipe.Save", "Recipe.Delete", "New.Create")
-            if rises(self.context, at, screen, name)
-        ]
+        edges = [name for name in _ASKED if rises(self.context, at, screen, name)]
         status = self._do(edges[0], screen, recipe, p_device) if edges else 0
-        if rises(self.context, at, screen, "Recipe.Refresh") and not edges:
-            edges.append("Recipe.Refresh")
         kind = edges[0].rpartition(".")[2].upper() if edges else "IDLE"
         screen.set_enumeration("Status", "STATUS_ERROR" if is_error(status) else f"STATUS_{kind}")
         variables.set(Error=is_error(status), StatusID=status)
@@ -163,6 +181,8 @@ class RecipeUI(MappBlock):
                 return recipe.save(p_device, p_file, "", {})
             case "New.Create":
                 return recipe.save(p_device, screen.place("New.FileName"), "", {})
+            case "Recipe.Refresh":
+                return 0
             case _:
                 try:
                     self.context.library(Volumes).path(p_device, p_file).unlink()

@@ -57,6 +57,7 @@ class Recipe:
     Attributes:
         registered: variables by the names that programs gave.
         loads: how often values were loaded: blocks of registered variables tell of it.
+        saves: how often a file was written.
         p_device: address of the name of the device that was used last, 0 for none.
         is_csv: its files are CSV.
     """
@@ -65,6 +66,7 @@ class Recipe:
         self._context = context
         self.registered: dict[str, RegisteredVariable] = {}
         self.loads = 0
+        self.saves = 0
         self.p_device = 0
         self.is_csv = False
 
@@ -96,6 +98,7 @@ class Recipe:
         try:
             path.write_bytes(csv_of(content) if self.is_csv else xml_of(content))
             self._context.library(Volumes).date(path)
+            self.saves += 1
         except OSError:
             return NOT_SAVED
         return 0 if values else NOTHING_REGISTERED

@@ -289,6 +289,15 @@ def test_the_operator_sees_the_latest_alarm_first_and_acknowledges_what_is_selec
     assert plc["Main.screen.Acknowledge"] is False
 
 
+def test_the_list_is_written_where_something_has_changed(plc):
+    do(plc, "doSet", "Jam")
+    plc["Main.screen.AlarmList.Name[0]"] = "mine"
+    plc.run(TWICE)
+    assert plc["Main.screen.AlarmList.Name[0]"] == "mine"
+    do(plc, "doReset", "Jam")
+    assert plc["Main.screen.AlarmList.Name[0]"] == "Jam"
+
+
 def test_a_component_without_a_link_says_so(filler):
     code = """
         PROGRAM _CYCLIC

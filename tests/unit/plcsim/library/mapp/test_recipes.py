@@ -240,3 +240,14 @@ def test_the_operator_sees_files_and_loads_the_selected_one(plc):
     plc["Main.panel.Recipe.Delete"] = True
     plc.run("20ms")
     assert plc["Main.panel.Recipe.List.Names[0]"] == "first.rec"
+
+
+def test_files_of_others_are_listed_when_they_are_asked_for(plc, tmp_path):
+    command(plc, "Save")
+    file = next(tmp_path.rglob("first.rec"))
+    (file.parent / "another.rec").write_bytes(file.read_bytes())
+    plc.run("50ms")
+    assert plc["Main.panel.Recipe.List.Names[0]"] == "first.rec"
+    plc["Main.panel.Recipe.Refresh"] = True
+    plc.run("20ms")
+    assert plc["Main.panel.Recipe.List.Names[0]"] == "another.rec"
