@@ -105,6 +105,20 @@ def own_variables(
     return PlacedType(name, members, layout)
 
 
+def global_variables(module: SharedModule, scope: Scope) -> dict[str, int]:
+    """Return the sizes of the variables that a module defines as _GLOBAL, by name.
+
+    Args:
+        module: as it was linked.
+        scope: as for `own_variables`.
+    """
+    if not module.memory_size or b"_GLOBAL\0" not in module.wasm:
+        return {}
+    types = _Types(DebugInfo(module.section), scope)
+    marked = [(name, kind) for name, _, kind, marks in types.info.variables() if "_GLOBAL" in marks]
+    return {name: found.size for name, kind in marked if (found := types.of(kind)) is not None}
+
+
 class _Types:
     """Types of C as those of the controller."""
 

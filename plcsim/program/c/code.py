@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from plcsim.ansi_c.module import CModule
-from plcsim.ansi_c.variables import own_variables
+from plcsim.ansi_c.variables import global_variables, own_variables
 from plcsim.core.errors import ConfigurationError, CycleTimeViolation
 from plcsim.core.tag import Tag
 from plcsim.core.task import Task, Unit
@@ -81,6 +81,7 @@ class CCode:
         self._sources = compiled.sources
         self._scope = scope
         self._variables = variables
+        self._global_sizes = global_variables(compiled.module, scope)
         self.warnings = compiled.warnings
 
     def place(self, name: str, site: Site) -> PlacedProgram:
@@ -88,8 +89,9 @@ class CCode:
         variables, constants = self._variables.allocate(site.memory, name)
         own = [variables] if constants is None else [variables, constants]
         size = heap_size_of(self._module, self._default_heap)
-        surroundings = ProgramSurroundings(name, site, self._scope, own, size)
+        surroundings = ProgramSurroundings(name, site, self._scope, own, size, self._global_sizes)
         module = CModule(name, self._module, site.machine, surroundings, sources=self._sources)
+        surroundings.define(module.address_of)
         placed = partial(self._task, name, site, own, surroundings, module)
         return PlacedProgram(module.compile, placed)
 
@@ -107,6 +109,7 @@ class CCode:
         compiled = CompiledPrograms.of(site)
         compiled.locate_by(name, locator(module))
         names = [each.name for tag in (*own, *site.shared) for each in _members(tag)]
+        names += surroundings.foreign
         data = own_variables(self._module, self._scope, names, name)
         more = [] if data is None else [Tag(name, data, module.address)]
         if surroundings.heap is not None:

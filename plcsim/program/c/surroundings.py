@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
+from plcsim.core.errors import ConfigurationError
 from plcsim.core.heap_use import Heaps
 from plcsim.library.executable import CompiledExecutable
 from plcsim.machine.placement import Placement, initial_values
@@ -15,7 +16,7 @@ from st_types.types.derived import StructType
 from st_types.types.values import initial_image
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from plcsim.ansi_c.c_library import CLibrary
     from plcsim.core.tag import Tag
@@ -29,6 +30,24 @@ HEAP_SIZE_NAMES: Final = ("bur_heap_size", "_bur_heap_size")
 """Variables by which a program says how many bytes its heap has."""
 
 
+class GlobalVariable(NamedTuple):
+    """A variable that C defines for all programs of a controller.
+
+    Attributes:
+        address: where it lies.
+        size: in bytes.
+        owner: the program in whose data it lies.
+    """
+
+    address: int
+    size: int
+    owner: str
+
+
+class GlobalVariables(dict[str, GlobalVariable]):
+    """Those of a controller, which C marks _GLOBAL and no .var file declares, by name."""
+
+
 class ProgramSurroundings:
     """What a program or a library finds; see `plcsim.ansi_c.module.ModuleSurroundings`.
 
@@ -38,13 +57,23 @@ class ProgramSurroundings:
         scope: in which names are looked up.
         own: the program's variables, and its constants.
         heap_size: in bytes, of the heap that it gets where it uses one.
+        global_sizes: of the variables that it defines for all programs, by name.
 
     Attributes:
         heap: its heap, None where it uses none.
+
+    Raises:
+        ConfigurationError: another program defines a variable for all with another size.
     """
 
     def __init__(
-        self, name: str, site: Site, scope: Scope, own: Sequence[Tag], heap_size: int
+        self,
+        name: str,
+        site: Site,
+        scope: Scope,
+        own: Sequence[Tag],
+        heap_size: int,
+        global_sizes: Mapping[str, int] | None = None,
     ) -> None:
         self._name = name
         self._site = site
@@ -52,6 +81,9 @@ class ProgramSurroundings:
         self._variables: dict[str, int] = {}
         for tag in reversed((*own, *site.shared)):
             self._variables |= _addresses(tag)
+        self._global_sizes = global_sizes or {}
+        self._globals = _of_controller(site)
+        self._check_sizes()
         self._heap_size = heap_size
         self._library = _library(site)
         self._compiled = CompiledPrograms.of(site)
@@ -62,7 +94,36 @@ class ProgramSurroundings:
         known, plain = self._variables, name
         while plain not in known and plain.endswith("_"):
             plain = plain[:-1]  # headers write it behind words of C, and behind names of types
-        return known.get(plain) or self._constant(plain) or self._library.variable(name)
+        found = known.get(plain) or self._constant(plain) or self._library.variable(name)
+        return found or (self._globals[name].address if name in self.foreign else None)
+
+    @property
+    def foreign(self) -> set[str]:
+        """Names of variables that it defines for all programs, and another one has defined."""
+        names = self._global_sizes.keys() & self._globals.keys()
+        return {name for name in names if self._globals[name].owner != self._name}
+
+    def define(self, addresses: Callable[[str], int | None]) -> None:
+        """Define for all programs what no other one has defined.
+
+        Args:
+            addresses: gives that of a variable of the module, None where it has no such one.
+        """
+        for name, size in self._global_sizes.items():
+            address = addresses(name)
+            if address is not None and self.variable(name) is None:
+                self._globals[name] = GlobalVariable(address, size, self._name)
+
+    def _check_sizes(self) -> None:
+        others = {name: self._globals[name] for name in self.foreign}
+        findings = [
+            f"{self._name}: _GLOBAL {name} has {self._global_sizes[name]} bytes here, "
+            f"and {other.size} in {other.owner}"
+            for name, other in sorted(others.items())
+            if other.size != self._global_sizes[name]
+        ]
+        if findings:
+            raise ConfigurationError(*findings)
 
     def _constant(self, name: str) -> int | None:
         """Return the address of a library's constant, None where there is none.
@@ -142,6 +203,14 @@ def _library(site: Site) -> CLibrary:
         site.memory.at_boot(files.close_all)
         site.memory.at_boot(library.reset)
     return library
+
+
+def _of_controller(site: Site) -> GlobalVariables:
+    found = site.context.settings(GlobalVariables)
+    if found is None:
+        found = GlobalVariables()
+        site.context.give_settings(found)
+    return found
 
 
 def _addresses(tag: Tag) -> dict[str, int]:

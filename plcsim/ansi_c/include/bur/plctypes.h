@@ -68,7 +68,7 @@ typedef plcwstring WSTRING;
 #define _LOCAL_RETAIN _LOCAL __attribute__((btf_decl_tag("RETAIN"))) /* goes into the debug information */
 #define _BUR_LOCAL _LOCAL
 #define _BUR_LOCAL_RETAIN _LOCAL_RETAIN
-#define _GLOBAL __attribute__((weak, used))
+#define _GLOBAL __attribute__((weak, used, btf_decl_tag("_GLOBAL")))
 #define _GLOBAL_RETAIN _GLOBAL __attribute__((btf_decl_tag("RETAIN")))
 #define _GLOBAL_CONST extern const
 #define _LOCAL_CONST static const
