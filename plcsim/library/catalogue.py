@@ -9,7 +9,7 @@ from plcsim.core.errors import ConfigurationError, Findings
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.installed import Scopes
 from plcsim.library.models import modelled_block, modelled_function
-from plcsim.library.simulated import Rules, built_in_rules, table_body
+from plcsim.library.simulated import Rules, built_in_rules, result_body, table_body
 from plcsim.library.stub import Stub
 from plcsim.settings import is_settings
 from st_types.types.derived import DataBlockType, StringType, StructType, resolve_alias
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from plcsim.library.executable import BodyLanguage, Executable
     from plcsim.library.library import Library
     from plcsim.library.models import ModelledBlock, ModelledFunction
-    from plcsim.library.simulated import TableBody
+    from plcsim.library.simulated import ResultBody, TableBody
     from plcsim.settings import Table
     from st_types.resolve.declared import DeclaredFunction
     from st_types.resolve.index import NameSpace
@@ -103,11 +103,15 @@ class Catalogue:
     def _stub(self, library: Library, name: str) -> Executable:
         """Return what stands for a body that is not here."""
         data_type = library.scope.find_type(name)
-        body: ModelledBlock | ModelledFunction | TableBody | None = modelled_function(name)
+        body: ModelledBlock | ModelledFunction | TableBody | ResultBody | None
+        body = modelled_function(name)
         if isinstance(data_type, DataBlockType):
             body = self._simulated(library, data_type)
+        function = library.scope.find_function(name)
+        if body is None and function is not None:
+            body = result_body(name, self._rules.of(name))
         self.stubbed.setdefault(library.name, {})[name] = "" if body is None else body.text
-        return body or Stub(_zero(library.scope.find_function(name)))
+        return body or Stub(_zero(function))
 
     def _simulated(
         self, library: Library, data_type: DataBlockType[Any]

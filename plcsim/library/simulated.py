@@ -119,6 +119,41 @@ class TableBody(NamedTuple):
         return run
 
 
+class ResultBody(NamedTuple):
+    """The body of a function with a constant result; see `plcsim.library.executable.Executable`.
+
+    Attributes:
+        result: of every call.
+    """
+
+    result: bool | float
+
+    @property
+    def language(self) -> str:
+        """It is a table."""
+        return LANGUAGE
+
+    @property
+    def text(self) -> str:
+        """What it does, in words."""
+        return f"returns {self.result}"
+
+    def bind(self, _context: Context) -> Callable[..., bool | float]:
+        """Return what gives the result."""
+        result = self.result
+
+        def run(*_parameters: object) -> bool | float:
+            return result
+
+        return run
+
+
+def result_body(name: str, rules: Mapping[str, Value]) -> ResultBody | None:
+    """Return the body of a function that a rule gives a result; None without one."""
+    result = rules.get(name)
+    return None if result is None or isinstance(result, str | list) else ResultBody(result)
+
+
 def _apply(move: _Move, memory: Memory, address: int) -> None:
     value, size = move.data, move.size
     for source in move.sources:

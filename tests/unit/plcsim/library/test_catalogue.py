@@ -9,7 +9,7 @@ from plcsim.library.astcp.settings import AsTcpSettings
 from plcsim.library.catalogue import Catalogue
 from plcsim.library.installed import installed
 from plcsim.library.library import Library
-from plcsim.library.simulated import built_in_rules
+from plcsim.library.simulated import Rules, built_in_rules
 from plcsim.settings import Table
 
 
@@ -102,6 +102,20 @@ def test_what_has_no_body_is_idle_in_a_library_of_stubs(library):
     assert (stub.language, stub.bind(None)(4)) == ("stub", 0)
     assert {name: [*names] for name, names in found.stubbed.items()} == {"ramps": ["twice"]}
     assert Catalogue([library], []).find_function("twice")[1] is None
+
+
+def test_a_rule_gives_a_function_a_result(library):
+    rules = Rules({}, {"twice": {"twice": 7, "Done": "Execute"}})
+    found = Catalogue([library], [], ["ramps"], rules)
+    body = found.find_function("twice")[1]
+    assert (body.language, body.bind(None)(4)) == ("table", 7)
+    assert found.stubbed == {"ramps": {"twice": "returns 7"}}
+
+
+@pytest.mark.parametrize("rule", [{"twice": "Execute"}, {"Done": True}])
+def test_what_is_no_result_leaves_a_function_idle(library, rule):
+    found = Catalogue([library], [], ["ramps"], Rules({}, {"twice": rule}))
+    assert found.find_function("twice")[1].language == "stub"
 
 
 def test_a_block_of_motion_moves_an_axis_unless_the_project_has_rules_for_it(tmp_path):
