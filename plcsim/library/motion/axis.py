@@ -140,7 +140,7 @@ class Axis:
 
     def update(self, now_ns: int) -> None:
         """Move on to a time; one that is past changes nothing."""
-        is_moved = now_ns == self._now_ns and not self._has_begun and self._coupling is None
+        is_moved = now_ns == self._now_ns and not self._has_begun
         if now_ns < self._now_ns or is_moved:
             return
         self._now_ns, self._has_begun = now_ns, False
