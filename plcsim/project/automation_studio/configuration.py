@@ -206,7 +206,7 @@ class Configurations:
             for element in self._objects(file, "Cpu"):
                 found = self._found(file, folder, element)
                 if found is not None:
-                    return found
+                    return found if found.is_dir() else found.parent
         candidates = [folder, *(folder / n for n in sorted(self._names.in_folder(folder).values()))]
         lists = [name.lower() for name in (*CPU_LISTS, "Cpu.sw")]
         for candidate in candidates:

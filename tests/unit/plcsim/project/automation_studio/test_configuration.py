@@ -55,6 +55,12 @@ def test_hardware_of_another_configuration_and_no_list_of_the_cpu(write):
     assert found.findings == []
 
 
+def test_the_cpu_of_another_configuration(write):
+    reference = entry("Cpu", "\\Physical\\Real\\CP\\Cpu.pkg", 'Reference="true"')
+    found = configurations(write({**FILES, "Physical/Sim/Config.pkg": listing(reference)}))
+    assert [task.name for task in found.read("Sim").software.tasks] == ["a"]
+
+
 def test_the_active_one_is_preferred_then_one_for_simulation_then_the_one_that_runs_most(write):
     folder = write({**FILES, "Physical/Sim/PC/Cpu.sw": SOFTWARE})
     assert configurations(folder).preferred() == "real"
