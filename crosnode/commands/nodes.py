@@ -109,7 +109,7 @@ def get_param(client: RosClient, options: argparse.Namespace) -> None:
 
 
 def set_param(client: RosClient, options: argparse.Namespace) -> None:
-    """Set a parameter: a number, true or false, JSON, or a text."""
+    """Set a parameter: a number, true or false, a list, members in braces, or a text."""
     name = client.settings.names.resolve(options.name)
     client.call_master("setParam", name, parse_parameter(options.value))
 

@@ -40,7 +40,8 @@ _VALUE: Final[dict[str, Any]] = {
     "metavar": "VALUE",
     "nargs": "?",
     "default": "{}",
-    "help": "JSON: an object of fields, others get defaults, or the value of the only field",
+    "help": "fields in braces, as {a: 1, b: [x, y]} or JSON, others get defaults; or the value of "
+    "the only field",
 }
 _TOPIC: Final[dict[str, Any]] = {"metavar": "TOPIC", "help": "its name, such as /chatter"}
 
@@ -215,7 +216,10 @@ _GROUPS: Final = {
                 "nodes:param_set",
                 {
                     "name": {"metavar": "NAME", "help": "such as /speed"},
-                    "value": {"metavar": "VALUE", "help": "number, true, false, JSON, or a text"},
+                    "value": {
+                        "metavar": "VALUE",
+                        "help": "number, true, false, [list], {a: 1}, or a text",
+                    },
                 }
                 | _NETWORK,
                 "set /speed 1.5",

@@ -8,6 +8,8 @@ import sys
 from typing import TYPE_CHECKING, Any, Final
 
 from crosnode.commands.client import CALLER, acting
+from crosnode.errors import MessageValueError
+from crosnode.graph.flow_yaml import parse_flow
 from crosnode.messages import from_json
 from crosnode.messages.yaml_text import to_yaml
 from plcsim.core.errors import PlcError
@@ -149,7 +151,9 @@ def _repeat(client: RosClient, publisher: Publisher, message: Message, period_ns
 
 
 def message_of(types: MessageTypes, message_type: MessageType, text: str) -> Message:
-    """Return the message that a text of JSON stands for; a value alone is that of the only field.
+    """Return the message that JSON, or YAML in one line, stands for.
+
+    A value alone is that of the only field.
 
     Raises:
         MessageValueError: it is not such a message.
@@ -157,10 +161,25 @@ def message_of(types: MessageTypes, message_type: MessageType, text: str) -> Mes
     try:
         value: Any = json.loads(text)
     except (ValueError, RecursionError):
-        value = text
+        value = _typed(message_type, text)
     if not isinstance(value, dict) and len(message_type.fields) == 1:
         value = {message_type.fields[0].name: value}
     return from_json(types, message_type, value)
+
+
+def _typed(message_type: MessageType, text: str) -> Any:
+    """Return what a text that is no JSON stands for: fields in braces, a list, or itself."""
+    if text.strip()[:1] not in ("{", "["):
+        return text
+    fields = message_type.fields
+    is_text = len(fields) == 1 and fields[0].base == "string" and not fields[0].is_array
+    try:
+        value = parse_flow(text)
+    except (ValueError, RecursionError) as error:
+        if is_text:
+            return text
+        raise MessageValueError(f"{message_type.name}: {error}.") from error
+    return text if is_text and not isinstance(value, dict) else value
 
 
 topic_list = acting(list_topics)

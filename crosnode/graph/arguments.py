@@ -6,11 +6,11 @@ the process: arguments and environment are handed in.
 
 from __future__ import annotations
 
-import json
-import re
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from crosnode.errors import InvalidNameError
+from crosnode.graph.flow_yaml import Value, parse_flow, plain_value
 from crosnode.graph.names import (
     PRIVATE,
     SEPARATOR,
@@ -26,10 +26,6 @@ if TYPE_CHECKING:
 
 REMAP: Final = ":="
 DEFAULT_MASTER_URI: Final = "http://localhost:11311/"
-
-_INTEGER: Final = re.compile(r"[-+]?\d{1,18}", re.A)
-_FLOAT: Final = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.A)
-_BOOLEANS: Final = {"true": True, "false": False}
 
 Parameter: TypeAlias = bool | int | float | str | list[object] | dict[str, object]
 
@@ -71,17 +67,14 @@ def parse_arguments(arguments: Iterable[str]) -> Arguments:
 
 
 def parse_parameter(text: str) -> Parameter:
-    """Return the value that an argument stands for: number, bool, JSON list or object, or text."""
-    if text.lower() in _BOOLEANS:
-        return _BOOLEANS[text.lower()]
-    if _INTEGER.fullmatch(text):
-        return int(text)
-    if _FLOAT.fullmatch(text):
-        return float(text)
-    try:
-        return json.loads(text) if text[:1] in ("[", "{") else text
-    except (ValueError, RecursionError):
-        return text
+    """Return the value that an argument stands for: number, bool, list, members, or text."""
+    value: Value = text
+    if text[:1] in ("[", "{"):
+        with suppress(ValueError, RecursionError):
+            value = parse_flow(text)
+    else:
+        value = plain_value(text)
+    return value if value is not None and not isinstance(value, str) else text
 
 
 class NodeSettings(NamedTuple):

@@ -1,5 +1,7 @@
 """``plcsim ros topic`` on a virtual network."""
 
+import re
+
 import pytest
 
 from crosnode.commands.topics import (
@@ -120,6 +122,9 @@ def test_without_a_master_nothing_is_published() -> None:
         (STRING, '{"data": "a"}', {"data": "a"}),
         (STRING, '"a"', {"data": "a"}),
         (STRING, "a b", {"data": "a b"}),
+        (STRING, "{data: a b}", {"data": "a b"}),
+        (STRING, "[INFO] a {b", {"data": "[INFO] a {b"}),
+        ("std_msgs/Float64", "{data: 2}", {"data": 2.0}),
         ("std_msgs/Float64", "3.5", {"data": 3.5}),
         ("std_msgs/Empty", "{}", {}),
     ],
@@ -132,7 +137,19 @@ def test_a_value_stands_for_the_message_of_one_field(
     assert message_of(types, message_type, text) == message_type.new(**values)
 
 
+def test_a_message_is_typed_as_for_rostopic() -> None:
+    types = MessageTypes()
+    text = "{joint_names: [a, b], points: [{positions: [1, 2.5], time_from_start: {secs: 1}}]}"
+    trajectory = message_of(types, types.message("trajectory_msgs/JointTrajectory"), text)
+    (point,) = trajectory.points
+    assert trajectory.joint_names == ["a", "b"]
+    assert (list(point.positions), point.time_from_start.secs) == ([1.0, 2.5], 1)
+
+
 def test_a_value_that_fits_nothing() -> None:
     types = MessageTypes()
+    wrong = re.escape("Twist: expected ':' at character 9, got '{x: 1}}'")
+    with pytest.raises(MessageValueError, match=wrong):
+        message_of(types, types.message("geometry_msgs/Twist"), "{linear {x: 1}}")
     with pytest.raises(MessageValueError, match="expected an object"):
         message_of(types, types.message("geometry_msgs/Twist"), "3")
