@@ -13,8 +13,9 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE, ERR_OK
 from st_types.types.derived import DataBlockType, Section, StructType, resolve_alias
-from st_types.types.elementary import ElementaryType
+from st_types.types.elementary import BOOL, UDINT, UINT, ElementaryType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -58,6 +59,12 @@ class Rules:
         return Rules(self.any, {**self.blocks, **merged}, self.own | blocks.keys())
 
 
+_STATE_NAMES: Final = frozenset(
+    ["i_state", "intstate", "stateman", "_statemachine", "intern", "_internal"]
+)
+"""Members that asynchronous blocks of the controller's libraries keep their state in."""
+
+
 @cache
 def built_in_rules() -> Rules:
     """Return the rules in ``simulated.toml``."""
@@ -86,6 +93,32 @@ class _Move(NamedTuple):
     kept: int | None = None
 
 
+class _Status(NamedTuple):
+    """The output ``status`` of a block with ``enable``, as all libraries of the controller have it.
+
+    Attributes:
+        target: offset of it.
+        size: of it, bytes.
+        enable: offset of the input.
+        is_asynchronous: the block is BUSY in one call, and done in the next.
+    """
+
+    target: int
+    size: int
+    enable: int
+    is_asynchronous: bool
+
+    def apply(self, memory: Memory, address: int) -> None:
+        """Do what one call does."""
+        target = address + self.target
+        status = ERR_FUB_ENABLE_FALSE
+        if any(memory.read(address + self.enable, 1)):
+            before = int.from_bytes(memory.read(target, self.size), "little")
+            is_begun = not self.is_asynchronous or before == ERR_FUB_BUSY
+            status = ERR_OK if is_begun else ERR_FUB_BUSY
+        memory.write(target, status.to_bytes(self.size, "little"))
+
+
 class TableBody(NamedTuple):
     """The body of a block that follows rules; see `plcsim.library.executable.Executable`.
 
@@ -93,11 +126,13 @@ class TableBody(NamedTuple):
         moves: what a call does.
         text: the same in words.
         size: of a data block, bytes.
+        status: what becomes of ``status``, None where it has none.
     """
 
     moves: tuple[_Move, ...]
     text: str
     size: int
+    status: _Status | None = None
 
     @property
     def language(self) -> str:
@@ -106,10 +141,12 @@ class TableBody(NamedTuple):
 
     def bind(self, context: Context) -> Callable[[int], None]:
         """Return what runs the block on the data block at an address."""
-        memory, moves, size = context.memory, self.moves, self.size
+        memory, moves, size, status = context.memory, self.moves, self.size, self.status
         last: dict[int, bytes] = {}
 
         def run(address: int) -> None:
+            if status is not None:
+                status.apply(memory, address)
             # What is as the last call left it stays so: outputs depend on inputs alone.
             if memory.read(address, size) != last.get(address):
                 for move in moves:
@@ -179,7 +216,23 @@ def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> Tab
             moves.append(move)
             if move.followed:
                 texts.append(f"{output} follows {' or '.join(move.followed)}")
-    return TableBody(tuple(moves), ", ".join(texts), data_type.size) if texts else None
+    status = None if "status" in rules else _status(data_type)
+    if status is not None:
+        texts.append("status is BUSY once, then 0" if status.is_asynchronous else "status is 0")
+    return TableBody(tuple(moves), ", ".join(texts), data_type.size, status) if texts else None
+
+
+def _status(data_type: StructType[Any]) -> _Status | None:
+    """Return what becomes of ``status``: libraries of the controller spell it so."""
+    names = {each.name for each in data_type.members}
+    enable = _elementary(data_type, "enable", Section.INPUT)
+    status = _elementary(data_type, "status", Section.OUTPUT)
+    if not names >= {"enable", "status"} or enable is None or status is None:
+        return None
+    if enable[0] is not BOOL or status[0] not in (UINT, UDINT):
+        return None
+    is_asynchronous = any(name.lower() in _STATE_NAMES for name in names)
+    return _Status(status[1], status[0].size, enable[1], is_asynchronous)
 
 
 def _named(data_type: StructType[Any], rules: Mapping[str, Value]) -> dict[str, Value]:

@@ -5,7 +5,7 @@ import pytest
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.simulated import Rules, built_in_rules, table_body
-from st_types import BOOL, DINT, INT
+from st_types import BOOL, DINT, INT, UINT
 from st_types.types.derived import DataBlockType, Member, Section, StructType
 
 BLOCK = DataBlockType(
@@ -164,3 +164,41 @@ def test_an_output_that_a_program_wrote_is_written_again(robot):
     assert robot(ENABLE=True) == {"Active", "Info"}
     assert robot() == {"Active", "Info"}
     assert robot(Active=False, PowerOn=True) == {"Active", "Info"}
+
+
+def _classic(*internals, status=UINT):
+    return DataBlockType(
+        "IcmpPing",
+        [
+            Member("enable", BOOL, section=Section.INPUT),
+            Member("status", status, section=Section.OUTPUT),
+            *(Member(name, UINT) for name in internals),
+        ],
+    )
+
+
+@pytest.mark.parametrize(
+    ("block", "statuses", "text"),
+    [
+        (_classic("i_state"), [0xFFFE, 0xFFFF, 0, 0xFFFF, 0xFFFE], "status is BUSY once, then 0"),
+        (_classic("old"), [0xFFFE, 0, 0, 0, 0xFFFE], "status is 0"),
+    ],
+)
+def test_a_block_with_enable_has_the_statuses_of_the_controller(block, statuses, text):
+    memory = Memory()
+    address = memory.allocate(block.size)
+    body = table_body(block, built_in_rules().of(block.name))
+    assert body.text == text
+    run = body.bind(Context(memory, None))
+    found = []
+    for enable in (False, True, True, True, False):
+        memory.set(BOOL, address + block.find("enable")[1], enable)
+        run(address)
+        found.append(memory.get(UINT, address + block.find("status")[1]))
+    assert found == statuses
+
+
+def test_a_project_may_say_what_the_status_is():
+    body = table_body(_classic("i_state"), {"status": 0, "enable": "status"})
+    assert body is None
+    assert table_body(_classic("i_state", status=BOOL), {}) is None
