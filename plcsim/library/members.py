@@ -178,6 +178,13 @@ class BlockVariables:
             return 0
         return place.data_type.size // resolve_alias(place.data_type.element).size
 
+    def enumerator(self, name: str) -> str:
+        """Return the name of the value of an enumeration, "" where it has none."""
+        place, value = self._members.find(name), self.number(name)
+        if place is None or not isinstance(place.data_type, EnumerationType):
+            return ""
+        return next((key for key, each in place.data_type.values.items() if each == value), "")
+
     def set_enumeration(self, name: str, ending: str) -> None:
         """Write the value of an enumeration whose name ends so, where it has one."""
         place = self._members.find(name)

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from plcsim.library.members import changes, rises
-from plcsim.library.motion.axis import AxisState
+from plcsim.library.motion.axis import NO_NUMBER, AxisState
 from plcsim.library.motion.block import EnableBlock, ExecuteBlock, limits_of
 from plcsim.library.motion.plcopen import MoveAbsolute, MoveAdditive, MoveVelocity
 
@@ -28,6 +28,9 @@ NAMES: Final = ("Assembly", "Segment", "AxesGroup", "Controller")
 
 SHUTTLES: Final = 10
 """Shuttles of a controller, where the program adds none before it asks for them."""
+
+LARGEST_USER_DATA: Final = 1 << 16
+"""Bytes that a shuttle carries."""
 
 SHUTTLE_DISTANCE: Final = 0.1
 """Between those, in units of an axis."""
@@ -48,12 +51,14 @@ class Shuttles:
         handles: of the shuttles.
         is_powered: whether their controllers are on.
         indices: which shuttle a block shows, by its address.
+        user_data: what shuttles carry.
     """
 
     def __init__(self, _context: Context) -> None:
         self.handles: list[int] = []
         self.is_powered = False
         self.indices: dict[int, int] = {}
+        self.user_data: dict[Axis, bytes] = {}
 
     def add(self, axes: Axes, position: float) -> int | None:
         """Put a shuttle somewhere; return its handle, None where there are too many axes."""
@@ -217,6 +222,27 @@ class ShuttleInfo(EnableBlock):
             variables.set(ShuttleInfo__ActualVelocity=axis.velocity)
 
 
+class CopyUserData(ExecuteBlock):
+    """MC_BR_ShCopyUserData_AcpTrak: a shuttle carries what a program gives it."""
+
+    def begin(self, variables: BlockVariables, axis: Axis, command: MotionCommand) -> None:
+        """Copy between the shuttle and the program, by the name of the mode.
+
+        Raises:
+            PageFault: nothing lies at DataAddress.
+        """
+        memory, carried = self.context.memory, self.context.library(Shuttles).user_data
+        address, size = variables.address("DataAddress"), int(variables.number("DataSize"))
+        if not 0 <= size <= LARGEST_USER_DATA:
+            command.refuse(NO_NUMBER)
+            return
+        if "GET" in variables.enumerator("Mode").upper():
+            memory.write(address, carried.get(axis, b"")[:size].ljust(size, b"\0"))
+        else:
+            carried[axis] = memory.read(address, size)
+        command.finish()
+
+
 class RoutedMoveVelocity(MoveVelocity):
     """MC_BR_RoutedMoveVel_AcpTrak: to a position, and on with a velocity, which may be 0."""
 
@@ -248,6 +274,7 @@ _KINDS: Final[Mapping[type[MotionBlock], list[str]]] = {
     AddShuttle: _names("SecAddShuttle", kinds=("AcpTrak",)),
     GetShuttle: _names("AsmGetShuttle", "AsmGetShuttleSel", "SecGetShuttle", "SecGetShuttleSel"),
     ShuttleInfo: _names("ShReadInfo", kinds=("AcpTrak",)),
+    CopyUserData: _names("ShCopyUserData", kinds=("AcpTrak",)),
     MoveAbsolute: _names("RoutedMoveAbs", "ElasticMoveAbs", "ModuloMoveAbs", kinds=("AcpTrak",)),
     MoveAdditive: _names("ElasticMoveAdd", kinds=("AcpTrak",)),
     MoveVelocity: _names("ElasticMoveVel", kinds=("AcpTrak",)),

@@ -24,7 +24,16 @@ INFO = StructType(
         Member("PLCopenState", EnumerationType("States", STATES)),
     ],
 )
-KINDS = {"Position": LREAL, "Velocity": REAL, "RouteVelocity": REAL, "Distance": LREAL}
+MODES = EnumerationType("Modes", {"mcACPTRAK_USERDATA_SET": 0, "mcACPTRAK_USERDATA_GET": 1})
+KINDS = {
+    "Mode": MODES,
+    "DataAddress": UDINT,
+    "DataSize": UDINT,
+    "Position": LREAL,
+    "Velocity": REAL,
+    "RouteVelocity": REAL,
+    "Distance": LREAL,
+}
 ADDRESSES = ("Assembly", "Sector", "AxesGroup", "Axis", "Controller", "Segment")
 RESULTS = "Valid Busy Error Done Active CommandAborted Acknowledge"
 
@@ -36,6 +45,14 @@ class Track:
         self.memory = Memory()
         self.context = Context(self.memory, None)
         self.assembly, self.group = self.memory.allocate(16), self.memory.allocate(16)
+
+    def user_data(self, shuttle, mode, address, size):
+        """The outputs that are TRUE once user data are copied."""
+        copy = self.block(
+            "MC_BR_ShCopyUserData_AcpTrak", "Axis Execute DataAddress DataSize Mode", "ErrorID"
+        )
+        copy(Axis=shuttle, Mode=mode, DataAddress=address, DataSize=size, Execute=True)
+        return copy().on
 
     def block(self, name, inputs, outputs=""):
         return Block(self, name, inputs.split(), f"{RESULTS} {outputs}".split())
@@ -247,3 +264,18 @@ def test_a_group_has_power_is_homed_and_stands_by(track):
     assert info(AxesGroup=track.group, Enable=True).on >= {"PowerOn", "IsHomed"}
     power(Enable=False)
     assert "PowerOn" not in info().on
+
+
+def test_a_shuttle_carries_what_a_program_gave_it(track):
+    first, second = track.add(0.0), track.add(1.0)
+    place = track.memory.allocate(8)
+    track.memory.write(place, b"product!")
+    assert "Done" in track.user_data(first, 0, place, 8)
+    track.memory.write(place, bytes(8))
+    assert "Done" in track.user_data(first, 1, place, 4)
+    assert track.memory.read(place, 8) == b"prod\0\0\0\0"
+    track.user_data(second, 1, place, 8)
+    assert track.memory.read(place, 8) == bytes(8)
+    assert track.user_data(first, 0, place, 1 << 20) == {"Error"}
+    with pytest.raises(PageFault):
+        track.user_data(first, 1, 0x7FFF_0000, 4)
