@@ -300,10 +300,10 @@ def _finish(
     """Write the report, print the summary, and return the exit code.
 
     Raises:
-        ConfigurationError: the project is wrong; it is told what is, and the hint.
+        ConfigurationError: the project is wrong; it is told what is and, of programs, the hint.
     """
     if "error" in result:
-        raise ConfigurationError(result["error"] + hint)
+        raise ConfigurationError(result["error"] + ("" if "is_of_extension" in result else hint))
     in_service = result["state"] == "SERVICE"
     unwritten = _write_report(result, options.report)
     if not options.quiet or in_service:

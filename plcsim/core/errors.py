@@ -5,6 +5,7 @@
     PlcError                         base of all
     ├── ApplicationError             a program ended the application, by ERRxfatal
     ├── ConfigurationError           plc.toml or a project folder is wrong; names file and field
+    │   └── ExtensionError           a table for an extension is wrong, and no program
     ├── PageFault                    an address that no variable lies at
     ├── PhaseError                   an act in a phase of the scan that does not allow it
     ├── StateError                   an act in a system state that does not allow it
@@ -42,6 +43,10 @@ class ConfigurationError(PlcError):
     def __init__(self, *findings: str) -> None:
         super().__init__("\n".join(findings))
         self.findings = findings
+
+
+class ExtensionError(ConfigurationError):
+    """What plc.toml says for an extension does not fit the project or the host."""
 
 
 class Findings:

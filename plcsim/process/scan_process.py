@@ -18,7 +18,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from plcsim.core.clock import MonotonicClock, VirtualClock
-from plcsim.core.errors import ConfigurationError, PlcError
+from plcsim.core.errors import ConfigurationError, ExtensionError, PlcError
 from plcsim.core.logbook import Severity
 from plcsim.core.system_area import REASONS, STOPPED
 from plcsim.host import realtime
@@ -144,6 +144,8 @@ def main() -> int:
     faulthandler.register(DUMP, file=order.dump_fd, all_threads=False)
     try:
         result = _run(order, page)
+    except ExtensionError as err:
+        result = {"error": str(err), "is_of_extension": True}
     except (PlcError, TypeSystemError) as err:
         result = {"error": str(err)}
     with os.fdopen(order.result_fd, "w", encoding="utf-8") as file:

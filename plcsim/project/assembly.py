@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.core.clock import VirtualClock
 from plcsim.core.duration import format_duration
-from plcsim.core.errors import ConfigurationError, CycleTimeViolation, Findings
+from plcsim.core.errors import ConfigurationError, CycleTimeViolation, ExtensionError, Findings
 from plcsim.core.logbook import Severity
 from plcsim.host.garbage import collect_while_idle
 from plcsim.host.last_resort import last_resort
@@ -373,8 +373,8 @@ def assemble(
         watch: likewise.
 
     Raises:
-        ConfigurationError: the variables do not fit into the memory, or the settings of an
-            extension do not fit the tags.
+        ConfigurationError: the variables do not fit into the memory.
+        ExtensionError: the settings of an extension do not fit the tags.
     """
     given = application.extensions
     for name, value in given.items():
@@ -390,7 +390,12 @@ def assemble(
     )
     for note in (*application.notes, *connect(controller, application.maps)):
         controller.log(Severity.WARNING, "system", note)
-    attached = {name: extensions()[name].attach(value, controller) for name, value in given.items()}
+    try:
+        attached = {
+            name: extensions()[name].attach(each, controller) for name, each in given.items()
+        }
+    except ConfigurationError as err:
+        raise ExtensionError(*err.findings) from None
     if image is not None:
         writer = ImageWriter(
             image.fd,

@@ -90,7 +90,7 @@ def _add_why(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "why",
         help="tell who wrote a tag in a recorded run, with program, line and cycle",
         description="Repeat a recorded run and tell who wrote a tag last: the program, its line "
-        "where it is in Python, or what came from outside; the latest write last.",
+        "of the source, or what came from outside; the latest write last.",
         examples=(
             ("plcsim why run.bag tank.valve", "at the end of the recording"),
             ("plcsim why run.bag tank.valve --cycle 500", "up to and with cycle 500"),
