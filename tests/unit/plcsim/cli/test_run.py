@@ -175,7 +175,7 @@ def test_with_several_programs_it_is_told_that_the_others_could_run(project_of, 
     assert main(["run", str(folder), *VIRTUAL]) == 1
     assert "\nplcsim run --keep-going leaves out the programs" in capsys.readouterr().err
     assert main(["run", str(folder), *VIRTUAL, "--keep-going"]) == 0
-    settings.write_text(settings.read_text("utf-8") + '\n[operator.inputs]\ngone = 1\n', "utf-8")
+    settings.write_text(settings.read_text("utf-8") + "\n[operator.inputs]\ngone = 1\n", "utf-8")
     (folder / "main" / "main.py").write_text(dedent(GOOD), "utf-8")
     assert main(["run", str(folder), *VIRTUAL]) == 1
     shown = capsys.readouterr().err
