@@ -15,8 +15,8 @@ enum plc_test_state { PLC_RUNNING, PLC_PASSED, PLC_FAILED, PLC_ABORTED, PLC_SKIP
 enum plc_finding { PLC_FAILURE, PLC_ABORT, PLC_INFORMATION };
 
 typedef struct PlcTestCase {
-	char Set[48];
-	char Name[80];
+	char Set[128];
+	char Name[128];
 	UDINT State; /* of plc_test_state */
 	UDINT Asserts; /* that held */
 } PlcTestCase;
@@ -25,7 +25,7 @@ typedef struct PlcTestFinding {
 	UDINT Case; /* its number, from 0 */
 	UDINT Kind; /* of plc_finding */
 	UDINT Line;
-	char File[120];
+	char File[256]; /* of a longer path the end */
 	char Text[200];
 } PlcTestFinding;
 
@@ -79,6 +79,13 @@ static void locate(unsigned long line, const char *file)
 	place->File = (UDINT)file;
 }
 
+/* The name of a file stands at the end of its path. */
+static const char *end_of(const char *path, size_t size)
+{
+	size_t length = path ? strlen(path) : 0;
+	return length < size ? (path ? path : "") : path + (length + 1 - size);
+}
+
 /* What a set's own setup or teardown finds becomes a test case of that name. */
 static void find(enum plc_finding kind, const char *text, unsigned long line, const char *file)
 {
@@ -92,7 +99,7 @@ static void find(enum plc_finding kind, const char *text, unsigned long line, co
 		finding->Case = UnitTestReport.CaseCount - 1;
 		finding->Kind = kind;
 		finding->Line = line;
-		strlcpy(finding->File, file ? file : "", sizeof finding->File);
+		strlcpy(finding->File, end_of(file, sizeof finding->File), sizeof finding->File);
 		strlcpy(finding->Text, text, sizeof finding->Text);
 	}
 	if (kind == PLC_INFORMATION) {

@@ -128,15 +128,25 @@ FILES = {
 }
 
 
-def test_each_case_is_a_test_of_pytest(pytester):
+@pytest.fixture
+def write(pytester):
+    """``write(folder, tests)``: a project there, with this text as its tests.c."""
     try:
         find_toolchain()
     except ConfigurationError:
         pytest.skip("no compiler for C is installed")
-    for name, text in FILES.items():
-        path = pytester.path / "machine" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, "utf-8")
+
+    def call(folder, tests=TESTS_C):
+        for name, text in {**FILES, "Logical/ut_calc/tests.c": tests}.items():
+            path = pytester.path / folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, "utf-8")
+
+    return call
+
+
+def test_each_case_is_a_test_of_pytest(pytester, write):
+    write("machine")
     result = pytester.runpytest_inprocess("machine", "-v", "-p", "no:cacheprovider")
     result.assert_outcomes(passed=1, failed=2)
     result.stdout.fnmatch_lines(
@@ -146,6 +156,21 @@ def test_each_case_is_a_test_of_pytest(pytester):
             "*::forgotten::never FAILED*",
             "*Logical/ut_calc/tests.c:10: expected 1, was -1",
             "*Logical/ut_calc/unused.c:3: the program does not run this test case: *",
+        ]
+    )
+
+
+def test_long_names_and_long_paths(pytester, write):
+    folder, name = "/".join("abc" * 30 for _ in range(3)), "a_name_" * 15
+    write(
+        folder, TESTS_C.replace('"subtracts"', f'"{name}"').replace('"calculations"', f'"{name}"')
+    )
+    result = pytester.runpytest_inprocess(folder, "-v", "-p", "no:cacheprovider")
+    result.assert_outcomes(passed=1, failed=2)
+    result.stdout.fnmatch_lines(
+        [
+            f"*::{name}::{name} FAILED*",
+            "*abcabc/Logical/ut_calc/tests.c:10: expected 1, was -1",
         ]
     )
 
