@@ -16,11 +16,12 @@ import sys
 import tempfile
 from collections import deque
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.ansi_c.gcc_options import for_clang, without_standard
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.mends import Mends
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
@@ -69,6 +70,8 @@ _C_OPTIONS = (
 _CPP_OPTIONS = (
     *("-std=gnu++17", "-trigraphs", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics"),
     *("-fno-finite-loops", "-fcheck-new", "-Wno-register"),
+    # errors in clang that are none, or warnings, in GCC
+    *("-Wno-c++11-narrowing", "-Wno-reserved-user-defined-literal", "-Wno-dynamic-exception-spec"),
     # inline functions are the module's own; static objects live as long as the program
     *("-fvisibility-inlines-hidden", "-fno-c++-static-destructors"),
 )
@@ -138,9 +141,11 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
     with _WorkFolder() as work:
         objects = _compiled(order.sources, order, toolchain, cache, work)
         read = {file for o in objects for file in o.files}
-        used = [*order.libraries, *toolchain.libraries]
-        sources = [s for each in used if each.is_used(read) for s in each.sources]
-        offered = _compiled(sources, order, toolchain, cache, work)
+        of_language = replace(order, options=without_standard(order.options))
+        offered = []
+        for those, libraries in ((order, order.libraries), (of_language, toolchain.libraries)):
+            sources = [s for each in libraries if each.is_used(read) for s in each.sources]
+            offered += _compiled(sources, those, toolchain, cache, work)
         _check_initial_values(order, objects)
         taken = chosen([o.content for o in objects], [o.content for o in offered])
         objects += [offered[number] for number in taken]
@@ -232,11 +237,12 @@ class _Object:
         self._told: list[str] = []
         self._folders = order.folders
         self._made = "\0" if order.made is None else f"{order.made}{os.sep}"
+        options = for_clang(order.options, is_c=is_c)
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
             *_OPTIONS,
             *(_C_OPTIONS if is_c else _CPP_OPTIONS),
-            *order.options,
+            *options,
             *(part for folder in order.folders[:-1] for part in ("-I", str(folder))),
             *(() if is_c else toolchain.cpp_options),
             *(part for folder in order.folders[-1:] for part in ("-I", str(folder))),
@@ -244,7 +250,7 @@ class _Object:
             str(source),
         ]
         self._rounds = [*_ROUNDS, "-mllvm", f"-unroll-count={toolchain.rounds}"]
-        self._options = order.options
+        self._options = options
         ways = [*self._rounds, *_NO_PASSES]
         self._manifest = _key("manifest 3", toolchain.identity, *self.command, *ways)
 

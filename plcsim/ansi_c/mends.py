@@ -23,6 +23,11 @@ _NO_RETURN: Final = re.compile(
 _NO_NUMBER: Final = re.compile(r"(.+?):(\d+):\d+: returning 'int' from a function with")
 _NESTED: Final = re.compile(r"(.+?):(\d+):(\d+): function definition is not allowed here")
 _NO_NAME: Final = re.compile(r"(.+?):(\d+):(\d+): expected identifier")
+_NEW_IN_CPP_17: Final = re.compile(
+    r": reference to '\w+' is ambiguous|ISO C\+\+17 does not allow|"
+    r"'(?:auto_ptr|random_shuffle|unary_function|binary_function|bind1st|bind2nd|ptr_fun|mem_fun)'"
+)
+_CPP_14: Final = "-std=gnu++14"
 _TRUTH: Final = re.compile(rb"\b(?:TRUE|FALSE)\b")
 _OWN_TRUTH: Final = "#define PLCSIM_OWN_TRUTH\n"
 _VALUE_IN_C: Final = b"return ((0));"
@@ -64,6 +69,7 @@ class Mends:
         self._file = file
         self._head = ""
         self._given: set[tuple[Path, int]] = set()
+        self._standard: tuple[str, ...] = ()
         self.told: list[str] = []
 
     @property
@@ -74,10 +80,10 @@ class Mends:
     def options(self) -> list[str]:
         """Return the options by which the compiler reads what was changed."""
         if not self._head:
-            return self._rewriting.options()
+            return [*self._standard, *self._rewriting.options()]
         self.header.write_text(self._head, "utf-8")
         blocks = [OPTION] if NEEDED in self._head else []
-        return [*blocks, "-include", str(self.header), *self._rewriting.options()]
+        return [*self._standard, *blocks, "-include", str(self.header), *self._rewriting.options()]
 
     def find(self, errors: Sequence[str], warnings: Sequence[str]) -> bool:
         """Mend what can be mended; return whether the source is to be compiled again.
@@ -87,7 +93,7 @@ class Mends:
             warnings: likewise.
         """
         found = [self._declare(warnings), self._find_headers(errors), self._own_truth(errors)]
-        found.append(self._use_blocks(errors))
+        found += [self._use_blocks(errors), self._use_cpp_14(errors)]
         return any([*found, self._without_numbers(errors) or self._give_values(warnings, errors)])
 
     def _declare(self, warnings: Sequence[str]) -> bool:
@@ -116,6 +122,12 @@ class Mends:
                 self._head += "" if NEEDED in self._head else NEEDED
                 return True
         return False
+
+    def _use_cpp_14(self, errors: Sequence[str]) -> bool:
+        """Read C++ as GCC did before version 11: without std::byte, std::size and std::data."""
+        is_new = not (self._is_c or self._standard) and any(map(_NEW_IN_CPP_17.search, errors))
+        self._standard = (_CPP_14,) if is_new else self._standard
+        return is_new
 
     def _find_headers(self, errors: Sequence[str]) -> bool:
         r"""Give headers that were not found the spelling that they have on the disk.

@@ -120,7 +120,7 @@ def defined_twice(text: str) -> str:
 
 def plain_name(symbol: str) -> str:
     """Return the name of a function or a variable of C++ without its types: ``Motor::start``."""
-    left, names = re.match(r"_ZN?K?(.*)", symbol), []
+    left, names = re.match(r"_ZN?K?(?:St3__1)?(.*)", symbol), []
     rest = left[1] if left else ""
     while found := re.match(r"(\d+)(.*)", rest):
         names.append(found[2][: int(found[1])])

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import shlex
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.ansi_c.build import BuildOrder, build
 from plcsim.ansi_c.case_blind import written_overlay
+from plcsim.ansi_c.gcc_options import of_version, split
 from plcsim.ansi_c.headers import (
     INCLUDE,
     body_headers,
@@ -129,13 +129,7 @@ def compile_library(library: Library, files: Sequence[Path]) -> LinkedModule:
 
 def compiler_options(c_build: CBuild) -> list[str]:
     """Return what a project says to the compiler, and which compiler its sources think it is."""
-    parts = c_build.gcc_version.split(".")
-    names = ("__GNUC__", "__GNUC_MINOR__", "__GNUC_PATCHLEVEL__")
-    options = shlex.split(c_build.options)
-    for name, number in zip(names, parts, strict=False):
-        if number.isdecimal():
-            options += [f"-U{name}", f"-D{name}={number}"]
-    return options
+    return [*of_version(c_build.gcc_version), *split(c_build.options)]
 
 
 def _with_own_header(libraries: Iterable[Library]) -> list[Path]:

@@ -20,6 +20,15 @@ def _a_compiler():
         pytest.skip("no compiler for C is installed")
 
 
+PLC = """
+[c]
+options = [%s]
+[task_class.1]
+cycle = "10ms"
+programs = ["main"]
+"""
+
+
 @pytest.fixture
 def results(run, value):
     """``results({"Main.c": text}, 2)``: two elements of the array ``result`` after some cycles."""
@@ -268,3 +277,51 @@ def test_what_a_nested_function_cannot_do_is_told(run, inner, use):
     )
     with pytest.raises(ConfigurationError, match=r"Main.c:[78]:\d+: .*nested function"):
         run({"main/Main.c": text, "main/V.var": VARIABLES})
+
+
+def test_names_of_a_project_go_before_those_that_are_new_in_cpp_17(results):
+    text = _with_head("""#include <memory>
+#include <functional>
+#include <algorithm>
+#include <vector>
+using namespace std;
+typedef unsigned char byte;
+static int data = 3, size = 4, wide = 300;
+static byte one = 7, list[] = {wide, 2};
+static int thrower() throw(int);
+struct Falling : std::binary_function<int, int, bool> {
+	bool operator()(int a, int b) const { return a > b; }
+};
+void _CYCLIC run(void)
+{
+	std::auto_ptr<int> owner(new int(3));
+	vector<int> v; v.push_back(1); v.push_back(5); sort(v.begin(), v.end(), Falling());
+	result[0] = data + size + one + *owner; result[1] = list[0]; result[2] = v[0];
+	result[3] = count_if(v.begin(), v.end(), bind2nd(greater<int>(), 2));
+}
+""")
+    assert results({"Main.cpp": text}, 4) == [17, 44, 5, 1]
+
+
+def test_options_that_mean_nothing_here_are_left_out(results):
+    options = '"-std=gnu++11", "-msse2", "-O0", "-Werror", "-fcommon", "-DOWN=4"'
+    files = {
+        "../plc.toml": PLC % options,
+        "Main.c": _with_head("int more(void);\nvoid _CYCLIC run(void) { result[0] = more(); }\n"),
+        "More.cpp": '#include <string>\nextern "C" int more()\n'
+        '{ return OWN + std::string("a text of some length, so it is no short one").size(); }\n',
+    }
+    assert results(files, 1) == [48]
+
+
+def test_an_inline_function_is_one_for_other_files_with_gcc_4(run, value):
+    plc = PLC % '"-fgnu89-inline"'
+    files = {
+        "plc.toml": plc,
+        "main/V.var": VARIABLES,
+        "main/Main.c": _with_head(
+            "int deep(int);\nvoid _CYCLIC run(void) { result[0] = deep(4); }\n"
+        ),
+        "main/Deep.c": "inline int deep(int n)\n{ return n < 1 ? 1 : n * deep(n - 1); }\n",
+    }
+    assert value(run(files), "main.result[0]") == 24
