@@ -301,6 +301,7 @@ def _settings_of(project: Project) -> list[object]:
     return [
         MadeDevices(file_devices(named, project.folder.resolve())),
         read_alarms(variable.file for variable in found.mapp_variables),
+        found.data_objects,
     ]
 
 

@@ -25,6 +25,7 @@ from plcsim.library.dataobj.interface import (
     doUSRRAM,
     doUSRROM,
 )
+from plcsim.library.dataobj.settings import MadeObjects
 from plcsim.library.heap import heap_of
 from plcsim.library.idents import Idents
 from plcsim.library.runtime import ERR_OK
@@ -65,10 +66,16 @@ class DataObject:
 
 
 class DataObjects(Idents[DataObject]):
-    """The data objects of a controller."""
+    """The data objects of a controller: at first those of its project."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)
+        made = context.settings(MadeObjects)
+        for name, data in made.contents.items() if made is not None else ():
+            found = self.make(name.encode("latin-1", "replace"), len(data), doUSRROM, 0)
+            if isinstance(found, DataObject):
+                context.memory.write(found.address, data)
+                self.add(found)
 
     def named(self, name: bytes) -> int:
         """Return the ident of the object with a name, 0 where there is none."""

@@ -20,6 +20,7 @@ from plcsim.project.automation_studio.configuration import (
     Configuration,
     Configurations,
 )
+from plcsim.project.automation_studio.data_objects import read_data_objects
 from plcsim.project.automation_studio.finding import Finding
 from plcsim.project.automation_studio.hardware import Hardware
 from plcsim.project.automation_studio.logical_view import (
@@ -37,6 +38,8 @@ from plcsim.project.automation_studio.software import Software, TaskLine
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
+
+    from plcsim.library.dataobj.settings import MadeObjects
 
 ALL_PROGRAMS_CLASS: Final = 4
 """Task class of all programs of a project without a configuration; Cyclic#4 is where a new task
@@ -77,6 +80,7 @@ class AutomationStudioProject:
         tasks: in the order of Cpu.sw.
         mapp_variables: global variables that the configuration makes.
         maps: of the configuration.
+        data_objects: that are there before any program runs.
         has_preprocessor: whether Structured Text may have ``#ifdef``.
         findings: what is wrong in all of this.
     """
@@ -89,6 +93,7 @@ class AutomationStudioProject:
     tasks: tuple[ProgramTask, ...]
     mapp_variables: tuple[MappVariable, ...]
     maps: Maps
+    data_objects: MadeObjects
     has_preprocessor: bool
     findings: tuple[Finding, ...]
 
@@ -121,6 +126,9 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
     tasks = _tasks(chosen, view.root, findings)
     mapp_variables, found = read_mapp_variables(chosen.folder, names) if chosen.name else ([], [])
     findings += found
+    lines = chosen.software.data_objects
+    objects, found = read_data_objects(chosen.software_file, lines, view.root, names)
+    findings += found
     maps, found = read_maps(*(chosen.files_of_kind(kind) for kind in (IO_MAP, PV_MAP, PERMANENT)))
     findings += found
     return AutomationStudioProject(
@@ -132,6 +140,7 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
         tuple(tasks),
         tuple(mapp_variables),
         maps,
+        objects,
         has_preprocessor,
         tuple(findings),
     )

@@ -9,11 +9,13 @@ from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from plcsim.library.document import XmlElement
 
 SUFFIX: Final = ".prg"
+DATA_OBJECT_SUFFIX: Final = ".dob"
 
 _CLASS = re.compile(r"Cyclic#([1-8])", re.IGNORECASE)
 
@@ -36,11 +38,32 @@ class TaskLine(NamedTuple):
     build_options: str = ""
 
 
+class DataObjectLine(NamedTuple):
+    """A data object as Cpu.sw has it.
+
+    Attributes:
+        name: of the object.
+        source: names of the packages around its folder, and its own.
+        line: of Cpu.sw.
+    """
+
+    name: str
+    source: tuple[str, ...]
+    line: int
+
+
 class Software(NamedTuple):
-    """What Cpu.sw says: the tasks that run, in its order, and the names of the disabled ones."""
+    """What Cpu.sw says.
+
+    Attributes:
+        tasks: that run, in its order.
+        disabled: names of those that do not.
+        data_objects: that the project has as text.
+    """
 
     tasks: tuple[TaskLine, ...] = ()
     disabled: tuple[str, ...] = ()
+    data_objects: tuple[DataObjectLine, ...] = ()
 
 
 def read_software(file: Path) -> tuple[Software, list[Finding]]:
@@ -72,15 +95,26 @@ def read_software(file: Path) -> tuple[Software, list[Finding]]:
             else:
                 tasks.append(_task(task, int(number[1])))
     named, doubled = _named_once(file, tasks)
-    return Software(named, tuple(disabled)), findings + doubled
+    return Software(named, tuple(disabled), tuple(_data_objects(root))), findings + doubled
 
 
 def _task(element: XmlElement, number: int) -> TaskLine:
+    path = _path(element, SUFFIX)
+    name = element.get("Name").strip() or path[-1]
+    return TaskLine(name, path, number, element.line, element.get("BuildOptions"))
+
+
+def _path(element: XmlElement, suffix: str) -> tuple[str, ...]:
     source = element.get("Source").strip()
-    path = source[: -len(SUFFIX)] if source.lower().endswith(SUFFIX) else source
-    name = element.get("Name").strip() or path.rpartition(".")[2]
-    options = element.get("BuildOptions")
-    return TaskLine(name, tuple(path.split(".")), number, element.line, options)
+    return tuple((source[: -len(suffix)] if source.lower().endswith(suffix) else source).split("."))
+
+
+def _data_objects(root: XmlElement) -> Iterator[DataObjectLine]:
+    """Yield the data objects that have values in the project; others are for drives and panels."""
+    for element in root.all("DataObject"):
+        path = _path(element, DATA_OBJECT_SUFFIX)
+        if path[-1] and element.get("Language").lower() == "simple":
+            yield DataObjectLine(element.get("Name").strip() or path[-1], path, element.line)
 
 
 def _named_once(file: Path, tasks: list[TaskLine]) -> tuple[tuple[TaskLine, ...], list[Finding]]:

@@ -18,8 +18,10 @@ from plcsim.library.dataobj import (
     doERR_WRONGTIME,
     doTEMP,
     doUSRRAM,
+    doUSRROM,
     objects,
 )
+from plcsim.library.dataobj.settings import MadeObjects
 from plcsim.library.heap import heap_of
 from plcsim.library.runtime import ERR_OK
 
@@ -167,3 +169,13 @@ def test_a_restart_forgets_them(plc, made):
     plc.context.restart()
     assert info(plc, "recipe").status == doERR_MODULNOTFOUND
     assert dataobj.doERR_MODULNOTFOUND == 20609
+
+
+def test_the_objects_of_a_project_are_there_at_first_and_after_a_restart(plc):
+    plc.context.give_settings(MadeObjects({"speeds": b"12345", "toolonganame": b"1", "none": b""}))
+    for _ in range(2):
+        found = info(plc, "speeds")
+        assert (found.status, found.len, found.MemType) == (ERR_OK, 5, doUSRROM)
+        assert plc.context.memory.read(found.pDatObjMem, 5) == b"12345"
+        assert info(plc, "none").status == doERR_MODULNOTFOUND
+        plc.context.restart()
