@@ -164,6 +164,15 @@ class BlockVariables:
         is_inside = index >= 0 and (index + 1) * size <= place.data_type.size
         return self._address + place.offset + index * size if is_inside else 0
 
+    def element(self, name: str, index: int) -> float:
+        """Return an element of an ARRAY, counted from 0; 0 where there is none."""
+        place, at = self._members.find(name), self.element_address(name, index)
+        if not at or place is None or not isinstance(place.data_type, ArrayType):
+            return 0
+        kind: DataType[Any] = resolve_alias(place.data_type.element)
+        value: float = self._memory.get(kind, at)
+        return value
+
     def set_element(self, name: str, index: int, value: float | str) -> None:
         """Write an element of an ARRAY, counted from 0; what is not there is left out."""
         place, at = self._members.find(name), self.element_address(name, index)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
-from plcsim.library.loops import pid, signals
+from plcsim.library.loops import pid, signals, technology
 from plcsim.library.mapp import alarm_blocks, alarm_functions, packml_blocks, recipe_blocks
 from plcsim.library.motion import assembly, cyclic, mapp, plcopen
 
@@ -50,6 +50,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (packml_blocks.BLOCKS, _PACKML),
     (signals.BLOCKS, _LOOPS),
     (pid.BLOCKS, _LOOPS),
+    (technology.BLOCKS, _LOOPS),
 )
 """What runs the blocks by their names, and what they do, in words."""
 

@@ -40,11 +40,18 @@ LCR_ERR_POINTER: Final = 31563
 
 
 class LoopState:
-    """What a block keeps between its calls, by name; 0 before the first."""
+    """What a block keeps between its calls, by name; 0 before the first.
+
+    Attributes:
+        last_ns: release of the call before, None before the first.
+        values: by name.
+        history: values in the order in which they came, for those that look back.
+    """
 
     def __init__(self) -> None:
         self.last_ns: int | None = None
         self.values: dict[str, float] = {}
+        self.history: list[float] = []
 
     def __getitem__(self, name: str) -> float:
         return self.values.get(name, 0.0)
