@@ -5,7 +5,7 @@ It looks at the nodes from outside, so a program's ``pop_status`` still gives al
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from crosnode.transport.tcpip_socket import SocketPool
@@ -22,6 +22,9 @@ PATIENCE_NS: Final = 3_000_000_000
 
 
 SHORTAGE_NS: Final = 600_000_000_000
+
+DROPS_GROW: Final = 10
+"""Times as many messages of a topic are dropped when it is told again."""
 
 
 class News(NamedTuple):
@@ -42,6 +45,7 @@ class _Watched:
         is_told: whether that was told.
         kills: times that others ended it, as far as they were told.
         is_behind: whether it was told that its steps do not suffice.
+        drops: of each topic, how many dropped messages are told of next.
     """
 
     node: CrosNode
@@ -50,6 +54,7 @@ class _Watched:
     is_told: bool = False
     kills: int = 0
     is_behind: bool = False
+    drops: dict[str, int] = field(default_factory=dict)
 
 
 class NodeWatch:
@@ -71,6 +76,7 @@ class NodeWatch:
         for each in self._watched:
             yield from _kills(each)
             yield from _pace(each)
+            yield from _drops(each)
         self._watched = [each for each in self._watched if not each.node.is_shut_down]
         for each in self._watched:
             name, master = each.node.name, each.node.core.master
@@ -109,6 +115,21 @@ def _pace(each: _Watched) -> Iterator[News]:
     elif each.is_behind and not pace.is_behind:
         yield News(Severity.INFORMATION, f"{each.node.name}: keeps up again")
     each.is_behind = pace.is_behind
+
+
+def _drops(each: _Watched) -> Iterator[News]:
+    """Tell of messages that came faster than the program took them.
+
+    A queue of one message is there for the newest one, and dropping the others is its purpose.
+    """
+    subscribers = each.node.subscribers
+    each.drops = {topic: least for topic, least in each.drops.items() if topic in subscribers}
+    for topic, subscriber in subscribers.items():
+        dropped, length = subscriber.dropped, subscriber.queue.length
+        if length > 1 and dropped >= each.drops.get(topic, 1):
+            each.drops[topic] = DROPS_GROW * dropped
+            text = f"{dropped} messages dropped, its queue_size is {length}"
+            yield News(Severity.WARNING, f"{each.node.name}: {topic}: {text}")
 
 
 def _misses(each: _Watched, now_ns: int) -> bool:

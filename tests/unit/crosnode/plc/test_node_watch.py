@@ -79,6 +79,28 @@ def test_a_node_that_does_no_steps_or_has_ended_misses_nothing() -> None:
     assert site.world.now_ns == 22 * SECOND
 
 
+def test_messages_that_the_program_does_not_take_are_told_of_seldom() -> None:
+    site = Site(master=True)
+    site.node.register_subscriber("/newest", "std_msgs/String", queue_size=1)
+    word = site.node.register_subscriber("/word", "std_msgs/String", queue_size=10)
+    other = site.world.node("other", "192.168.0.12")
+    publishers = [other.register_publisher(t, "std_msgs/String") for t in ("/newest", "/word")]
+    site.world.until(lambda: all(each.subscribers for each in publishers))
+
+    def told(messages: int) -> list[str]:
+        for _ in range(messages):
+            for each in publishers:
+                each.send(each.new())
+            site.world.run(2)
+        return [text for _, text in site.told(1)]
+
+    assert told(10) == []
+    assert told(5) == ["/talker: /word: 5 messages dropped, its queue_size is 10"]
+    assert told(44) == []
+    assert told(1) == ["/talker: /word: 50 messages dropped, its queue_size is 10"]
+    assert word.dropped == 50
+
+
 def test_idents_that_run_out_are_told_once_in_ten_minutes() -> None:
     site = Site(master=True)
     pool = site.watch._pool
