@@ -16,6 +16,8 @@ _MEANINGLESS: Final = re.compile(
     r"|-fstack-protector.*|-fprofile.*|-ftest-coverage|--coverage|-pg"
     # clang warns of more than GCC
     r"|-Werror.*|-pedantic-errors"
+    # by these warnings is known what is to be mended
+    r"|-w|-Wno-(?:return-type|implicit-function-declaration|implicit)"
     r"|-f(?:no-)?strict-volatile-bitfields|-ansi|-[cSE]"
 )
 _STANDARD: Final = re.compile(r"-std=.*")

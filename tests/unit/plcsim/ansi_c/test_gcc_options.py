@@ -11,6 +11,7 @@ from plcsim.ansi_c.gcc_options import for_clang, of_version, split, without_stan
         ("-Werror -Werror=format -Wall -fshort-enums", ["-Wall", "-fshort-enums"], None),
         ("-std=c99 -DX", ["-std=c99", "-DX"], ["-DX"]),
         ("-std=gnu++11 -DX", ["-DX"], ["-std=gnu++11", "-DX"]),
+        ("-w -Wno-return-type -Wno-unused", ["-Wno-unused"], None),
         ("-fgnu89-inline", ["-fgnu89-inline"], []),
         ("-fstack-protector-all -fprofile-arcs --coverage -flto", [], None),
         ('-DX="', ['-DX="'], None),
