@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __tracebackhide__ = True
 
 MARKERS = (
-    "plc(project=, program=, task_class=, cycle=, seeds=, network=, boot=): what the fixture runs",
+    "plc(project=, program=, config=, task_class=, cycle=, seeds=, network=, boot=): what runs",
     "cycle_budget(p50=, p90=, p99=, p999=, worst=, program=): execution time a cycle may take",
     "realtime: run the test on the wall clock; skipped where the host cannot hold the tick",
 )
@@ -42,6 +42,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default="0",
         metavar="N",
         help="seed of noise, network and sampling; 'random' draws one and prints it (default: 0)",
+    )
+    group.addoption(
+        "--plc-config",
+        default="",
+        metavar="NAME",
+        help="configuration of an Automation Studio project (default: the active one)",
     )
     group.addoption(
         "--plc-report", metavar="DIR", help="write a report of all PLC tests: index.html and JSON"

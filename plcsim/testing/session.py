@@ -149,7 +149,7 @@ def _marker_of(item: pytest.Item) -> dict[str, Any]:
         merged |= marker.kwargs
         if marker.args:
             raise PlcTestError(f"@pytest.mark.plc: name the argument: project={marker.args[0]!r}")
-    known = ("project", "program", "task_class", "cycle", "seeds", "network", "boot")
+    known = ("project", "program", "task_class", "cycle", "seeds", "network", "boot", "config")
     for name in merged:
         if name not in known:
             raise PlcTestError(f"@pytest.mark.plc: unknown argument {name}; known: {known}")
@@ -165,9 +165,10 @@ def _target_of(item: pytest.Item, marker: dict[str, Any]) -> Application:
         given = marker["program"]
         programs = given if isinstance(given, list | tuple) else [given]
         return program_target(programs, marker.get("cycle", "10ms"), marker.get("task_class", 1))
+    configuration = marker.get("config") or item.config.getoption("--plc-config")
     if "project" in marker:
-        return project_target(item.path.parent / marker["project"])
-    return project_target(find_project(item.path.parent))
+        return project_target(item.path.parent / marker["project"], configuration)
+    return project_target(find_project(item.path.parent), configuration)
 
 
 def _calibrate(item: pytest.Item, plc: Plc) -> None:

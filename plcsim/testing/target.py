@@ -40,13 +40,18 @@ def find_project(start: Path) -> Path:
     )
 
 
-def project_target(folder: Path) -> Application:
+def project_target(folder: Path, configuration: str = "") -> Application:
     """Load a project.
+
+    Args:
+        folder: of it.
+        configuration: of an Automation Studio project, "" for the one that runs by default.
 
     Raises:
         ConfigurationError: it does not load; file and field are named.
     """
-    return load(read_project(folder), errors_fd=terminal.errors_fd)
+    given = {"as": {"config": configuration}} if configuration else {}
+    return load(read_project(folder, given), errors_fd=terminal.errors_fd)
 
 
 def program_target(
@@ -73,6 +78,7 @@ def open_plc(
     *,
     cycle: str = "10ms",
     seed: int = 0,
+    config: str = "",
 ) -> Iterator[Plc]:
     """Open a controller on the virtual clock without the fixture, booted; EXITs run at the end.
 
@@ -81,6 +87,7 @@ def open_plc(
         program: a program class, or several, instead of a project.
         cycle: cycle time of program classes.
         seed: of noise and of the virtual network.
+        config: configuration of an Automation Studio project, "" for the one that runs by default.
 
     Raises:
         PlcTestError: neither or both of project and program are given.
@@ -89,7 +96,7 @@ def open_plc(
     if (project is None) == (program is None):
         raise PlcTestError("give either a project or a program")
     if project is not None:
-        target = project_target(project)
+        target = project_target(project, config)
     else:
         given = program if isinstance(program, list | tuple) else [program]
         target = program_target([p for p in given if isinstance(p, type)], cycle)

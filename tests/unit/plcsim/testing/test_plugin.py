@@ -363,3 +363,44 @@ def test_who_lets_pytest_tell_stacks_of_hanging_tests_keeps_that(pytester, own_s
         """
     )
     pytester.runpytest_subprocess(*QUICK).assert_outcomes(passed=1)
+
+
+AS_FILES = {
+    "x.apj": "<P/>",
+    "Logical/Package.pkg": '<P><Object Type="Program">A</Object></P>',
+    "Logical/A/IEC.prg": "<P><File>Main.st</File><File>Main.var</File></P>",
+    "Logical/A/Main.st": "PROGRAM _CYCLIC\ncount := count + 1;\nEND_PROGRAM",
+    "Logical/A/Main.var": "VAR count : UDINT; END_VAR",
+    "Physical/Physical.pkg": '<P><Object Type="Configuration">Slow</Object>'
+    '<Object Type="Configuration">Fast</Object></P>',
+    **dict.fromkeys(
+        ("Physical/Slow/Hardware.hw", "Physical/Fast/Hardware.hw"),
+        '<Hardware><Module Type="CP"/></Hardware>',
+    ),
+    "Physical/Slow/Cpu.sw": '<S><TaskClass Name="Cyclic#4"><Task Source="A"/></TaskClass></S>',
+    "Physical/Fast/Cpu.sw": '<S><TaskClass Name="Cyclic#1"><Task Source="A"/></TaskClass></S>',
+}
+
+
+@pytest.mark.parametrize(
+    ("marker", "options", "cycles"),
+    [
+        ("", [], 10),
+        ("", ["--plc-config", "fast"], 100),
+        ("@pytest.mark.plc(config='Fast')", [], 100),
+        ("@pytest.mark.plc(config='Slow')", ["--plc-config", "Fast"], 10),
+    ],
+)
+def test_a_configuration_of_automation_studio_by_option_and_marker(
+    pytester, marker, options, cycles
+):
+    for name, text in AS_FILES.items():
+        path = pytester.path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    pytester.makepyfile(
+        f"import pytest\n{marker}\ndef test_it(plc):\n    plc.run('1s')\n"
+        f"    assert plc['A.count'] == {cycles}\n"
+    )
+    result = pytester.runpytest_inprocess(*options, "-p", "no:cacheprovider")
+    result.assert_outcomes(passed=1)
