@@ -50,6 +50,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="configuration of an Automation Studio project (default: the active one)",
     )
     group.addoption(
+        "--plc-keep-going",
+        action="store_true",
+        help="leave out programs that cannot run, as `plcsim run --keep-going` does",
+    )
+    group.addoption(
         "--plc-report", metavar="DIR", help="write a report of all PLC tests: index.html and JSON"
     )
     group.addoption(

@@ -165,10 +165,13 @@ def _target_of(item: pytest.Item, marker: dict[str, Any]) -> Application:
         given = marker["program"]
         programs = given if isinstance(given, list | tuple) else [given]
         return program_target(programs, marker.get("cycle", "10ms"), marker.get("task_class", 1))
-    configuration = marker.get("config") or item.config.getoption("--plc-config")
-    if "project" in marker:
-        return project_target(item.path.parent / marker["project"], configuration)
-    return project_target(find_project(item.path.parent), configuration)
+    start, option = item.path.parent, item.config.getoption
+    folder = start / marker["project"] if "project" in marker else find_project(start)
+    return project_target(
+        folder,
+        marker.get("config") or option("--plc-config"),
+        keep_going=option("--plc-keep-going"),
+    )
 
 
 def _calibrate(item: pytest.Item, plc: Plc) -> None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from plcsim.core.duration import parse_duration_ns
 from plcsim.program.python.language import PythonCode
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup
-from plcsim.project.assembly import Application, load
+from plcsim.project.assembly import Application, load, runnable
 from plcsim.project.plc_toml import read_project
 from plcsim.project.project_file import FILE_NAME, project_file
 from plcsim.testing import terminal
@@ -40,18 +40,22 @@ def find_project(start: Path) -> Path:
     )
 
 
-def project_target(folder: Path, configuration: str = "") -> Application:
+def project_target(
+    folder: Path, configuration: str = "", *, keep_going: bool = False
+) -> Application:
     """Load a project.
 
     Args:
         folder: of it.
         configuration: of an Automation Studio project, "" for the one that runs by default.
+        keep_going: programs that cannot run are left out, which the logbook tells.
 
     Raises:
         ConfigurationError: it does not load; file and field are named.
     """
     given = {"as": {"config": configuration}} if configuration else {}
-    return load(read_project(folder, given), errors_fd=terminal.errors_fd)
+    project = read_project(folder, given)
+    return load(runnable(project) if keep_going else project, errors_fd=terminal.errors_fd)
 
 
 def program_target(

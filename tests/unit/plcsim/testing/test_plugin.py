@@ -382,6 +382,31 @@ AS_FILES = {
 }
 
 
+@pytest.fixture
+def automation_studio(pytester):
+    """``automation_studio(body, head)``: an Automation Studio project with this test."""
+
+    def call(body, head="", files=()):
+        for name, text in {**AS_FILES, **dict(files)}.items():
+            path = pytester.path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, "utf-8")
+        pytester.makepyfile(f"import pytest\n{head}\ndef test_it(plc):\n    {body}\n")
+
+    return call
+
+
+def test_programs_that_cannot_run_are_left_out_where_that_is_wanted(pytester, automation_studio):
+    two = '<S><TaskClass Name="Cyclic#1"><Task Source="A"/><Task Source="Gone"/></TaskClass></S>'
+    files = {"Physical/Slow/Cpu.sw": two, "Physical/Fast/Cpu.sw": two}
+    automation_studio("plc.run('1s'); assert plc['A.count'] == 100", files=files)
+    result = pytester.runpytest_inprocess("-p", "no:cacheprovider")
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines(["*Cpu.sw:1: error: the logical view has no program Gone*"])
+    result = pytester.runpytest_inprocess("--plc-keep-going", "-p", "no:cacheprovider")
+    result.assert_outcomes(passed=1)
+
+
 @pytest.mark.parametrize(
     ("marker", "options", "cycles"),
     [
@@ -392,15 +417,8 @@ AS_FILES = {
     ],
 )
 def test_a_configuration_of_automation_studio_by_option_and_marker(
-    pytester, marker, options, cycles
+    pytester, automation_studio, marker, options, cycles
 ):
-    for name, text in AS_FILES.items():
-        path = pytester.path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, "utf-8")
-    pytester.makepyfile(
-        f"import pytest\n{marker}\ndef test_it(plc):\n    plc.run('1s')\n"
-        f"    assert plc['A.count'] == {cycles}\n"
-    )
+    automation_studio(f"plc.run('1s'); assert plc['A.count'] == {cycles}", marker)
     result = pytester.runpytest_inprocess(*options, "-p", "no:cacheprovider")
     result.assert_outcomes(passed=1)
