@@ -128,14 +128,14 @@ def test_unregister_ends_the_connections_and_tells_the_master() -> None:
     second = listener.register_subscriber("/other", STRING)
     world.until(lambda: publisher.subscribers and other.subscribers)
     talker.unregister(publisher)
-    world.run(60)
+    world.run(20)
     assert subscriber.publishers == 0
     assert second.publishers == 1
     assert [s.name for s in news(talker, StatusKind.UNREGISTERED)] == ["/chatter"]
     listener.unregister(second)
     world.until(lambda: other.subscribers == 0)
     state = talker.call_master("getSystemState")
-    world.run(30)
+    world.run(20)
     assert "/chatter" not in str(state.value[0])
     assert "/other" not in str(state.value[1])
 

@@ -61,7 +61,7 @@ def test_where_none_is_idle_the_newcomer_goes() -> None:
     sockets = [world.dial(PLC_IP, port(node)) for _ in range(most)]
     for socket in sockets:
         socket.send(HEAD)  # half of a request
-    world.run(90)  # that long 32 callers take
+    world.run(30)
     late = world.dial(PLC_IP, port(node))
     world.run(12)
     assert late.recv(10).outcome is Outcome.CLOSED
