@@ -9,7 +9,13 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.loops import pid, signals, technology
-from plcsim.library.mapp import alarm_blocks, alarm_functions, packml_blocks, recipe_blocks
+from plcsim.library.mapp import (
+    alarm_blocks,
+    alarm_functions,
+    packml_blocks,
+    recipe_blocks,
+    temperature_blocks,
+)
 from plcsim.library.motion import assembly, cyclic, mapp, plcopen
 
 if TYPE_CHECKING:
@@ -38,6 +44,7 @@ _AXIS: Final = "an axis with trapezoidal profile"
 _ALARMS: Final = "the alarms of its core"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
+_TEMPERATURE: Final = "heats below the set temperature, and cools above it"
 _LOOPS: Final = "the common formulas of closed loops"
 
 _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
@@ -48,6 +55,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (alarm_blocks.BLOCKS, _ALARMS),
     (recipe_blocks.BLOCKS, _RECIPES),
     (packml_blocks.BLOCKS, _PACKML),
+    (temperature_blocks.BLOCKS, _TEMPERATURE),
     (signals.BLOCKS, _LOOPS),
     (pid.BLOCKS, _LOOPS),
     (technology.BLOCKS, _LOOPS),
