@@ -70,7 +70,10 @@ class SlaveApi:
         """Answers go to the connection at once."""
 
     def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
-        """Nothing is kept for a caller."""
+        """Tell of a call that was too large, such as paramUpdate: its value is not the newest."""
+        connection = link.connection
+        if isinstance(connection, XmlRpcServerConnection) and connection.is_beyond_limits:
+            self._node.core.tell(StatusKind.PEER_REFUSED, link.peer, reason)
 
     def answer(self, call: MethodCall) -> MethodResponse | MethodFault:
         """Answer one call."""

@@ -15,7 +15,8 @@ class StatusKind(Enum):
     CONNECTED = auto()
     DISCONNECTED = auto()
     PEER_REFUSED = auto()
-    """A peer answered our header with ``error``, or we answered one so."""
+    """A peer answered our header with ``error``, or we answered one so; or what it called the slave
+    API with was beyond our limits."""
     BAD_MESSAGE = auto()
     """A peer sent bytes that are not a message of the type; its connection ended."""
     MASTER_FOUND = auto()

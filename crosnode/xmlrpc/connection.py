@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, TypeAlias
 
 import h11
 
-from crosnode.errors import LocalProtocolError, MessageValueError, XmlRpcError
+from crosnode.errors import LimitError, LocalProtocolError, MessageValueError, XmlRpcError
 from crosnode.transport.budget import (
     ALONE_WORK,
     ANSWER_WORK,
@@ -179,6 +179,9 @@ class XmlRpcConnection(ProtocolConnection):
         limits: see ``XmlRpcLimits``.
         now_ns: time of the step in which the connection was made.
         last_use: of the connections of one kind that a node has; None for a single one.
+
+    Attributes:
+        is_beyond_limits: whether it ended because a document was larger or deeper than we accept.
     """
 
     IS_PARSED: ClassVar[bool] = True
@@ -201,6 +204,7 @@ class XmlRpcConnection(ProtocolConnection):
         self._last_use = last_use or LastUse()
         self._part = _Part.NOTHING
         self._is_cold = False
+        self.is_beyond_limits = False
 
     def event_price(self, now_ns: int) -> int:
         """A part of a document that is read, or what follows of it."""
@@ -254,6 +258,7 @@ class XmlRpcConnection(ProtocolConnection):
         except h11.RemoteProtocolError as error:
             return self._refuse(f"not HTTP: {error}", http_status=error.error_status_hint)
         except XmlRpcError as error:
+            self.is_beyond_limits = isinstance(error, LimitError)
             return self._refuse(str(error), http_status=200)
 
     def _begin(self, now_ns: int) -> None:

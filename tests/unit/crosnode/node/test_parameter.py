@@ -164,3 +164,18 @@ def test_a_parameter_beyond_the_limit_is_refused_once() -> None:
     assert "more than 2000 bytes" in refused.text
     assert param.value == {}
     assert publisher.registration.state is RegistrationState.REGISTERED
+
+
+def test_an_update_beyond_the_limit_is_told_once_and_the_others_go_on() -> None:
+    world = World()
+    limits = XmlRpcLimits(values=ValueLimits(max_size=2_000))
+    node, other = world.node("n", xmlrpc=limits), world.node("other", OTHER_IP)
+    much, little = node.subscribe_param("/much"), node.subscribe_param("/little")
+    world.until(lambda: little.registration.state is RegistrationState.REGISTERED)
+    other.set_param("/much", "x" * 3_000)
+    world.run(5_000)
+    other.set_param("/little", 5)
+    world.run(5_000)
+    (refused,) = news(node, StatusKind.PEER_REFUSED)
+    assert "more than 2000 bytes" in refused.text
+    assert (much.value, little.value) == ({}, 5)
