@@ -46,6 +46,10 @@ CONNECT_NS: Final = 2_000_000_000
 PARSED_READ: Final = 4_096
 """Bytes read at once where they are parsed."""
 
+STREAM_AHEAD: Final = 8 << 20
+"""Bytes that a peer may send between two steps of a node that large messages reach without a pause:
+more than a step of 10 ms takes."""
+
 READS: Final = 2
 """Times that a connection is read from in a step, where the first time gave a whole area."""
 
@@ -117,9 +121,9 @@ class PeerLink:
         state: how far it is.
     """
 
-    __slots__ = ("_is_parsed", "_options", "_outbox", "_reason", "_resting", "_since_ns",
-                 "bytes_in", "bytes_out", "connection", "has_more", "is_readable", "owner", "peer",
-                 "socket", "state")  # fmt: skip
+    __slots__ = ("_is_parsed", "_is_streaming", "_options", "_outbox", "_reason", "_resting",
+                 "_since_ns", "bytes_in", "bytes_out", "connection", "has_more", "is_readable",
+                 "owner", "peer", "socket", "state")  # fmt: skip
 
     def __init__(
         self,
@@ -141,6 +145,7 @@ class PeerLink:
         self._is_parsed = connection.IS_PARSED
         self._resting: ConnectionState | None = None
         self._options = 0  # so many are set
+        self._is_streaming = False
         self.is_readable = True
 
     @property
@@ -162,7 +167,7 @@ class PeerLink:
         Args:
             news: idents with something to read.
         """
-        self.is_readable = self.socket.ident in news
+        self.is_readable = self._is_streaming or self.socket.ident in news
         connection = self.connection
         return self.is_readable or self._resting is not connection.state or bool(connection.outbox)
 
@@ -303,6 +308,14 @@ class PeerLink:
             self.connection.receive_eof()
             self._take_events(now_ns, budget)
             self.connection.close()
+        elif self._is_streaming:
+            self._expect_stream(1, budget)
+
+    def _expect_stream(self, size: int, budget: StepBudget) -> None:
+        """Let the peer send so much between two steps, where that is more than 1."""
+        self.socket.expect_stream(size)
+        self._is_streaming = size > 1
+        budget.work -= TRANSFER_WORK
 
     def _fill_message(self, room: memoryview, now_ns: int, budget: StepBudget) -> bool:
         """Read the bytes of a large message to their place; return whether there may be more."""
@@ -317,6 +330,8 @@ class PeerLink:
             budget.take_large(received, is_fresh=is_fresh)
             self.connection.filled(received)
             self._take_events(now_ns, budget)
+            if budget.is_stream and not self._is_streaming:
+                self._expect_stream(STREAM_AHEAD, budget)
         else:
             self._ended_in(state, now_ns, budget)
         return received == size

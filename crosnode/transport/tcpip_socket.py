@@ -40,7 +40,7 @@ from plcsim.library.astcp import (
 )
 from plcsim.library.astcp.idents import IdentTable
 from plcsim.library.astcp.settings import AsTcpSettings
-from plcsim.library.astcp.transfer import receive_outside, send_outside
+from plcsim.library.astcp.transfer import expect_stream, receive_outside, send_outside
 from plcsim.network.protocol import ANY_IPV6, MAX_LITERAL
 from st_types import STRING, UDINT, UINT, Struct, var
 
@@ -331,6 +331,13 @@ class TcpipSocket:
         if status == ERR_OK and size:
             return Transfer(_DONE, size)
         return Transfer(self._ended(status), 0)
+
+    def expect_stream(self, size: int) -> None:
+        """Let the peer send up to ``size`` bytes between two reads, 1 at first.
+
+        With more than 1 the socket is to be read in each step, whether it has news or not.
+        """
+        expect_stream(self._pool.context, self.ident, size)
 
     def write_buffer(self, buffer: DynBuffer) -> TcpipSocketState:
         """Write from the front of a buffer as much as is taken; as ``write_buffer_ex``."""

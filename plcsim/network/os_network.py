@@ -45,6 +45,7 @@ _OPTIONS: Final = {
     Option.KEEPALIVE: (socket.SOL_SOCKET, socket.SO_KEEPALIVE),
     Option.SEND_BUFFER: (socket.SOL_SOCKET, socket.SO_SNDBUF),
     Option.RECEIVE_BUFFER: (socket.SOL_SOCKET, socket.SO_RCVBUF),
+    Option.RECEIVE_LOW: (socket.SOL_SOCKET, socket.SO_RCVLOWAT),
     Option.URGENT_INLINE: (socket.SOL_SOCKET, socket.SO_OOBINLINE),
     Option.NO_DELAY: (socket.IPPROTO_TCP, socket.TCP_NODELAY),
     Option.KEEP_COUNT: (socket.IPPROTO_TCP, socket.TCP_KEEPCNT),

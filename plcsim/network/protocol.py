@@ -36,6 +36,9 @@ MAX_BACKLOG = 128
 MAX_BUFFER = 1_048_576
 """Bytes; a larger send or receive buffer that is asked for is cut to this."""
 
+MAX_RECEIVE_LOW = 8 << 20
+"""Bytes; a larger `Option.RECEIVE_LOW` is cut to this."""
+
 MAX_LINGER_S = 32_767
 """Seconds; the largest linger time that every TCP stack takes."""
 
@@ -97,6 +100,10 @@ class Option(Enum):
     """Seconds of silence before the first probe, 1..32767."""
     KEEP_INTERVAL = auto()
     """Seconds between probes, 1..32767."""
+    RECEIVE_LOW = auto()
+    """Bytes below which ``look`` need not tell of what is there, 1 at first. The host of a stream
+    acknowledges so many at once though nobody has read them, else after 40 ms, which stops a sender
+    whose buffer is full (Linux, tcp_input.c, __tcp_ack_snd_check). A virtual socket has none."""
 
 
 BUFFERS = frozenset({Option.SEND_BUFFER, Option.RECEIVE_BUFFER})
@@ -105,6 +112,8 @@ _KEEP_MAXIMA = {Option.KEEP_COUNT: 127, Option.KEEP_IDLE: 32_767, Option.KEEP_IN
 
 def legal_value(option: Option, value: int) -> int | None:
     """Return the value that takes effect: switches 0 or 1, buffers cut; None if out of range."""
+    if option is Option.RECEIVE_LOW:
+        return min(max(value, 1), MAX_RECEIVE_LOW)
     if option in BUFFERS:
         return min(max(value, 1), MAX_BUFFER)
     if option in _KEEP_MAXIMA:

@@ -21,7 +21,7 @@ from plcsim.library.astcp.interface import (
     tcpMSG_PEEK,
 )
 from plcsim.library.runtime import ERR_OK
-from plcsim.network.protocol import MAX_BUFFER, Outcome
+from plcsim.network.protocol import MAX_BUFFER, Option, Outcome
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -118,6 +118,16 @@ def receive_outside(context: Context, ident: int, target: memoryview) -> tuple[i
         return tcpERR_INVALID_IDENT, 0
     outcome, size = endpoint.socket.recv_into(target)
     return _RECV_STATUSES.get(outcome, tcpERR_SYSTEM), size
+
+
+def expect_stream(context: Context, ident: int, size: int) -> None:
+    """Let the host acknowledge up to ``size`` bytes that nobody has read: for ``receive_outside``.
+
+    While ``size`` is above 1 the socket need not be told of by ``look``; see `Option.RECEIVE_LOW`.
+    """
+    endpoint = context.library(IdentTable).find(ident)
+    if endpoint is not None:
+        endpoint.socket.set_option(Option.RECEIVE_LOW, size)
 
 
 def send_outside(context: Context, ident: int, data: bytes | memoryview) -> tuple[int, int]:

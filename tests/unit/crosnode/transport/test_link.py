@@ -1,10 +1,12 @@
 """A link from its connection to its end, over the virtual network."""
 
 from typing import ClassVar
+from unittest.mock import patch
 
 from crosnode.transport.budget import (
     LARGE_WORK,
     POLL_WORK,
+    STREAM_SHARE,
     TRANSFER_WORK,
     StepBudget,
     StepLimits,
@@ -19,7 +21,8 @@ from crosnode.transport.connection import (
 )
 from crosnode.transport.dyn_buffer import Data
 from crosnode.transport.event_loop import EventLoop
-from crosnode.transport.link import CLOSING_NS, CONNECT_NS, LinkState, PeerLink
+from crosnode.transport.link import CLOSING_NS, CONNECT_NS, STREAM_AHEAD, LinkState, PeerLink
+from crosnode.transport.tcpip_socket import TcpipSocket
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import Address, Outcome, Socket, VirtualNetwork
@@ -245,3 +248,24 @@ def test_the_begin_of_a_large_message_that_was_not_expected_has_a_price() -> Non
         return wire.idle_work()
 
     assert work_of(Block()) - work_of(Lines()) == LARGE_WORK
+
+
+def test_what_comes_in_a_stream_is_read_in_each_step_until_nothing_comes() -> None:
+    wire = Wire()
+    peer = wire.peer()
+    wire.link.connection = Block()
+    wire.step()
+    asked: list[int] = []
+    with patch.object(TcpipSocket, "expect_stream", lambda _, size: asked.append(size)):
+        peer.send(b"length")
+        wire.step(1)
+        peer.send(b"block")
+        wire.now_ns += 1_000_000
+        wire.loop.step(wire.now_ns, StepBudget(StepLimits(), STREAM_SHARE))
+        assert asked == [STREAM_AHEAD]
+        assert wire.link.has_work(set())
+        wire.step(1)
+        assert asked == [STREAM_AHEAD, 1]
+        assert not wire.link.is_over
+    wire.step()
+    assert not wire.link.has_work(set())

@@ -16,6 +16,7 @@ import pytest
 from plcsim.host.descriptors import ROOM
 from plcsim.network import Address, OsNetwork, Outcome
 from plcsim.network.os_network import OsSocket, SocketWatch
+from plcsim.network.protocol import MAX_RECEIVE_LOW, Option
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -170,3 +171,17 @@ def test_the_table_of_descriptors_does_not_grow_while_connections_come() -> None
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert int(done.stdout) >= wanted
+
+
+def test_what_lies_below_the_mark_is_told_once_the_mark_is_taken_back(listener: OsSocket) -> None:
+    client = connect(listener)
+    server = listener.accept().socket
+    NET.look()
+    assert client.set_option(Option.RECEIVE_LOW, MAX_RECEIVE_LOW) is Outcome.OK
+    assert server.send(b"block").taken == 5
+    assert client not in NET.look()
+    assert client.set_option(Option.RECEIVE_LOW, 1) is Outcome.OK
+    assert client in NET.look()
+    assert client.recv(10).data == b"block"
+    client.close()
+    server.close()

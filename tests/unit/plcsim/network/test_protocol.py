@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from plcsim.network.protocol import (
     MAX_BUFFER,
+    MAX_RECEIVE_LOW,
     Address,
     Option,
     is_connectable,
@@ -57,6 +58,8 @@ def test_is_connectable(peer: Address, connectable: bool) -> None:
         (Option.NO_DELAY, 0, 0),
         (Option.SEND_BUFFER, 0, 1),
         (Option.SEND_BUFFER, 2**32 - 1, MAX_BUFFER),
+        (Option.RECEIVE_LOW, 0, 1),
+        (Option.RECEIVE_LOW, 2**31, MAX_RECEIVE_LOW),
         (Option.KEEP_COUNT, 127, 127),
         (Option.KEEP_COUNT, 128, None),
         (Option.KEEP_IDLE, 0, None),
