@@ -19,6 +19,7 @@ class SocketOptions:
             Option.KEEPALIVE: 0,
             Option.SEND_BUFFER: send_buffer,
             Option.RECEIVE_BUFFER: receive_buffer,
+            Option.RECEIVE_LOW: 1,
             Option.URGENT_INLINE: 0,
             Option.NO_DELAY: 0,
             Option.KEEP_COUNT: 9,

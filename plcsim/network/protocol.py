@@ -103,7 +103,8 @@ class Option(Enum):
     RECEIVE_LOW = auto()
     """Bytes below which ``look`` need not tell of what is there, 1 at first. The host of a stream
     acknowledges so many at once though nobody has read them, else after 40 ms, which stops a sender
-    whose buffer is full (Linux, tcp_input.c, __tcp_ack_snd_check). A virtual socket has none."""
+    whose buffer is full (Linux, tcp_input.c, __tcp_ack_snd_check). Virtual sockets wait for nothing
+    of it."""
 
 
 BUFFERS = frozenset({Option.SEND_BUFFER, Option.RECEIVE_BUFFER})

@@ -97,7 +97,7 @@ class ArLogbook(EventLog):
         self.memory_type = memory_type
 
 
-class RefusedError(Exception):
+class RefusedLogError(Exception):
     """A block cannot do what it is asked for.
 
     Attributes:
@@ -118,7 +118,7 @@ class ArLogBlock(SynchronousBlock):
         """Do what the block does; return the status."""
         try:
             self.act()
-        except RefusedError as failed:
+        except RefusedLogError as failed:
             return failed.status
         return ERR_OK
 
@@ -126,7 +126,7 @@ class ArLogBlock(SynchronousBlock):
         """Do what the block does.
 
         Raises:
-            RefusedError: it cannot; with the status.
+            RefusedLogError: it cannot; with the status.
         """
         raise NotImplementedError(f"{type(self).__name__} has no act method.")
 
@@ -139,34 +139,34 @@ class ArLogBlock(SynchronousBlock):
         """Return a logbook.
 
         Raises:
-            RefusedError: there is none with this ident.
+            RefusedLogError: there is none with this ident.
         """
         base = {arlogBASE_SYSTEM_LOG_IDENT: SYSTEM, arlogBASE_USER_LOG_IDENT: USER}.get(ident)
         number = ident - FIRST_OWN if base is None else self.logs.named(base)
         found = self.logs.find(number) if base or ident > FIRST_OWN else None
         if found is None or (base is None and found.name in (SYSTEM, USER)):
-            raise RefusedError(arlogERR_INVALID_IDENT)
+            raise RefusedLogError(arlogERR_INVALID_IDENT)
         return found
 
     def own(self, ident: int) -> EventLog:
         """Return a logbook that programs may delete.
 
         Raises:
-            RefusedError: there is none with this ident, or it is the controller's.
+            RefusedLogError: there is none with this ident, or it is the controller's.
         """
         if ident <= FIRST_OWN:
-            raise RefusedError(arlogERR_ACCESS_DENIED)
+            raise RefusedLogError(arlogERR_ACCESS_DENIED)
         return self.log(ident)
 
     def name_at(self, address: int) -> str:
         """Return the name of a logbook.
 
         Raises:
-            RefusedError: there is none, or it is too long.
+            RefusedLogError: there is none, or it is too long.
         """
         name = self.context.memory.string(address, LONGEST_NAME + 1) if address else b""
         if not 0 < len(name) <= LONGEST_NAME:
-            raise RefusedError(arlogERR_ILL_NAME)
+            raise RefusedLogError(arlogERR_ILL_NAME)
         return name.decode("latin-1")
 
 
@@ -209,15 +209,15 @@ class AsArLogCreate(interface.AsArLogCreate, AsynchronousArLogBlock):
         self.ident = 0
         name = self.name_at(self.pName)
         if self.len < arlogMIN_LOGDATA_SIZE:
-            raise RefusedError(arlogERR_ILL_LEN)
+            raise RefusedLogError(arlogERR_ILL_LEN)
         if self.memType not in (arlogDRAM, arlogUSRRAM, arlogUSRROM):
-            raise RefusedError(arlogERR_ILL_MEMTYPE)
+            raise RefusedLogError(arlogERR_ILL_MEMTYPE)
         there = self.logs.named(name)
         if there:
             self.ident = there + FIRST_OWN
-            raise RefusedError(arlogERR_EXISTING)
+            raise RefusedLogError(arlogERR_EXISTING)
         if self.logs.full:
-            raise RefusedError(arlogERR_CREATE)
+            raise RefusedLogError(arlogERR_CREATE)
         self.ident = self.logs.add(ArLogbook(name, self.len, self.memType)) + FIRST_OWN
 
 
@@ -251,7 +251,7 @@ class AsArLogGetInfo(interface.AsArLogGetInfo, ArLogBlock):
         number = self.logs.named(name)
         log = self.logs.find(number)
         if log is None:
-            raise RefusedError(arlogERR_NOTEXISTING)
+            raise RefusedLogError(arlogERR_NOTEXISTING)
         bases = {SYSTEM: arlogBASE_SYSTEM_LOG_IDENT, USER: arlogBASE_USER_LOG_IDENT}
         self.ident = bases.get(name, number + FIRST_OWN)
         self.len, self.memType = USER_SIZE, arlogUSRROM
@@ -272,9 +272,9 @@ class AsArLogWrite(interface.AsArLogWrite, AsynchronousArLogBlock):
         """Write it."""
         log, level = self.log(self.ident), self.logLevel
         if level not in _LEVELS:
-            raise RefusedError(arlogERR_ILL_LOGLEVEL)
+            raise RefusedLogError(arlogERR_ILL_LOGLEVEL)
         if self.len > MOST_DATA:
-            raise RefusedError(arlogERR_NOMEMORY)
+            raise RefusedLogError(arlogERR_NOMEMORY)
         memory = self.context.memory
         data = memory.read(self.mem, self.len) if self.mem and self.len else b""
         ascii_ = memory.string(self.asciiString, LONGEST_TEXT) if self.asciiString else b""
@@ -300,14 +300,14 @@ class AsArLogRead(interface.AsArLogRead, AsynchronousArLogBlock):
         """Read it."""
         record = self.log(self.ident).records.get(self.index)
         if record is None:
-            raise RefusedError(arlogERR_INVALID_INDEX)
+            raise RefusedLogError(arlogERR_INVALID_INDEX)
         if not self.arlogRead:
-            raise RefusedError(arlogERR_READ_BUFFER)
+            raise RefusedLogError(arlogERR_READ_BUFFER)
         text = record.text.encode("latin-1", "replace")
         if self.memBin and self.lenBin < len(record.data):
-            raise RefusedError(arlogERR_READ_BINARY_BUFFER)
+            raise RefusedLogError(arlogERR_READ_BINARY_BUFFER)
         if self.memAscii and self.lenAscii <= len(text):
-            raise RefusedError(arlogERR_READ_ASCII_BUFFER)
+            raise RefusedLogError(arlogERR_READ_ASCII_BUFFER)
         self._write_header(record, len(text))
         if self.memBin and record.data:
             self.context.memory.write(self.memBin, record.data)

@@ -42,7 +42,7 @@ class XmlDocuments(Idents[Any]):
         super().__init__(context, MOST)
 
 
-class RefusedError(Exception):
+class RefusedXmlError(Exception):
     """A block cannot do what it is asked for.
 
     Attributes:
@@ -68,7 +68,7 @@ class XmlBlock(SynchronousBlock):
         """Do what the block does; return the status."""
         try:
             self.act()
-        except RefusedError as refused:
+        except RefusedXmlError as refused:
             return refused.status
         except XmlPositionError:
             return xmlERR_INVALID_POSITION
@@ -78,7 +78,7 @@ class XmlBlock(SynchronousBlock):
         """Do what the block does.
 
         Raises:
-            RefusedError: it cannot; with the status.
+            RefusedXmlError: it cannot; with the status.
             XmlPositionError: there is no place for it.
         """
         raise NotImplementedError(f"{type(self).__name__} has no act method.")
@@ -92,10 +92,10 @@ class XmlBlock(SynchronousBlock):
         """Return a new ident.
 
         Raises:
-            RefusedError: there are too many.
+            RefusedXmlError: there are too many.
         """
         if self.documents.full:
-            raise RefusedError(xmlERR_MEMORY)
+            raise RefusedXmlError(xmlERR_MEMORY)
         return self.documents.add(made)
 
     @property
@@ -103,7 +103,7 @@ class XmlBlock(SynchronousBlock):
         """The reader of the ident."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlReader):
-            raise RefusedError(xmlERR_INVALID_IDENT)
+            raise RefusedXmlError(xmlERR_INVALID_IDENT)
         return found
 
     @property
@@ -111,15 +111,15 @@ class XmlBlock(SynchronousBlock):
         """The writer of the ident."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlWriter):
-            raise RefusedError(xmlERR_INVALID_IDENT)
+            raise RefusedXmlError(xmlERR_INVALID_IDENT)
         if found.is_full:
-            raise RefusedError(xmlERR_MEMORY)
+            raise RefusedXmlError(xmlERR_MEMORY)
         return found
 
     def text(self, address: int, length: int | None = None) -> str:
         """Return a text for the writer; it ends at its NUL, or after a length."""
         if not address:
-            raise RefusedError(xmlERR_INVALID_PARAMETER)
+            raise RefusedXmlError(xmlERR_INVALID_PARAMETER)
         if length is None:
             return self.writer.text(self.context.memory.string(address, LARGEST))
         return self.writer.text(self.context.memory.read(address, min(length, LARGEST)))
@@ -134,9 +134,9 @@ class XmlBlock(SynchronousBlock):
         """
         p_name, name_size, p_value, value_size = places
         if p_name and name_size <= len(name):
-            raise RefusedError(xmlERR_NAME_BUFFER_TOO_SMALL)
+            raise RefusedXmlError(xmlERR_NAME_BUFFER_TOO_SMALL)
         if p_value and value_size <= len(value):
-            raise RefusedError(xmlERR_VALUE_BUFFER_TOO_SMALL)
+            raise RefusedXmlError(xmlERR_VALUE_BUFFER_TOO_SMALL)
         for address, data in ((p_name, name), (p_value, value)):
             if address:
                 self.context.memory.write(address, data + b"\0")
@@ -149,9 +149,9 @@ class xmlCreateMemoryReader(interface.xmlCreateMemoryReader, XmlBlock):
         """Make it."""
         self.ident = 0
         if not self.pXmlMemory or not self.memorySize:
-            raise RefusedError(xmlERR_INVALID_PARAMETER)
+            raise RefusedXmlError(xmlERR_INVALID_PARAMETER)
         if self.memorySize > LARGEST:
-            raise RefusedError(xmlERR_MEMORY)
+            raise RefusedXmlError(xmlERR_MEMORY)
         data = self.context.memory.read(self.pXmlMemory, self.memorySize)
         self.ident = self.add(XmlReader(data.rstrip(b"\0")))
 
@@ -162,7 +162,7 @@ class xmlCloseMemoryReader(interface.xmlCloseMemoryReader, XmlBlock):
     def act(self) -> None:
         """End it."""
         if not isinstance(self.documents.find(self.ident), XmlReader):
-            raise RefusedError(xmlERR_INVALID_IDENT)
+            raise RefusedXmlError(xmlERR_INVALID_IDENT)
         self.documents.remove(self.ident)
 
 
@@ -182,7 +182,7 @@ class xmlReadNextNode(interface.xmlReadNextNode, XmlBlock):
         self.nodeType = self.attributeCount = self.neededNameSize = self.neededValueSize = 0
         if node is None:
             broken, end = xmlERR_XML_DATA_INVALID, xmlERR_NO_FURTHER_XML_NODE
-            raise RefusedError(broken if reader.is_broken else end)
+            raise RefusedXmlError(broken if reader.is_broken else end)
         self.nodeType, self.depth, self.isEmpty = node.kind, node.depth, node.is_empty
         self.attributeCount = len(node.attributes)
         self.neededNameSize, self.neededValueSize = len(node.name) + 1, len(node.value) + 1
@@ -202,9 +202,9 @@ class xmlReadAttributeNr(interface.xmlReadAttributeNr, XmlBlock):
         """Read it."""
         node = self.reader.current
         if node is None or not node.attributes:
-            raise RefusedError(xmlERR_NO_ATTRIBUTES)
+            raise RefusedXmlError(xmlERR_NO_ATTRIBUTES)
         if self.index >= len(node.attributes):
-            raise RefusedError(xmlERR_INVALID_ATTRIBUTE_INDEX)
+            raise RefusedXmlError(xmlERR_INVALID_ATTRIBUTE_INDEX)
         name, value = node.attributes[self.index]
         self.neededNameSize, self.neededValueSize = len(name) + 1, len(value) + 1
         self.give((self.pName, self.nameSize, self.pValue, self.valueSize), name, value)
@@ -229,7 +229,7 @@ class xmlGetMemoryInfo(interface.xmlGetMemoryInfo, XmlBlock):
         data = writer.data
         writer.address = heap.allocate(len(data) + 1) or 0
         if not writer.address:
-            raise RefusedError(xmlERR_MEMORY)
+            raise RefusedXmlError(xmlERR_MEMORY)
         self.context.memory.write(writer.address, data + b"\0")
         self.pXmlData, self.xmlDataSize = writer.address, len(data)
 
@@ -241,7 +241,7 @@ class xmlCloseMemoryWriter(interface.xmlCloseMemoryWriter, XmlBlock):
         """End it."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlWriter):
-            raise RefusedError(xmlERR_INVALID_IDENT)
+            raise RefusedXmlError(xmlERR_INVALID_IDENT)
         heap_of(self.context).release(found.address)
         self.documents.remove(self.ident)
 
@@ -264,7 +264,7 @@ class _Declaration(XmlBlock):
         try:
             writer.declare(version, (given, output), standalone)
         except LookupError:
-            raise RefusedError(xmlERR_UNSUPPORTED_ENCODING) from None
+            raise RefusedXmlError(xmlERR_UNSUPPORTED_ENCODING) from None
 
 
 class xmlWriteStartDocument(interface.xmlWriteStartDocument, _Declaration):
@@ -305,7 +305,7 @@ class xmlWriteAttribute(interface.xmlWriteAttribute, XmlBlock):
     def act(self) -> None:
         """Add it."""
         if not self.writer.attribute(self.text(self.pName), self.text(self.pValue)):
-            raise RefusedError(xmlERR_NO_ELEMENT_OPEN)
+            raise RefusedXmlError(xmlERR_NO_ELEMENT_OPEN)
 
 
 class xmlWriteEndElement(interface.xmlWriteEndElement, XmlBlock):

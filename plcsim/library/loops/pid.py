@@ -169,7 +169,7 @@ def _wrong(given: PidParameters) -> int:
     return next((status for is_right, status in checks if not is_right), OK)
 
 
-class Controller(LoopBlock):
+class PidController(LoopBlock):
     """LCRPID.
 
     MAN gives Y_man, OPEN Y_max, CLOSE Y_min, FREEZE what Y was, OFF 0 without a past.
@@ -275,7 +275,7 @@ def _integrate(
     state["Yi"] += growth
 
 
-class SlimController(Controller):
+class SlimController(PidController):
     """LCRSlimPID: a controller whose parameters lie at pPar; it does not tune itself."""
 
     outputs: ClassVar[tuple[str, ...]] = ("Y", "e")
@@ -305,7 +305,7 @@ class SlimController(Controller):
 
 BLOCKS: Final[Mapping[str, type[LoopBlock]]] = {
     "LCRPIDpara": Parameters,
-    "LCRPID": Controller,
+    "LCRPID": PidController,
     "LCRSlimPID": SlimController,
 }
 """What runs the blocks by their names."""

@@ -113,7 +113,7 @@ class HighPass(LowPass):
     is_high: ClassVar[bool] = True
 
 
-class Delay2(TechnologyBlock):
+class TechnologyDelay2(TechnologyBlock):
     """MTBasicsPT2: two delays one behind the other, with Gain; SetOut puts Out to its preset."""
 
     parameters: ClassVar[tuple[str, ...]] = ("Gain", "TimeConstant1", "TimeConstant2")
@@ -261,7 +261,7 @@ class Deviation(Statistics):
 BLOCKS: Final[Mapping[str, type[LoopBlock]]] = {
     "MTFilterLowPass": LowPass,
     "MTFilterHighPass": HighPass,
-    "MTBasicsPT2": Delay2,
+    "MTBasicsPT2": TechnologyDelay2,
     "MTBasicsDT1": Rate1,
     "MTBasicsDT2": Rate2,
     "MTBasicsIntegrator": Sum,

@@ -68,7 +68,7 @@ class AlarmBlock(MappBlock):
         variables.set(Error=True, StatusID=status)
 
 
-class Core(AlarmBlock):
+class AlarmXCore(AlarmBlock):
     """MpAlarmXCore: counts alarms, and sets those that variables stand for."""
 
     def run(self, address: int) -> None:
@@ -232,7 +232,7 @@ def _date_text(date_ns: int) -> str:
 
 
 BLOCKS: Final[Mapping[str, type[MappBlock]]] = {
-    "MpAlarmXCore": Core,
+    "MpAlarmXCore": AlarmXCore,
     "MpAlarmXAcknowledgeAll": AcknowledgeAll,
     "MpAlarmXAlarmControl": AlarmControl,
     "MpAlarmXListUI": ListUI,

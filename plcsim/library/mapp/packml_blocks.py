@@ -53,7 +53,7 @@ class MainBlock(MappBlock):
         return machine.state, machine.mode
 
 
-class Core(MainBlock):
+class PackMLCore(MainBlock):
     """MpPackMLCore: shows the mode and the state."""
 
     def call(self, _address: int, variables: BlockVariables, _link: int) -> None:
@@ -93,7 +93,7 @@ class Mode(MainBlock):
         variables.set(ModeActive=False, ChangeModeAllowed=False, StateCurrent=0)
 
 
-class Module(MappBlock):
+class PackMLModule(MappBlock):
     """MpPackMLModule: a machine of its own, ACTIVATING first."""
 
     def _machine(self, link: int) -> PackMlMachine:
@@ -164,9 +164,9 @@ def _state_current(context: Context, _p_link: int) -> int:
 
 
 BLOCKS: Final[Mapping[str, type[MappBlock]]] = {
-    "MpPackMLCore": Core,
+    "MpPackMLCore": PackMLCore,
     "MpPackMLMode": Mode,
-    "MpPackMLModule": Module,
+    "MpPackMLModule": PackMLModule,
 }
 """What runs the blocks by their names."""
 

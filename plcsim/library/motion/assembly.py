@@ -78,7 +78,7 @@ class Shuttles:
             shuttle.power(on=on)
 
 
-class Switch(ExecuteBlock):
+class PowerSwitch(ExecuteBlock):
     """MC_BR_AsmPowerOn_AcpTrak and its like: power for all of an assembly, or none."""
 
     axis_names: ClassVar[tuple[str, ...]] = NAMES
@@ -92,7 +92,7 @@ class Switch(ExecuteBlock):
         command.finish()
 
 
-class SwitchOff(Switch):
+class SwitchOff(PowerSwitch):
     """MC_BR_AsmPowerOff_AcpTrak and its like."""
 
     is_on: ClassVar[bool] = False
@@ -261,7 +261,7 @@ def _names(*endings: str, kinds: tuple[str, ...] = ("AcpTrak", "Acp6D")) -> list
 
 
 _KINDS: Final[Mapping[type[MotionBlock], list[str]]] = {
-    Switch: [*_names("AsmPowerOn", "SysPowerOn", "SegPowerOn"), "MC_GroupEnable"],
+    PowerSwitch: [*_names("AsmPowerOn", "SysPowerOn", "SegPowerOn"), "MC_GroupEnable"],
     SwitchOff: [*_names("AsmPowerOff", "SysPowerOff", "SegPowerOff"), "MC_GroupDisable"],
     GroupPower: ["MC_BR_GroupPower"],
     GroupHome: ["MC_GroupHome", "MC_BR_GroupHome_15", "MC_BR_GroupHome_6"],

@@ -147,7 +147,7 @@ class SetOverride(EnableBlock):
             axis.override(variables.number("VelFactor"), variables.number("AccFactor"))
 
 
-class MappBlock(MotionBlock):
+class MappAxisBlock(MotionBlock):
     """A block of MpAxis beside MpAxisBasic, which has the same axis at its MpLink."""
 
     axis_names: ClassVar[tuple[str, ...]] = ("MpLink", "Axis")
@@ -177,7 +177,7 @@ class MappBlock(MotionBlock):
         raise NotImplementedError(type(self).__name__)
 
 
-class CyclicSet(MappBlock):
+class CyclicSet(MappAxisBlock):
     """MpAxisCyclicSet: its commands count by level."""
 
     def act(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
@@ -200,7 +200,7 @@ class CyclicSet(MappBlock):
         variables.set(CommandAborted=_is(command, CommandStatus.ABORTED))
 
 
-class CamSequencer(MappBlock):
+class CamSequencer(MappAxisBlock):
     """MpAxisCamSequencer: while the sequence runs, the axis follows its master one to one."""
 
     DONE: ClassVar[Mapping[str, str]] = {

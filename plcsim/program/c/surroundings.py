@@ -30,7 +30,7 @@ HEAP_SIZE_NAMES: Final = ("bur_heap_size", "_bur_heap_size")
 """Variables by which a program says how many bytes its heap has."""
 
 
-class GlobalVariable(NamedTuple):
+class SharedGlobal(NamedTuple):
     """A variable that C defines for all programs of a controller.
 
     Attributes:
@@ -44,7 +44,7 @@ class GlobalVariable(NamedTuple):
     owner: str
 
 
-class GlobalVariables(dict[str, GlobalVariable]):
+class GlobalVariables(dict[str, SharedGlobal]):
     """Those of a controller, which C marks _GLOBAL and no .var file declares, by name."""
 
 
@@ -112,7 +112,7 @@ class ProgramSurroundings:
         for name, size in self._global_sizes.items():
             address = addresses(name)
             if address is not None and self.variable(name) is None:
-                self._globals[name] = GlobalVariable(address, size, self._name)
+                self._globals[name] = SharedGlobal(address, size, self._name)
 
     def _check_sizes(self) -> None:
         others = {name: self._globals[name] for name in self.foreign}
