@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 _MEANINGLESS: Final = re.compile(
     # the processor, how fast and how well to be looked into: that is decided here
-    r"-m(?!llvm).*|-O.*|-g.*|-flto.*|-f(?:no-)?(?:pic|PIC|pie|PIE|common)|-fvisibility=.*"
+    r"-m(?!llvm).*|-O.*|-g(?!0$).*|-flto.*|-f(?:no-)?(?:pic|PIC|pie|PIE|common)|-fvisibility=.*"
     # what needs a library that a controller has not
     r"|-fstack-protector.*|-fprofile.*|-ftest-coverage|--coverage|-pg"
     # clang warns of more than GCC
@@ -25,11 +25,15 @@ _FIRST_OF_C11: Final = 5
 
 
 def split(options: str) -> list[str]:
-    """Return options as they are written in one line."""
+    """Return options as they are written in one line.
+
+    -g0 is left out: where variables lie is read from what clang tells of them.
+    """
     try:
-        return shlex.split(options)
+        found = shlex.split(options)
     except ValueError:  # a quotation mark without a second one
-        return options.split()
+        found = options.split()
+    return [each for each in found if each != "-g0"]
 
 
 def of_version(gcc_version: str) -> list[str]:

@@ -34,3 +34,8 @@ def test_sources_find_the_version_that_they_were_written_for():
 
 def test_sources_of_others_have_a_standard_of_their_own():
     assert without_standard(["-std=gnu++98", "-DX"]) == ["-DX"]
+
+
+def test_debug_information_is_not_switched_off_by_a_project():
+    assert split("-g0 -DX=1") == ["-DX=1"]
+    assert for_clang(["-g0", "-g3"], is_c=True) == ["-g0"]
