@@ -122,11 +122,10 @@ class StepBudget:
 
     Attributes:
         is_short: whether something had to wait for the next step.
-        is_stream: whether large messages come or go without a pause.
         large: bytes of large messages that were moved.
     """
 
-    __slots__ = (*StepLimits._fields, "_untouched", "is_short", "is_stream", "large", "large_share")
+    __slots__ = (*StepLimits._fields, "_untouched", "is_short", "large", "large_share")
 
     bytes_in: int
     bytes_out: int
@@ -144,7 +143,11 @@ class StepBudget:
         self.is_short = False
         self.large = 0
         self.large_share = large_share
-        self.is_stream = large_share == STREAM_SHARE
+
+    @property
+    def is_stream(self) -> bool:
+        """Whether large messages come or go without a pause."""
+        return self.large_share == STREAM_SHARE
 
     def affords(self, price: int) -> bool:
         """Whether work of a price may begin: it fits, or nothing but looks was done before.

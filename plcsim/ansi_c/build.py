@@ -21,7 +21,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from plcsim.ansi_c.gcc_options import for_clang, without_standard
+from plcsim.ansi_c.gcc_options import for_language, without_standard
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.mends import Mends
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
@@ -237,7 +237,7 @@ class _Object:
         self._told: list[str] = []
         self._folders = order.folders
         self._made = "\0" if order.made is None else f"{order.made}{os.sep}"
-        options = for_clang(order.options, is_c=is_c)
+        options = for_language(order.options, is_c=is_c)
         self.command = [
             *(toolchain.c if is_c else toolchain.cpp),
             *_OPTIONS,

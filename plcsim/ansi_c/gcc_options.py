@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 _MEANINGLESS: Final = re.compile(
     # the processor, how fast and how well to be looked into: that is decided here
-    r"-m(?!llvm).*|-O.*|-g(?!0$).*|-flto.*|-f(?:no-)?(?:pic|PIC|pie|PIE|common)|-fvisibility=.*"
+    r"-m(?!llvm).*|-O.*|-g.*|-flto.*|-f(?:no-)?(?:pic|PIC|pie|PIE|common)|-fvisibility=.*"
     # what needs a library that a controller has not
     r"|-fstack-protector.*|-fprofile.*|-ftest-coverage|--coverage|-pg"
     # clang warns of more than GCC
@@ -25,15 +25,12 @@ _FIRST_OF_C11: Final = 5
 
 
 def split(options: str) -> list[str]:
-    """Return options as they are written in one line.
-
-    -g0 is left out: where variables lie is read from what clang tells of them.
-    """
+    """Return the options that a project has in one line, as far as they mean something here."""
     try:
         found = shlex.split(options)
     except ValueError:  # a quotation mark without a second one
         found = options.split()
-    return [each for each in found if each != "-g0"]
+    return [each for each in found if not _MEANINGLESS.fullmatch(each)]
 
 
 def of_version(gcc_version: str) -> list[str]:
@@ -54,18 +51,17 @@ def of_version(gcc_version: str) -> list[str]:
     return options
 
 
-def for_clang(options: Sequence[str], *, is_c: bool) -> list[str]:
-    """Return the options that clang is to have for a file.
+def for_language(options: Sequence[str], *, is_c: bool) -> list[str]:
+    """Return those of some options that clang is to have for a file of a language.
 
     Args:
-        options: of a project.
+        options: as of `split` and `of_version`.
         is_c: whether the file is C and not C++.
     """
     return [
         option
         for option in options
-        if not _MEANINGLESS.fullmatch(option)
-        and not (_STANDARD.fullmatch(option) and ("++" in option) == is_c)
+        if not (_STANDARD.fullmatch(option) and ("++" in option) == is_c)
         and (is_c or option != "-fgnu89-inline")
     ]
 

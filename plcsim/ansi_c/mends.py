@@ -13,14 +13,14 @@ from plcsim.ansi_c.rewriting import Rewriting
 from plcsim.ansi_c.undeclared import declarations, undeclared
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
 _NO_FILE: Final = re.compile(r"(.+?):\d+:\d+: '[^']+' file not found$")
 _INCLUDE: Final = re.compile(rb'^([ \t]*#[ \t]*include[ \t]*["<])([^">\n]+)(?=[">])', re.MULTILINE)
 _NO_RETURN: Final = re.compile(
     r"(.+?):(\d+):(\d+): non-void (?:function|lambda|block) does not return a value"
 )
-_NO_NUMBER: Final = re.compile(r"(.+?):(\d+):\d+: returning 'int' from a function with")
+_NO_NUMBER: Final = re.compile(r"(.+?):(\d+):(\d+): returning 'int' from a function with")
 _NESTED: Final = re.compile(r"(.+?):(\d+):(\d+): function definition is not allowed here")
 _NO_NAME: Final = re.compile(r"(.+?):(\d+):(\d+): expected identifier")
 _NEW_IN_CPP_17: Final = re.compile(
@@ -107,17 +107,16 @@ class Mends:
     def _own_truth(self, errors: Sequence[str]) -> bool:
         """Leave TRUE and FALSE to a source that declares them itself: ``enum { FALSE, TRUE };``."""
         is_new = _OWN_TRUTH not in self._head and any(
-            _TRUTH.match(self._rewriting.line(Path(m[1]), int(m[2])), int(m[3]) - 1)
-            for m in filter(None, map(_NO_NAME.match, errors))
+            _TRUTH.match(self._rewriting.line(file, line), column - 1)
+            for file, line, column in _places(_NO_NAME, errors)
         )
         self._head += _OWN_TRUTH if is_new else ""
         return is_new
 
     def _use_blocks(self, errors: Sequence[str]) -> bool:
         """Make a function in a function a block; the next one comes the next time."""
-        for found in filter(None, map(_NESTED.match, errors if self._is_c else ())):
-            file = Path(found[1])
-            text = as_block(self._rewriting.text(file), int(found[2]), int(found[3]))
+        for file, line, column in _places(_NESTED, errors if self._is_c else ()):
+            text = as_block(self._rewriting.text(file), line, column)
             if self._rewriting.put(file, text):
                 self._head += "" if NEEDED in self._head else NEEDED
                 return True
@@ -164,8 +163,7 @@ class Mends:
         the value.
         """
         is_new = False
-        found = {m[0]: m for text in (*warnings, *errors) if (m := _NO_RETURN.match(text))}
-        places = [(Path(m[1]), int(m[2]), int(m[3])) for m in found.values()]
+        places = {*_places(_NO_RETURN, (*warnings, *errors))}
         for file, line, column in sorted(places, reverse=True):  # so that columns before stay
             if (file, line) not in self._given:
                 is_new |= self._insert(file, line, column)
@@ -188,8 +186,13 @@ class Mends:
     def _without_numbers(self, errors: Sequence[str]) -> bool:
         """Take the 0 away again where a function of C returns a structure."""
         is_new = False
-        for found in filter(None, map(_NO_NUMBER.match, errors)):
-            file, line = Path(found[1]), int(found[2])
+        for file, line, _ in _places(_NO_NUMBER, errors):
             text = self._rewriting.line(file, line).replace(_VALUE_IN_C, b"")
             is_new |= self._rewriting.put_line(file, line, text)
         return is_new
+
+
+def _places(kind: re.Pattern[str], told: Iterable[str]) -> Iterator[tuple[Path, int, int]]:
+    """Yield file, line and column of what the compiler told of a kind."""
+    for found in filter(None, map(kind.match, told)):
+        yield Path(found[1]), int(found[2]), int(found[3])

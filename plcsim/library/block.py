@@ -10,10 +10,22 @@ from __future__ import annotations
 from typing import Final
 
 from plcsim.core.function_block import FunctionBlock
-from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE
+from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE, ERR_OK
 
 IDLE: Final = 0
 BUSY: Final = 1
+
+
+class StatusError(Exception):
+    """A block cannot do what it is asked for.
+
+    Attributes:
+        status: of the block.
+    """
+
+    def __init__(self, status: int) -> None:
+        super().__init__(status)
+        self.status = status
 
 
 class SynchronousBlock(FunctionBlock):
@@ -35,6 +47,28 @@ class SynchronousBlock(FunctionBlock):
     def step(self) -> int:
         """Do what the block does; return the status."""
         raise NotImplementedError(f"{type(self).__name__} has no step method.")
+
+
+class ActingBlock(SynchronousBlock):
+    """Base of blocks whose status is ERR_OK, or that of a `StatusError`."""
+
+    __slots__ = ()
+
+    def step(self) -> int:
+        """Do what the block does; return the status."""
+        try:
+            self.act()
+        except StatusError as refused:
+            return refused.status
+        return ERR_OK
+
+    def act(self) -> None:
+        """Do what the block does.
+
+        Raises:
+            StatusError: it cannot; with the status.
+        """
+        raise NotImplementedError(f"{type(self).__name__} has no act method.")
 
 
 class AsynchronousBlock(SynchronousBlock):

@@ -233,10 +233,26 @@ def rises(context: Context, address: int, variables: BlockVariables, name: str) 
     return changes(context, address, name, value) and value
 
 
-def referred(data_type: StructType[Any], name: str) -> StructMembers | None:
-    """Return the members of what a REFERENCE TO in a structure leads to."""
-    member = next((each for each in data_type.members if each.name.upper() == name.upper()), None)
-    kind = None if member is None else resolve_alias(member.data_type)
-    target = kind.target if isinstance(kind, ReferenceType) else None
-    target = None if target is None else resolve_alias(target)
-    return StructMembers(target) if isinstance(target, StructType) else None
+class ReferredStructure:
+    """The structure that a REFERENCE TO in the data blocks of one type leads to.
+
+    Args:
+        data_type: of the data blocks.
+        name: of the member.
+    """
+
+    def __init__(self, data_type: StructType[Any], name: str) -> None:
+        self._name = name
+        found = (each for each in data_type.members if each.name.upper() == name.upper())
+        member = next(found, None)
+        kind = None if member is None else resolve_alias(member.data_type)
+        target = kind.target if isinstance(kind, ReferenceType) else None
+        target = None if target is None else resolve_alias(target)
+        self._members = StructMembers(target) if isinstance(target, StructType) else None
+
+    def of(self, memory: Memory, variables: BlockVariables) -> BlockVariables | None:
+        """Return its values, None where the address is 0, or the version of a library has none."""
+        address = variables.address(self._name)
+        if not address or self._members is None:
+            return None
+        return BlockVariables(memory, self._members, address)

@@ -51,7 +51,7 @@ def find_project(path: Path) -> Path:
     is_folder = os.path.isdir(path)  # noqa: PTH112  # no error for what can be no path
     if path.name == FILE_NAME or (path.suffix.lower() == AUTOMATION_STUDIO and not is_folder):
         return _readable(path, path)
-    if os.path.isfile(path):  # noqa: PTH113
+    if os.path.isfile(path):  # noqa: PTH113  # likewise
         kind = "an archive to unpack" if path.suffix.lower() in ARCHIVES else "a file"
         raise ConfigurationError(f"{path}: is no project but {kind}{_nearby(path)}")
     found = project_file(path)

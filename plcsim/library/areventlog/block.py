@@ -10,24 +10,13 @@ from plcsim.library.areventlog.interface import (
     arEVENTLOG_ERR_RECORDID_INVALID,
 )
 from plcsim.library.areventlog.logs import EventLog, EventLogs, EventRecord
+from plcsim.library.block import StatusError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 IDLE, BUSY, FINISHED = range(3)
 OK: Final = 0
-
-
-class FailedError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        status: of the block.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
 
 
 class EventLogBlock(FunctionBlock):
@@ -76,7 +65,7 @@ class EventLogBlock(FunctionBlock):
     def _status_of(act: Callable[[], None]) -> int:
         try:
             act()
-        except FailedError as failed:
+        except StatusError as failed:
             return failed.status
         return OK
 
@@ -84,7 +73,7 @@ class EventLogBlock(FunctionBlock):
         """Do what the block does.
 
         Raises:
-            FailedError: it cannot; with the status.
+            StatusError: it cannot; with the status.
         """
         raise NotImplementedError(f"{type(self).__name__} has no act method.")
 
@@ -98,11 +87,11 @@ class EventLogBlock(FunctionBlock):
         """The logbook.
 
         Raises:
-            FailedError: there is none with this ident.
+            StatusError: there is none with this ident.
         """
         found = self.logs.find(self.Ident)
         if found is None:
-            raise FailedError(arEVENTLOG_ERR_IDENT_INVALID)
+            raise StatusError(arEVENTLOG_ERR_IDENT_INVALID)
         return found
 
     @property
@@ -110,11 +99,11 @@ class EventLogBlock(FunctionBlock):
         """The record.
 
         Raises:
-            FailedError: there is no such logbook, or no such record.
+            StatusError: there is no such logbook, or no such record.
         """
         found = self.log.records.get(self.RecordID)
         if found is None:
-            raise FailedError(arEVENTLOG_ERR_RECORDID_INVALID)
+            raise StatusError(arEVENTLOG_ERR_RECORDID_INVALID)
         return found
 
 

@@ -6,7 +6,6 @@ from plcsim.library.areventlog import interface
 from plcsim.library.areventlog.block import (
     AsynchronousEventLogBlock,
     EventLogBlock,
-    FailedError,
 )
 from plcsim.library.areventlog.interface import (
     arEVENTLOG_ERR_IDENT_SYSTEM,
@@ -19,6 +18,7 @@ from plcsim.library.areventlog.interface import (
     arEVENTLOG_PERSISTENCE_PERSIST,
 )
 from plcsim.library.areventlog.logs import RECORD_SIZE, USER, EventLog
+from plcsim.library.block import StatusError
 
 LARGEST: int = 16 * 1024 * 1024
 """Bytes of a logbook."""
@@ -36,16 +36,16 @@ class ArEventLogCreate(interface.ArEventLogCreate, AsynchronousEventLogBlock):
         """Make it."""
         self.Ident = 0
         if not self.Name:
-            raise FailedError(arEVENTLOG_ERR_NAME_INVALID)
+            raise StatusError(arEVENTLOG_ERR_NAME_INVALID)
         if self.Persistence > arEVENTLOG_PERSISTENCE_PERSIST:
-            raise FailedError(arEVENTLOG_ERR_PERSISTENCE_INVAL)
+            raise StatusError(arEVENTLOG_ERR_PERSISTENCE_INVAL)
         if not RECORD_SIZE <= self.Size <= LARGEST:
-            raise FailedError(arEVENTLOG_ERR_SIZE_INVALID)
+            raise StatusError(arEVENTLOG_ERR_SIZE_INVALID)
         self.Ident = self.logs.named(self.Name)
         if self.Ident:
-            raise FailedError(arEVENTLOG_ERR_LOGBOOK_EXISTS)
+            raise StatusError(arEVENTLOG_ERR_LOGBOOK_EXISTS)
         if self.logs.full:
-            raise FailedError(arEVENTLOG_ERR_INTERNAL)
+            raise StatusError(arEVENTLOG_ERR_INTERNAL)
         self.Ident = self.logs.add(EventLog(self.Name, self.Size))
 
 
@@ -55,7 +55,7 @@ class ArEventLogDelete(interface.ArEventLogDelete, AsynchronousEventLogBlock):
     def act(self) -> None:
         """Delete it."""
         if self.log.is_system or self.log.name == USER:
-            raise FailedError(arEVENTLOG_ERR_IDENT_SYSTEM)
+            raise StatusError(arEVENTLOG_ERR_IDENT_SYSTEM)
         self.logs.remove(self.Ident)
 
 
@@ -66,4 +66,4 @@ class ArEventLogGetIdent(interface.ArEventLogGetIdent, EventLogBlock):
         """Find it."""
         self.Ident = self.logs.named(self.Name)
         if not self.Ident:
-            raise FailedError(arEVENTLOG_ERR_LOGBOOK_NOT_FOUND)
+            raise StatusError(arEVENTLOG_ERR_LOGBOOK_NOT_FOUND)

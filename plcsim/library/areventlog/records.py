@@ -12,7 +12,6 @@ from plcsim.library.areventlog import interface
 from plcsim.library.areventlog.block import (
     AsynchronousEventLogBlock,
     EventLogBlock,
-    FailedError,
 )
 from plcsim.library.areventlog.interface import (
     arEVENTLOG_ADDFORMAT_CODED,
@@ -30,6 +29,7 @@ from plcsim.library.areventlog.interface import (
     arEVENTLOG_SEVERITY_WARNING,
 )
 from plcsim.library.areventlog.logs import NS_PER_SECOND, EventRecord, severity_of
+from plcsim.library.block import StatusError
 
 MOST_DATA: Final = 1000
 """Bytes of additional data."""
@@ -59,7 +59,7 @@ class ArEventLogWrite(interface.ArEventLogWrite, EventLogBlock):
         """Write it."""
         self.RecordID = 0
         if self.log.is_system:
-            raise FailedError(arEVENTLOG_ERR_IDENT_SYSTEM)
+            raise StatusError(arEVENTLOG_ERR_IDENT_SYSTEM)
         date_ns = self.context.date_ns
         if self.TimeStamp:
             seconds, rest_ns = _TIME.unpack(self.context.memory.read(self.TimeStamp, _TIME.size))
@@ -76,16 +76,16 @@ class ArEventLogWrite(interface.ArEventLogWrite, EventLogBlock):
         """Return the additional data.
 
         Raises:
-            FailedError: it cannot be had.
+            StatusError: it cannot be had.
         """
         if not _is_format(self.AddDataFormat):
-            raise FailedError(arEVENTLOG_ERR_FORMAT_INVALID)
+            raise StatusError(arEVENTLOG_ERR_FORMAT_INVALID)
         if not self.AddDataSize:
             return b""
         if not self.AddData:
-            raise FailedError(arEVENTLOG_ERR_ADDDATA_NULL)
+            raise StatusError(arEVENTLOG_ERR_ADDDATA_NULL)
         if self.AddDataSize > MOST_DATA:
-            raise FailedError(arEVENTLOG_ERR_SIZE_INVALID)
+            raise StatusError(arEVENTLOG_ERR_SIZE_INVALID)
         return self.context.memory.read(self.AddData, self.AddDataSize)
 
     def _tell(self, record: EventRecord) -> None:
@@ -119,7 +119,7 @@ class ArEventLogGetPreviousRecordID(interface.ArEventLogGetPreviousRecordID, Eve
         self.PrevRecordID = 0
         numbers = [*self.log.records]
         if self.RecordID not in numbers:
-            raise FailedError(arEVENTLOG_ERR_RECORDID_INVALID)
+            raise StatusError(arEVENTLOG_ERR_RECORDID_INVALID)
         place = numbers.index(self.RecordID)
         self.PrevRecordID = numbers[place - 1] if place else 0
 
@@ -146,7 +146,7 @@ class ArEventLogReadAddData(interface.ArEventLogReadAddData, EventLogBlock):
         self.AddDataSize = 0
         data = self.record.data
         if not self.AddData:
-            raise FailedError(arEVENTLOG_ERR_ADDDATA_NULL)
+            raise StatusError(arEVENTLOG_ERR_ADDDATA_NULL)
         self.context.memory.write(self.AddData, data[: self.BytesToRead])
         self.AddDataSize = len(data)
 
@@ -179,9 +179,9 @@ class ArEventLogReadDescription(interface.ArEventLogReadDescription, Asynchronou
         self.TextSize = 0
         text = self.record.text
         if not text:
-            raise FailedError(arEVENTLOG_ERR_NO_DESCRIPTION)
+            raise StatusError(arEVENTLOG_ERR_NO_DESCRIPTION)
         if not self.TextBuffer or not self.TextBufferSize:
-            raise FailedError(arEVENTLOG_ERR_DESCRIPTION_NULL)
+            raise StatusError(arEVENTLOG_ERR_DESCRIPTION_NULL)
         stored = text.encode("latin-1", "replace")[: self.TextBufferSize - 1] + b"\0"
         self.context.memory.write(self.TextBuffer, stored)
         self.TextSize = len(stored)

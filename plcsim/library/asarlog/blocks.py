@@ -48,9 +48,8 @@ from plcsim.library.asarlog.interface import (
     arlogUSRROM,
     asarlogRead,
 )
-from plcsim.library.astime.structures import date_of
-from plcsim.library.block import AsynchronousBlock, SynchronousBlock
-from plcsim.library.runtime import ERR_OK
+from plcsim.library.astime.structures import NS_PER_US, date_of
+from plcsim.library.block import ActingBlock, AsynchronousBlock, StatusError
 from plcsim.library.sys_lib.tasks import running_name
 
 FIRST_OWN: Final = arlogBASE_REDUND_LOG_IDENT
@@ -62,7 +61,6 @@ MOST_DATA: Final = 1000
 """Bytes of an entry."""
 
 FORMAT: Final = 1
-_NS_PER_US: Final = 1000
 
 _LEVELS: Final = {
     arlogLEVEL_INFO: Severity.INFORMATION,
@@ -97,38 +95,10 @@ class ArLogbook(EventLog):
         self.memory_type = memory_type
 
 
-class RefusedLogError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        status: of the block.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
-
-
-class ArLogBlock(SynchronousBlock):
+class ArLogBlock(ActingBlock):
     """Base of the blocks."""
 
     __slots__ = ()
-
-    def step(self) -> int:
-        """Do what the block does; return the status."""
-        try:
-            self.act()
-        except RefusedLogError as failed:
-            return failed.status
-        return ERR_OK
-
-    def act(self) -> None:
-        """Do what the block does.
-
-        Raises:
-            RefusedLogError: it cannot; with the status.
-        """
-        raise NotImplementedError(f"{type(self).__name__} has no act method.")
 
     @property
     def logs(self) -> EventLogs:
@@ -139,34 +109,34 @@ class ArLogBlock(SynchronousBlock):
         """Return a logbook.
 
         Raises:
-            RefusedLogError: there is none with this ident.
+            StatusError: there is none with this ident.
         """
         base = {arlogBASE_SYSTEM_LOG_IDENT: SYSTEM, arlogBASE_USER_LOG_IDENT: USER}.get(ident)
         number = ident - FIRST_OWN if base is None else self.logs.named(base)
         found = self.logs.find(number) if base or ident > FIRST_OWN else None
         if found is None or (base is None and found.name in (SYSTEM, USER)):
-            raise RefusedLogError(arlogERR_INVALID_IDENT)
+            raise StatusError(arlogERR_INVALID_IDENT)
         return found
 
     def own(self, ident: int) -> EventLog:
         """Return a logbook that programs may delete.
 
         Raises:
-            RefusedLogError: there is none with this ident, or it is the controller's.
+            StatusError: there is none with this ident, or it is the controller's.
         """
         if ident <= FIRST_OWN:
-            raise RefusedLogError(arlogERR_ACCESS_DENIED)
+            raise StatusError(arlogERR_ACCESS_DENIED)
         return self.log(ident)
 
     def name_at(self, address: int) -> str:
         """Return the name of a logbook.
 
         Raises:
-            RefusedLogError: there is none, or it is too long.
+            StatusError: there is none, or it is too long.
         """
         name = self.context.memory.string(address, LONGEST_NAME + 1) if address else b""
         if not 0 < len(name) <= LONGEST_NAME:
-            raise RefusedLogError(arlogERR_ILL_NAME)
+            raise StatusError(arlogERR_ILL_NAME)
         return name.decode("latin-1")
 
 
@@ -209,15 +179,15 @@ class AsArLogCreate(interface.AsArLogCreate, AsynchronousArLogBlock):
         self.ident = 0
         name = self.name_at(self.pName)
         if self.len < arlogMIN_LOGDATA_SIZE:
-            raise RefusedLogError(arlogERR_ILL_LEN)
+            raise StatusError(arlogERR_ILL_LEN)
         if self.memType not in (arlogDRAM, arlogUSRRAM, arlogUSRROM):
-            raise RefusedLogError(arlogERR_ILL_MEMTYPE)
+            raise StatusError(arlogERR_ILL_MEMTYPE)
         there = self.logs.named(name)
         if there:
             self.ident = there + FIRST_OWN
-            raise RefusedLogError(arlogERR_EXISTING)
+            raise StatusError(arlogERR_EXISTING)
         if self.logs.full:
-            raise RefusedLogError(arlogERR_CREATE)
+            raise StatusError(arlogERR_CREATE)
         self.ident = self.logs.add(ArLogbook(name, self.len, self.memType)) + FIRST_OWN
 
 
@@ -251,7 +221,7 @@ class AsArLogGetInfo(interface.AsArLogGetInfo, ArLogBlock):
         number = self.logs.named(name)
         log = self.logs.find(number)
         if log is None:
-            raise RefusedLogError(arlogERR_NOTEXISTING)
+            raise StatusError(arlogERR_NOTEXISTING)
         bases = {SYSTEM: arlogBASE_SYSTEM_LOG_IDENT, USER: arlogBASE_USER_LOG_IDENT}
         self.ident = bases.get(name, number + FIRST_OWN)
         self.len, self.memType = USER_SIZE, arlogUSRROM
@@ -272,9 +242,9 @@ class AsArLogWrite(interface.AsArLogWrite, AsynchronousArLogBlock):
         """Write it."""
         log, level = self.log(self.ident), self.logLevel
         if level not in _LEVELS:
-            raise RefusedLogError(arlogERR_ILL_LOGLEVEL)
+            raise StatusError(arlogERR_ILL_LOGLEVEL)
         if self.len > MOST_DATA:
-            raise RefusedLogError(arlogERR_NOMEMORY)
+            raise StatusError(arlogERR_NOMEMORY)
         memory = self.context.memory
         data = memory.read(self.mem, self.len) if self.mem and self.len else b""
         ascii_ = memory.string(self.asciiString, LONGEST_TEXT) if self.asciiString else b""
@@ -300,14 +270,14 @@ class AsArLogRead(interface.AsArLogRead, AsynchronousArLogBlock):
         """Read it."""
         record = self.log(self.ident).records.get(self.index)
         if record is None:
-            raise RefusedLogError(arlogERR_INVALID_INDEX)
+            raise StatusError(arlogERR_INVALID_INDEX)
         if not self.arlogRead:
-            raise RefusedLogError(arlogERR_READ_BUFFER)
+            raise StatusError(arlogERR_READ_BUFFER)
         text = record.text.encode("latin-1", "replace")
         if self.memBin and self.lenBin < len(record.data):
-            raise RefusedLogError(arlogERR_READ_BINARY_BUFFER)
+            raise StatusError(arlogERR_READ_BINARY_BUFFER)
         if self.memAscii and self.lenAscii <= len(text):
-            raise RefusedLogError(arlogERR_READ_ASCII_BUFFER)
+            raise StatusError(arlogERR_READ_ASCII_BUFFER)
         self._write_header(record, len(text))
         if self.memBin and record.data:
             self.context.memory.write(self.memBin, record.data)
@@ -329,4 +299,4 @@ class AsArLogRead(interface.AsArLogRead, AsynchronousArLogBlock):
         date = date_of(seconds)
         header.errYear, header.errMonth, header.errDay = date.year, date.month, date.day
         header.errHour, header.errMinute, header.errSecond = date.hour, date.minute, date.second
-        header.errMilliSec, header.errMicroSec = divmod(rest_ns // _NS_PER_US, 1000)
+        header.errMilliSec, header.errMicroSec = divmod(rest_ns // NS_PER_US, 1000)

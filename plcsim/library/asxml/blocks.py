@@ -11,7 +11,6 @@ from plcsim.library.asxml.interface import (
     xmlERR_INVALID_ATTRIBUTE_INDEX,
     xmlERR_INVALID_IDENT,
     xmlERR_INVALID_PARAMETER,
-    xmlERR_INVALID_POSITION,
     xmlERR_MEMORY,
     xmlERR_NAME_BUFFER_TOO_SMALL,
     xmlERR_NO_ATTRIBUTES,
@@ -22,11 +21,10 @@ from plcsim.library.asxml.interface import (
     xmlERR_XML_DATA_INVALID,
 )
 from plcsim.library.asxml.reader import XmlReader
-from plcsim.library.asxml.writer import LARGEST, XmlPositionError, XmlWriter
-from plcsim.library.block import SynchronousBlock
+from plcsim.library.asxml.writer import LARGEST, XmlWriter
+from plcsim.library.block import ActingBlock, StatusError
 from plcsim.library.heap import heap_of
 from plcsim.library.idents import Idents
-from plcsim.library.runtime import ERR_OK
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
@@ -42,19 +40,7 @@ class XmlDocuments(Idents[Any]):
         super().__init__(context, MOST)
 
 
-class RefusedXmlError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        status: of the block.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
-
-
-class XmlBlock(SynchronousBlock):
+class XmlBlock(ActingBlock):
     """Base of the blocks.
 
     Status of all: xmlERR_INVALID_IDENT, xmlERR_INVALID_PARAMETER (an address is 0).
@@ -63,25 +49,6 @@ class XmlBlock(SynchronousBlock):
     __slots__ = ()
 
     ident: int
-
-    def step(self) -> int:
-        """Do what the block does; return the status."""
-        try:
-            self.act()
-        except RefusedXmlError as refused:
-            return refused.status
-        except XmlPositionError:
-            return xmlERR_INVALID_POSITION
-        return ERR_OK
-
-    def act(self) -> None:
-        """Do what the block does.
-
-        Raises:
-            RefusedXmlError: it cannot; with the status.
-            XmlPositionError: there is no place for it.
-        """
-        raise NotImplementedError(f"{type(self).__name__} has no act method.")
 
     @property
     def documents(self) -> XmlDocuments:
@@ -92,10 +59,10 @@ class XmlBlock(SynchronousBlock):
         """Return a new ident.
 
         Raises:
-            RefusedXmlError: there are too many.
+            StatusError: there are too many.
         """
         if self.documents.full:
-            raise RefusedXmlError(xmlERR_MEMORY)
+            raise StatusError(xmlERR_MEMORY)
         return self.documents.add(made)
 
     @property
@@ -103,7 +70,7 @@ class XmlBlock(SynchronousBlock):
         """The reader of the ident."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlReader):
-            raise RefusedXmlError(xmlERR_INVALID_IDENT)
+            raise StatusError(xmlERR_INVALID_IDENT)
         return found
 
     @property
@@ -111,15 +78,15 @@ class XmlBlock(SynchronousBlock):
         """The writer of the ident."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlWriter):
-            raise RefusedXmlError(xmlERR_INVALID_IDENT)
+            raise StatusError(xmlERR_INVALID_IDENT)
         if found.is_full:
-            raise RefusedXmlError(xmlERR_MEMORY)
+            raise StatusError(xmlERR_MEMORY)
         return found
 
     def text(self, address: int, length: int | None = None) -> str:
         """Return a text for the writer; it ends at its NUL, or after a length."""
         if not address:
-            raise RefusedXmlError(xmlERR_INVALID_PARAMETER)
+            raise StatusError(xmlERR_INVALID_PARAMETER)
         if length is None:
             return self.writer.text(self.context.memory.string(address, LARGEST))
         return self.writer.text(self.context.memory.read(address, min(length, LARGEST)))
@@ -134,9 +101,9 @@ class XmlBlock(SynchronousBlock):
         """
         p_name, name_size, p_value, value_size = places
         if p_name and name_size <= len(name):
-            raise RefusedXmlError(xmlERR_NAME_BUFFER_TOO_SMALL)
+            raise StatusError(xmlERR_NAME_BUFFER_TOO_SMALL)
         if p_value and value_size <= len(value):
-            raise RefusedXmlError(xmlERR_VALUE_BUFFER_TOO_SMALL)
+            raise StatusError(xmlERR_VALUE_BUFFER_TOO_SMALL)
         for address, data in ((p_name, name), (p_value, value)):
             if address:
                 self.context.memory.write(address, data + b"\0")
@@ -149,9 +116,9 @@ class xmlCreateMemoryReader(interface.xmlCreateMemoryReader, XmlBlock):
         """Make it."""
         self.ident = 0
         if not self.pXmlMemory or not self.memorySize:
-            raise RefusedXmlError(xmlERR_INVALID_PARAMETER)
+            raise StatusError(xmlERR_INVALID_PARAMETER)
         if self.memorySize > LARGEST:
-            raise RefusedXmlError(xmlERR_MEMORY)
+            raise StatusError(xmlERR_MEMORY)
         data = self.context.memory.read(self.pXmlMemory, self.memorySize)
         self.ident = self.add(XmlReader(data.rstrip(b"\0")))
 
@@ -162,7 +129,7 @@ class xmlCloseMemoryReader(interface.xmlCloseMemoryReader, XmlBlock):
     def act(self) -> None:
         """End it."""
         if not isinstance(self.documents.find(self.ident), XmlReader):
-            raise RefusedXmlError(xmlERR_INVALID_IDENT)
+            raise StatusError(xmlERR_INVALID_IDENT)
         self.documents.remove(self.ident)
 
 
@@ -182,7 +149,7 @@ class xmlReadNextNode(interface.xmlReadNextNode, XmlBlock):
         self.nodeType = self.attributeCount = self.neededNameSize = self.neededValueSize = 0
         if node is None:
             broken, end = xmlERR_XML_DATA_INVALID, xmlERR_NO_FURTHER_XML_NODE
-            raise RefusedXmlError(broken if reader.is_broken else end)
+            raise StatusError(broken if reader.is_broken else end)
         self.nodeType, self.depth, self.isEmpty = node.kind, node.depth, node.is_empty
         self.attributeCount = len(node.attributes)
         self.neededNameSize, self.neededValueSize = len(node.name) + 1, len(node.value) + 1
@@ -202,9 +169,9 @@ class xmlReadAttributeNr(interface.xmlReadAttributeNr, XmlBlock):
         """Read it."""
         node = self.reader.current
         if node is None or not node.attributes:
-            raise RefusedXmlError(xmlERR_NO_ATTRIBUTES)
+            raise StatusError(xmlERR_NO_ATTRIBUTES)
         if self.index >= len(node.attributes):
-            raise RefusedXmlError(xmlERR_INVALID_ATTRIBUTE_INDEX)
+            raise StatusError(xmlERR_INVALID_ATTRIBUTE_INDEX)
         name, value = node.attributes[self.index]
         self.neededNameSize, self.neededValueSize = len(name) + 1, len(value) + 1
         self.give((self.pName, self.nameSize, self.pValue, self.valueSize), name, value)
@@ -229,7 +196,7 @@ class xmlGetMemoryInfo(interface.xmlGetMemoryInfo, XmlBlock):
         data = writer.data
         writer.address = heap.allocate(len(data) + 1) or 0
         if not writer.address:
-            raise RefusedXmlError(xmlERR_MEMORY)
+            raise StatusError(xmlERR_MEMORY)
         self.context.memory.write(writer.address, data + b"\0")
         self.pXmlData, self.xmlDataSize = writer.address, len(data)
 
@@ -241,7 +208,7 @@ class xmlCloseMemoryWriter(interface.xmlCloseMemoryWriter, XmlBlock):
         """End it."""
         found = self.documents.find(self.ident)
         if not isinstance(found, XmlWriter):
-            raise RefusedXmlError(xmlERR_INVALID_IDENT)
+            raise StatusError(xmlERR_INVALID_IDENT)
         heap_of(self.context).release(found.address)
         self.documents.remove(self.ident)
 
@@ -264,7 +231,7 @@ class _Declaration(XmlBlock):
         try:
             writer.declare(version, (given, output), standalone)
         except LookupError:
-            raise RefusedXmlError(xmlERR_UNSUPPORTED_ENCODING) from None
+            raise StatusError(xmlERR_UNSUPPORTED_ENCODING) from None
 
 
 class xmlWriteStartDocument(interface.xmlWriteStartDocument, _Declaration):
@@ -305,7 +272,7 @@ class xmlWriteAttribute(interface.xmlWriteAttribute, XmlBlock):
     def act(self) -> None:
         """Add it."""
         if not self.writer.attribute(self.text(self.pName), self.text(self.pValue)):
-            raise RefusedXmlError(xmlERR_NO_ELEMENT_OPEN)
+            raise StatusError(xmlERR_NO_ELEMENT_OPEN)
 
 
 class xmlWriteEndElement(interface.xmlWriteEndElement, XmlBlock):

@@ -6,12 +6,11 @@ import codecs
 from typing import Final
 from xml.sax.saxutils import escape, quoteattr
 
+from plcsim.library.asxml.interface import xmlERR_INVALID_POSITION
+from plcsim.library.block import StatusError
+
 LARGEST: Final = 4 << 20
 """Bytes of a document."""
-
-
-class XmlPositionError(Exception):
-    """There is no place for this here."""
 
 
 class XmlWriter:
@@ -64,12 +63,12 @@ class XmlWriter:
 
         Raises:
             LookupError: there is no such encoding.
-            XmlPositionError: something is written already.
+            StatusError: something is written already.
         """
         for encoding in encodings:
             codecs.lookup(encoding)
         if self._pieces:
-            raise XmlPositionError
+            raise StatusError(xmlERR_INVALID_POSITION)
         self._input, self._output = encodings
         more = f' standalone="{standalone}"' if standalone else ""
         self._write(f'<?xml version="{version}" encoding="{encodings[1]}"{more}?>\n')
@@ -91,10 +90,10 @@ class XmlWriter:
         """Write a text, or something in a form such as ``<!--{}-->``.
 
         Raises:
-            XmlPositionError: a text has no place outside of elements.
+            StatusError: a text has no place outside of elements.
         """
         if not form and not self._open:
-            raise XmlPositionError
+            raise StatusError(xmlERR_INVALID_POSITION)
         self._end_tag()
         self._write(form.format(text) if form else escape(text))
 
@@ -102,10 +101,10 @@ class XmlWriter:
         """End the element.
 
         Raises:
-            XmlPositionError: there is none.
+            StatusError: there is none.
         """
         if not self._open:
-            raise XmlPositionError
+            raise StatusError(xmlERR_INVALID_POSITION)
         name = self._open.pop()
         if self._is_tag_open:
             self._is_tag_open = False

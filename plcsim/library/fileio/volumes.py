@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.block import StatusError
 from plcsim.library.fileio.interface import (
     fiERR_ACCESS,
     fiERR_DIR_NOT_EMPTY,
@@ -48,16 +49,8 @@ _STATUSES: Final = {
 }
 
 
-class FileRefusedError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        status: of the block.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
+class FileRefusedError(StatusError):
+    """A block of FileIO cannot do what it is asked for."""
 
 
 @dataclass(slots=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
+from plcsim.library.astime.structures import NS_PER_SECOND
 from plcsim.library.members import BlockVariables, StructMembers
 from plcsim.library.runtime import ERR_FUB_ENABLE_FALSE, ERR_OK
 
@@ -11,8 +13,6 @@ if TYPE_CHECKING:
     from plcsim.core.context import Context
     from plcsim.library.members import FindType
     from st_types.types.derived import StructType
-
-NS_PER_SECOND: Final = 1_000_000_000
 
 LCR_ERR_LCRPID_PAR_KP: Final = 12026
 LCR_ERR_LCRPID_PAR_TF: Final = 12028
@@ -130,7 +130,7 @@ class LoopBlock:
 
 def limited(value: float, low: float, high: float) -> float:
     """Return a value within limits; what is no number is the lower one."""
-    return min(max(value, low), high) if value == value else low  # noqa: PLR0124  # not a number
+    return min(max(value, low), high) if not math.isnan(value) else low
 
 
 OK: Final = ERR_OK

@@ -37,14 +37,14 @@ from plcsim.library.loops.block import (
     limited,
 )
 from plcsim.library.loops.signals import differentiated
-from plcsim.library.members import BlockVariables, referred
+from plcsim.library.members import ReferredStructure
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from typing import Any
 
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
+    from plcsim.library.members import BlockVariables, FindType
     from st_types.types.derived import StructType
 
 OFF: Final = 0
@@ -282,18 +282,17 @@ class SlimController(PidController):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._parameters = referred(data_type, "pPar")
+        self._parameters = ReferredStructure(data_type, "pPar")
 
     def step(
         self, _address: int, variables: BlockVariables, state: LoopState, step_s: float
     ) -> int:
         """Calculate Y."""
-        at = variables.address("pPar")
-        if not at or self._parameters is None:
+        values = self._parameters.of(self.context.memory, variables)
+        if values is None:
             return LCR_ERR_POINTER
         if variables.number("request") not in NO_REQUEST:
             return LCR_ERR_LCRPIDTune_INVALID_REQU
-        values = BlockVariables(self.context.memory, self._parameters, at)
         gain, feedback = values.number("Kp"), values.number("Kfbk")
         given = PidParameters(gain, values.number("Tn"), values.number("Tv"), feedback)
         low, high = values.number("Y_min"), values.number("Y_max")

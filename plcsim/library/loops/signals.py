@@ -104,11 +104,8 @@ class Delay2(LoopBlock):
         if second_s < 0:
             return LCR_ERR_LCRPT12_T2_NEG
         target = variables.number("V") * variables.number("x")
-        state["x"] = delayed(state["x"], target, first_s, step_s)
-        state["y"] = delayed(state["y"], state["x"], second_s, step_s)
-        if variables.is_true("set"):
-            state["x"] = state["y"] = variables.number("y_set")
-        variables.set(y=state["y"])
+        preset = variables.number("y_set") if variables.is_true("set") else None
+        variables.set(y=delayed_twice(state, target, (first_s, second_s), step_s, preset))
         return OK
 
 
@@ -116,6 +113,29 @@ def delayed(value: float, target: float, time_s: float, step_s: float) -> float:
     """Return a value that goes to a target with a time constant, after a step."""
     rest = math.exp(-step_s / time_s) if time_s > 0 else 0.0
     return target + (value - target) * rest
+
+
+def delayed_twice(
+    state: LoopState,
+    target: float,
+    times_s: tuple[float, float],
+    step_s: float,
+    preset: float | None,
+) -> float:
+    """Return a value behind two delays, one behind the other, after a step.
+
+    Args:
+        state: of the block.
+        target: where the first goes.
+        times_s: their time constants.
+        step_s: seconds since the call before.
+        preset: what both are put to, None where they are not.
+    """
+    state["x"] = delayed(state["x"], target, times_s[0], step_s)
+    state["y"] = delayed(state["y"], state["x"], times_s[1], step_s)
+    if preset is not None:
+        state["x"] = state["y"] = preset
+    return state["y"]
 
 
 class Integral(LoopBlock):
@@ -235,9 +255,14 @@ class Curve(LoopBlock):
             return LCR_ERR_LCRCurveByPoints_TABLE
         x = variables.number("x")
         index = next((n for n, point in enumerate(points[1:-1]) if x < point[0]), len(points) - 2)
-        (x1, y1), (x2, y2) = points[index : index + 2]
-        variables.set(y=y1 + (x - x1) * (y2 - y1) / (x2 - x1))
+        variables.set(y=between(x, *points[index : index + 2]))
         return OK
+
+
+def between(x: float, first: tuple[float, float], second: tuple[float, float]) -> float:
+    """Return y at x on the straight line through two points."""
+    (x1, y1), (x2, y2) = first, second
+    return y1 + (x - x1) * (y2 - y1) / (x2 - x1)
 
 
 BLOCKS: Final[Mapping[str, type[LoopBlock]]] = {

@@ -12,7 +12,7 @@ from functools import cache
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
 from plcsim.library.loops.block import OK, LoopBlock, LoopState
-from plcsim.library.loops.signals import delayed, differentiated
+from plcsim.library.loops.signals import between, delayed, delayed_twice, differentiated
 from plcsim.library.members import rises
 
 if TYPE_CHECKING:
@@ -121,11 +121,9 @@ class TechnologyDelay2(TechnologyBlock):
     def calculate(self, variables: BlockVariables, state: LoopState, step_s: float) -> None:
         """Go on by a step."""
         target = state["Gain"] * variables.number("In")
-        state["x"] = delayed(state["x"], target, state["TimeConstant1"], step_s)
-        state["y"] = delayed(state["y"], state["x"], state["TimeConstant2"], step_s)
-        if variables.is_true("SetOut"):
-            state["x"] = state["y"] = variables.number("OutPresetValue")
-        variables.set(Out=state["y"])
+        times_s = state["TimeConstant1"], state["TimeConstant2"]
+        preset = variables.number("OutPresetValue") if variables.is_true("SetOut") else None
+        variables.set(Out=delayed_twice(state, target, times_s, step_s, preset))
 
 
 class Rate1(TechnologyBlock):
@@ -190,8 +188,7 @@ class LookUp(TechnologyBlock):
         elif below is None or below == count - 1:
             value = nodes[below or 0][1]
         else:
-            (x1, y1), (x2, y2) = nodes[below : below + 2]
-            value = y1 + (x - x1) * (y2 - y1) / (x2 - x1)
+            value = between(x, *nodes[below : below + 2])
         variables.set(Out=value)
 
 

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.library.astime.structures import NS_PER_SECOND, date_of
+from plcsim.library.mapp.alarm_functions import acknowledge, confirm, reset
 from plcsim.library.mapp.block import MappBlock
 from plcsim.library.mapp.errors import (
-    ACK_NOT_ALLOWED,
-    ALARM_NOT_ACTIVE,
     MISSING_UICONNECT,
     NAME_NOT_FOUND,
 )
 from plcsim.library.mapp.links import links_of
 from plcsim.library.mapp.monitoring import AlarmMonitor
-from plcsim.library.members import BlockVariables, referred, rises
+from plcsim.library.members import BlockVariables, ReferredStructure, rises
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +23,6 @@ if TYPE_CHECKING:
     from plcsim.library.members import FindType
     from st_types.types.derived import StructType
 
-NS_PER_SECOND: Final = 1_000_000_000
 NS_PER_MS: Final = 1_000_000
 
 
@@ -109,6 +107,10 @@ class AcknowledgeAll(AlarmBlock):
         )
 
 
+_COMMANDS: Final = {"Reset": reset, "Acknowledge": acknowledge, "Confirm": confirm}
+"""Inputs of MpAlarmXAlarmControl, beside Set."""
+
+
 class AlarmControl(AlarmBlock):
     """MpAlarmXAlarmControl: one alarm, by Name, or by ID where that is not 0."""
 
@@ -118,24 +120,17 @@ class AlarmControl(AlarmBlock):
 
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
         """Take commands at their rising edges."""
-        edges = [
-            name
-            for name in ("Set", "Reset", "Acknowledge", "Confirm")
-            if rises(self.context, address, variables, name)
-        ]
+        names = ("Set", *_COMMANDS)
+        edges = [name for name in names if rises(self.context, address, variables, name)]
         status = 0
         for edge in edges:
             status = self._take(edge, variables, core) or status
-        if not edges and not self._is_asked(variables):
-            variables.set(CommandDone=False)
-        elif edges:
+        if edges:
             variables.set(CommandDone=status == 0)
+        elif not any(map(variables.is_true, names)):
+            variables.set(CommandDone=False)
         if status:
             self.fail(variables, status)
-
-    @staticmethod
-    def _is_asked(variables: BlockVariables) -> bool:
-        return any(map(variables.is_true, ("Set", "Reset", "Acknowledge", "Confirm")))
 
     def _take(self, edge: str, variables: BlockVariables, core: AlarmCore) -> int:
         """Take a command; return the status."""
@@ -145,13 +140,7 @@ class AlarmControl(AlarmBlock):
             variables.set(InstanceID=made)
             return 0 if made else NAME_NOT_FOUND
         found = core.numbered(ident) if ident else core.named(name)
-        if not found:
-            return ALARM_NOT_ACTIVE
-        if edge == "Reset":
-            core.reset(found)
-        elif edge == "Acknowledge" and not core.acknowledge(found):
-            return ACK_NOT_ALLOWED
-        return 0
+        return _COMMANDS[edge](core, found)
 
 
 _ASKED: Final = ("Acknowledge", "AcknowledgeAll", "AcknowledgeID", "AlarmList.SelectedIndex")
@@ -163,40 +152,32 @@ class ListUI(AlarmBlock):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._connect = referred(data_type, "UIConnect")
-
-    def _screen(self, variables: BlockVariables) -> BlockVariables | None:
-        at = variables.address("UIConnect")
-        if not at or self._connect is None:
-            return None
-        return BlockVariables(self.context.memory, self._connect, at)
+        self._connect = ReferredStructure(data_type, "UIConnect")
 
     def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
         """Return the same, and what the operator does."""
-        screen = self._screen(variables)
+        screen = self._connect.of(self.context.memory, variables)
         asked = () if screen is None else tuple(map(screen.number, _ASKED))
         return (*super().seen(variables, link), *asked)
 
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
         """Take what the operator asks for, and show the list."""
-        screen, at = self._screen(variables), variables.address("UIConnect")
+        screen = self._connect.of(self.context.memory, variables)
         if screen is None:
             variables.set(StatusID=MISSING_UICONNECT)
             return
         room = screen.count_of("AlarmList.Name")
         size = int(variables.number("UISetup.AlarmListSize")) or room
         shown = core.pending[::-1][: min(size, room)]
-        self._take(at, screen, core, shown)
+        self._take(screen, core, shown)
         shown = [each for each in shown if each in core.pending]
         for index in range(min(size, room)):
             self._show(screen, index, shown[index] if index < len(shown) else None)
         screen.set(AlarmList__MaxSelection=max(len(shown) - 1, 0))
 
-    def _take(
-        self, at: int, screen: BlockVariables, core: AlarmCore, shown: list[PendingAlarm]
-    ) -> None:
+    def _take(self, screen: BlockVariables, core: AlarmCore, shown: list[PendingAlarm]) -> None:
         """Acknowledge what is selected, or all; the commands are taken back."""
-        context = self.context
+        context, at = self.context, screen.start
         if rises(context, at, screen, "AcknowledgeAll"):
             core.acknowledge(core.pending)
         selected = int(screen.number("AlarmList.SelectedIndex"))
@@ -227,8 +208,7 @@ class ListUI(AlarmBlock):
 def _date_text(date_ns: int) -> str:
     """Return a date as UISetup.TimeStampPattern has it unless it is set: with milliseconds."""
     seconds, rest_ns = divmod(date_ns, NS_PER_SECOND)
-    moment = datetime.fromtimestamp(seconds, UTC)
-    return f"{moment:%Y-%m-%d %H:%M:%S}:{rest_ns // NS_PER_MS:03}"
+    return f"{date_of(seconds):%Y-%m-%d %H:%M:%S}:{rest_ns // NS_PER_MS:03}"
 
 
 BLOCKS: Final[Mapping[str, type[MappBlock]]] = {

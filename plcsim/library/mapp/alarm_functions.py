@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from plcsim.library.mapp.alarms import AlarmCore, PendingAlarm
 
     Find = Callable[[Context, AlarmCore, int], list[PendingAlarm]]
+    Do = Callable[[AlarmCore, list[PendingAlarm]], int]
 
 LONGEST_NAME: Final = 255
 
@@ -48,33 +49,32 @@ def set_alarm(context: Context, p_link: int, p_name: int) -> int:
     return 0 if core is None else core.set(_name(context, p_name), context.date_ns)
 
 
-def _reset(find: Find) -> Callable[[Context, int, int], int]:
-    """MpAlarmXReset, MpAlarmXResetID."""
+def reset(core: AlarmCore, found: list[PendingAlarm]) -> int:
+    """Let alarms be inactive; return the status."""
+    core.reset(found)
+    return NO_ERROR if found else ALARM_NOT_ACTIVE
 
-    def reset(context: Context, p_link: int, alarm: int) -> int:
+
+def acknowledge(core: AlarmCore, found: list[PendingAlarm]) -> int:
+    """Acknowledge alarms; return the status."""
+    if not found:
+        return ALARM_NOT_ACTIVE
+    return NO_ERROR if core.acknowledge(found) else ACK_NOT_ALLOWED
+
+
+def confirm(_core: AlarmCore, found: list[PendingAlarm]) -> int:
+    """Return the status; no alarm here is to be confirmed."""
+    return NO_ERROR if found else ALARM_NOT_ACTIVE
+
+
+def _command(find: Find, do: Do) -> Callable[[Context, int, int], int]:
+    """Return a function that does something with the alarms that it finds."""
+
+    def command(context: Context, p_link: int, alarm: int) -> int:
         core = links_of(context).at(p_link)
-        if core is None:
-            return MPLINK_NULL
-        found = find(context, core, alarm)
-        core.reset(found)
-        return NO_ERROR if found else ALARM_NOT_ACTIVE
+        return MPLINK_NULL if core is None else do(core, find(context, core, alarm))
 
-    return reset
-
-
-def _acknowledge(find: Find) -> Callable[[Context, int, int], int]:
-    """MpAlarmXAcknowledge, MpAlarmXAcknowledgeID."""
-
-    def acknowledge(context: Context, p_link: int, alarm: int) -> int:
-        core = links_of(context).at(p_link)
-        if core is None:
-            return MPLINK_NULL
-        found = find(context, core, alarm)
-        if not found:
-            return ALARM_NOT_ACTIVE
-        return NO_ERROR if core.acknowledge(found) else ACK_NOT_ALLOWED
-
-    return acknowledge
+    return command
 
 
 def _check(find: Find) -> Callable[[Context, int, int, int], bool]:
@@ -114,10 +114,10 @@ def check_reaction(context: Context, p_link: int, p_name: int) -> bool:
 
 FUNCTIONS: Final[Mapping[str, Callable[..., Any]]] = {
     "MpAlarmXSet": set_alarm,
-    "MpAlarmXReset": _reset(_named),
-    "MpAlarmXResetID": _reset(_numbered),
-    "MpAlarmXAcknowledge": _acknowledge(_named),
-    "MpAlarmXAcknowledgeID": _acknowledge(_numbered),
+    "MpAlarmXReset": _command(_named, reset),
+    "MpAlarmXResetID": _command(_numbered, reset),
+    "MpAlarmXAcknowledge": _command(_named, acknowledge),
+    "MpAlarmXAcknowledgeID": _command(_numbered, acknowledge),
     "MpAlarmXCheckState": _check(_named),
     "MpAlarmXCheckStateID": _check(_numbered),
     "MpAlarmXCheckReaction": check_reaction,

@@ -21,7 +21,7 @@ from plcsim.library.mapp.recipes import (
     header_texts,
     recipe_of,
 )
-from plcsim.library.members import BlockVariables, changes, referred, rises
+from plcsim.library.members import ReferredStructure, changes, rises
 from plcsim.library.sys_lib.tasks import running_name
 from plcsim.library.sys_lib.variables import find_variable
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from plcsim.core.context import Context
     from plcsim.core.tag import Tag
     from plcsim.library.mapp.recipes import Recipe
-    from plcsim.library.members import FindType
+    from plcsim.library.members import BlockVariables, FindType
     from st_types.types.derived import StructType
 
 UPDATE: Final = "UpdateNotification"
@@ -85,7 +85,7 @@ class RecipeFile(CommandBlock):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._header = referred(data_type, "Header")
+        self._header = ReferredStructure(data_type, "Header")
 
     def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
         """Return what it is about to do."""
@@ -105,10 +105,7 @@ class RecipeFile(CommandBlock):
         recipe = recipe_of(self.context, link)
         p_device, p_file = variables.address("DeviceName"), variables.address("FileName")
         category = variables.text("Category", LONGEST_CATEGORY)
-        at = variables.address("Header")
-        header = None
-        if at and self._header is not None:
-            header = BlockVariables(self.context.memory, self._header, at)
+        header = self._header.of(self.context.memory, variables)
         if name == "Save":
             texts = {} if header is None else header_texts(header)
             return recipe.save(p_device, p_file, category, texts)
@@ -140,29 +137,24 @@ class RecipeUI(MappBlock):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._connect = referred(data_type, "UIConnect")
-
-    def _screen(self, variables: BlockVariables) -> BlockVariables | None:
-        at = variables.address("UIConnect")
-        if not at or self._connect is None:
-            return None
-        return BlockVariables(self.context.memory, self._connect, at)
+        self._connect = ReferredStructure(data_type, "UIConnect")
 
     def seen(self, variables: BlockVariables, link: int) -> tuple[object, ...]:
         """Return what the operator does, the operation shown, and how often a file was written."""
-        screen, recipe = self._screen(variables), recipe_of(self.context, link)
+        screen = self._connect.of(self.context.memory, variables)
+        recipe = recipe_of(self.context, link)
         asked = () if screen is None else tuple(map(screen.number, (*_ASKED, "Status")))
         return (*asked, recipe.saves, variables.address("DeviceName") or recipe.p_device)
 
     def call(self, address: int, variables: BlockVariables, link: int) -> None:
         """Take what the operator asks for, and show the files."""
-        screen, at = self._screen(variables), variables.address("UIConnect")
+        screen = self._connect.of(self.context.memory, variables)
         if screen is None:
             variables.set(StatusID=RECIPE_WITHOUT_UICONNECT)
             return
         recipe = recipe_of(self.context, link)
         p_device = variables.address("DeviceName") or recipe.p_device
-        edges = [name for name in _ASKED if rises(self.context, at, screen, name)]
+        edges = [name for name in _ASKED if rises(self.context, screen.start, screen, name)]
         status = self._do(edges[0], screen, recipe, p_device) if edges else 0
         kind = edges[0].rpartition(".")[2].upper() if edges else "IDLE"
         screen.set_enumeration("Status", "STATUS_ERROR" if is_error(status) else f"STATUS_{kind}")

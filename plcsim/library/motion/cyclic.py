@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from plcsim.library.members import BlockVariables, changes, referred, rises
+from plcsim.library.members import ReferredStructure, changes, rises
 from plcsim.library.motion.axis import NO_AXIS, CommandStatus
 from plcsim.library.motion.block import (
     EnableBlock,
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
+    from plcsim.library.members import BlockVariables, FindType
     from plcsim.library.motion.axis import Axis, MotionCommand
     from plcsim.library.motion.profile import MotionLimits
     from st_types.types.derived import StructType
@@ -154,7 +154,7 @@ class MappAxisBlock(MotionBlock):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._parameters = referred(data_type, "Parameters")
+        self._parameters = ReferredStructure(data_type, "Parameters")
 
     def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Take commands, and show what became of them."""
@@ -167,10 +167,7 @@ class MappAxisBlock(MotionBlock):
 
     def parameters(self, variables: BlockVariables) -> BlockVariables:
         """Return the parameters that the block refers to, the block itself without any."""
-        at = variables.address("Parameters")
-        if not at or self._parameters is None:
-            return variables
-        return BlockVariables(self.context.memory, self._parameters, at)
+        return self._parameters.of(self.context.memory, variables) or variables
 
     def act(self, address: int, variables: BlockVariables, axis: Axis, *, enable: bool) -> None:
         """Do what the inputs ask for."""

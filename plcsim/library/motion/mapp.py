@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
-from plcsim.library.members import BlockVariables, changes, referred, rises
+from plcsim.library.members import ReferredStructure, changes, rises
 from plcsim.library.motion.axis import NO_AXIS, AxisState, CommandStatus
 from plcsim.library.motion.block import (
     MotionBlock,
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
+    from plcsim.library.members import BlockVariables, FindType
     from plcsim.library.motion.axis import Axis
     from st_types.types.derived import StructType
 
@@ -33,7 +33,7 @@ class AxisBasic(MotionBlock):
 
     def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
         super().__init__(data_type, context, find_type)
-        self._parameters = referred(data_type, "Parameters")
+        self._parameters = ReferredStructure(data_type, "Parameters")
 
     def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Take commands, and show what the axis does."""
@@ -47,9 +47,8 @@ class AxisBasic(MotionBlock):
             axis.power(on=power)
         if rises(self.context, address, variables, "ErrorReset"):
             axis.reset()
-        at = variables.address("Parameters")
-        if enable and at and self._parameters is not None:
-            parameters = BlockVariables(self.context.memory, self._parameters, at)
+        parameters = self._parameters.of(self.context.memory, variables)
+        if enable and parameters is not None:
             self._commands(address, variables, axis, parameters)
         self._show(address, variables, axis, enable=enable)
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final
 from plcsim.library.dataobj.settings import MadeObjects
 from plcsim.library.document import DocumentError, read_document
 from plcsim.project.automation_studio.finding import Finding
+from plcsim.project.automation_studio.names import in_any_case
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -47,11 +48,11 @@ def read_data_objects(
         root: of the logical view.
         names: of the project's files.
     """
-    packages = {_key(package.path): package.folder for package in root.walk()}
+    packages = {in_any_case(package.path): package.folder for package in root.walk()}
     contents: dict[str, bytes] = {}
     findings: list[Finding] = []
     for line in lines:
-        parent = packages.get(_key(line.source[:-1]))
+        parent = packages.get(in_any_case(line.source[:-1]))
         folder = None if parent is None else names.below(parent, line.source[-1])
         source = ".".join(line.source)
         if folder is None:
@@ -64,10 +65,6 @@ def read_data_objects(
             message = f"data object {line.name} is not there: {err}"
             findings.append(Finding(folder, err.line, message, source))
     return MadeObjects(contents), findings
-
-
-def _key(path: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(part.lower() for part in path)
 
 
 def _files(folder: Path, names: FileNames) -> Iterator[bytes]:

@@ -6,6 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from pathlib import Path
 
 
@@ -15,6 +16,11 @@ def names_in(folder: Path) -> dict[str, str]:
         return {path.name.lower(): path.name for path in folder.iterdir()}
     except (OSError, ValueError):
         return {}
+
+
+def in_any_case(path: Iterable[str]) -> tuple[str, ...]:
+    """Return the parts of a path of the logical view as they are compared: in small letters."""
+    return tuple(part.lower() for part in path)
 
 
 class FileNames:

@@ -32,11 +32,11 @@ from plcsim.project.automation_studio.logical_view import (
 )
 from plcsim.project.automation_studio.mapp import MappVariable, read_mapp_variables
 from plcsim.project.automation_studio.mapping import Maps, read_maps
-from plcsim.project.automation_studio.names import FileNames
+from plcsim.project.automation_studio.names import FileNames, in_any_case
 from plcsim.project.automation_studio.software import Software, TaskLine
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping
     from pathlib import Path
 
     from plcsim.library.dataobj.settings import MadeObjects
@@ -198,11 +198,11 @@ _Place = tuple[SourceFolder, tuple[Package, ...]]
 
 def _tasks(chosen: Configuration, root: Package, findings: list[Finding]) -> list[ProgramTask]:
     programs = _programs(root)
-    in_small_letters = {_key(path): found for path, found in programs.items()}
+    in_small_letters = {in_any_case(path): found for path, found in programs.items()}
     tasks = []
     for line in chosen.software.tasks:
         path = line.source
-        found = programs.get(path) or in_small_letters.get(_key(path))
+        found = programs.get(path) or in_small_letters.get(in_any_case(path))
         source = ".".join(path)
         if found is None:
             message = f"task {line.name}: the logical view has no program {source}"
@@ -211,10 +211,6 @@ def _tasks(chosen: Configuration, root: Package, findings: list[Finding]) -> lis
         number = line.task_class
         tasks.append(ProgramTask(line.name, number, source, program, around, line.line))
     return tasks
-
-
-def _key(path: Sequence[str]) -> tuple[str, ...]:
-    return tuple(part.lower() for part in path)
 
 
 def _programs(
