@@ -69,13 +69,11 @@ class AlarmBlock(MappBlock):
 class AlarmXCore(AlarmBlock):
     """MpAlarmXCore: counts alarms, and sets those that variables stand for."""
 
-    def run(self, address: int) -> None:
-        """Look at the variables, then run the block."""
-        variables = BlockVariables(self.context.memory, self._members, address)
-        link = variables.address("MpLink") if variables.is_true("Enable") else 0
-        if link:
-            self.context.library(_Monitors).of(self.core(link)).look()
-        super().run(address)
+    def find(self, place: int) -> int:
+        """Let the core look at its variables, and return its MpLink."""
+        if place:
+            self.context.library(_Monitors).of(self.core(place)).look()
+        return super().find(place)
 
     def act(self, address: int, variables: BlockVariables, core: AlarmCore) -> None:
         """Count."""

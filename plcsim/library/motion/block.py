@@ -7,81 +7,53 @@ aborted or refused, and shows the end as long as Execute is TRUE, for one call a
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Final, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Final
 
-from plcsim.library.members import BlockVariables, StructMembers, changes
+from plcsim.library.members import changes
 from plcsim.library.motion.axis import NO_AXIS, CommandStatus, MotionCommand, axes_of
 from plcsim.library.motion.profile import MotionLimits
+from plcsim.library.settling import SettlingBlock
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
+    from plcsim.library.members import BlockVariables
     from plcsim.library.motion.axis import Axes, Axis
-    from st_types.types.derived import StructType
 
 DEFAULT: Final = MotionLimits(1_000.0, 5_000.0, 5_000.0)
 """Limits of an axis, for parameters that are 0."""
 
 
-class MotionBlock:
-    """Runs the blocks of one type on one controller.
-
-    Args:
-        data_type: their data block.
-        context: of the controller.
-        _find_type: finds the types of the library.
+class MotionBlock(SettlingBlock["Axis | None"]):
+    """Runs the blocks of one type on one controller; they are about their axis.
 
     Attributes:
-        data_type: as above.
-        context: as above.
-        settles: whether a call depends on nothing but its data block, its command and its axis, and
-            writes nothing else.
+        axis_names: inputs that name it, of which the first that is not 0 counts.
     """
 
     axis_names: ClassVar[tuple[str, ...]] = ("Axis",)
-    settles: ClassVar[bool] = True
 
-    def __init__(self, data_type: StructType[Any], context: Context, _find_type: FindType) -> None:
-        self.data_type = data_type
-        self.context = context
-        self._members = StructMembers(data_type)
+    def place(self, variables: BlockVariables) -> int:
+        """Return the address of the axis."""
+        return variables.address(*self.axis_names)
 
-    def run(self, address: int) -> None:
-        """Run the block whose data block lies at an address.
-
-        Programs call all their blocks in each cycle, and most have nothing to do: a call that would
-        do again what the last one did, which was nothing, is left out.
-        """
-        context, axes = self.context, self.axes
-        data = context.memory.read(address, self.data_type.size)
-        calls = context.library(_Calls)
-        settled = calls.settled.get(address)
-        if settled is not None and settled.data == data:
-            axis = axes.at(settled.axis_address)
-            if axis is not None:
-                axis.update(context.release_ns)
-            if self.seen(calls.commands.get(address), axis) == settled.seen:
-                return
-        variables = BlockVariables(context.memory, self._members, address)
-        axis_address = variables.address(*self.axis_names)
-        axis = axes.at(axis_address)
+    def find(self, place: int) -> Axis | None:
+        """Return the axis as it is now, None where the block names none."""
+        axis = self.axes.at(place)
         if axis is not None:
-            axis.update(context.release_ns)
-        before = self.seen(calls.commands.get(address), axis)
-        self.call(address, variables, axis)
-        after = self.seen(calls.commands.get(address), axis)
-        is_same = before == after and data == context.memory.read(address, len(data))
-        if self.settles and is_same:
-            calls.settled[address] = _Settled(data, axis_address, after)
-        else:
-            calls.settled.pop(address, None)
+            axis.update(self.context.release_ns)
+        return axis
 
-    def seen(self, command: MotionCommand | None, axis: Axis | None) -> tuple[object, ...]:
-        """Return what a call depends on, beside the data block."""
-        if axis is None:
-            return _seen(command)
-        state = (axis.state, axis.is_powered, axis.is_homed)
-        return (*_seen(command), *state, axis.position, axis.velocity, axis.torque)
+    def look(self, address: int, subject: Axis | None) -> tuple[object, ...]:
+        """Return what a call depends on: the command and the axis."""
+        seen = _seen(command_of(self.context, address))
+        if subject is None:
+            return seen
+        state = (subject.state, subject.is_powered, subject.is_homed)
+        return (*seen, *state, subject.position, subject.velocity, subject.torque)
+
+    def execute(self, address: int, variables: BlockVariables, subject: Axis | None) -> None:
+        """Run one call."""
+        self.call(address, variables, subject)
 
     def call(self, address: int, variables: BlockVariables, axis: Axis | None) -> None:
         """Run one call; the axis is as it is now, None where the block names none."""
@@ -93,26 +65,11 @@ class MotionBlock:
         return axes_of(self.context)
 
 
-class _Settled(NamedTuple):
-    """A block whose last call changed nothing.
-
-    Attributes:
-        data: its data block.
-        axis_address: what it named its axis with.
-        seen: what else the call depended on.
-    """
-
-    data: bytes
-    axis_address: int
-    seen: tuple[object, ...]
-
-
 class _Calls:
-    """Commands of blocks, and blocks that are settled, by address; a restart forgets them."""
+    """Commands of blocks, by address; a restart forgets them."""
 
     def __init__(self, _context: Context) -> None:
         self.commands: dict[int, MotionCommand] = {}
-        self.settled: dict[int, _Settled] = {}
 
 
 def _seen(command: MotionCommand | None) -> tuple[object, ...]:
@@ -173,9 +130,9 @@ class ExecuteBlock(MotionBlock):
     def end(self, axis: Axis) -> None:
         """Do what the end of Execute means; for most, nothing."""
 
-    def seen(self, command: MotionCommand | None, axis: Axis | None) -> tuple[object, ...]:
+    def look(self, address: int, subject: Axis | None) -> tuple[object, ...]:
         """Return what a call depends on: the command alone, as an edge is in the data block."""
-        return _seen(command)
+        return _seen(command_of(self.context, address))
 
     def _show(self, variables: BlockVariables, command: MotionCommand | None) -> None:
         status = None if command is None else command.status
