@@ -28,9 +28,10 @@ LANGUAGE: Final = "table"
 Value = str | list[str] | bool | int | float
 """An input that an output follows, several of which the first that is not 0 counts, or a
 constant. ``"Home while Enable"`` takes Home once that is not 0, and keeps it while Enable is not
-0."""
+0; ``"1 once enable"`` is 1 from the first call on in which enable is not 0."""
 
 _WHILE: Final = " while "
+_ONCE: Final = " once "
 _ANY_NAME: Final = "*"
 
 
@@ -83,6 +84,8 @@ class _Move(NamedTuple):
         followed: names of the inputs.
         kept: offset of the input as long as which, not 0, the output keeps what is not 0; None
             where it does not.
+        once: offset and size of the input without which the output stays as it is; None where
+            there is none.
     """
 
     target: int
@@ -91,6 +94,7 @@ class _Move(NamedTuple):
     data: bytes
     followed: tuple[str, ...] = ()
     kept: int | None = None
+    once: tuple[int, int] | None = None
 
 
 class _Status(NamedTuple):
@@ -101,12 +105,14 @@ class _Status(NamedTuple):
         size: of it, bytes.
         enable: offset of the input.
         is_asynchronous: the block is BUSY in one call, and done in the next.
+        end: what it is when the block is done.
     """
 
     target: int
     size: int
     enable: int
     is_asynchronous: bool
+    end: int
 
     def apply(self, memory: Memory, address: int) -> None:
         """Do what one call does."""
@@ -115,8 +121,13 @@ class _Status(NamedTuple):
         if any(memory.read(address + self.enable, 1)):
             before = int.from_bytes(memory.read(target, self.size), "little")
             is_begun = not self.is_asynchronous or before == ERR_FUB_BUSY
-            status = ERR_OK if is_begun else ERR_FUB_BUSY
+            status = self.end if is_begun else ERR_FUB_BUSY
         memory.write(target, status.to_bytes(self.size, "little"))
+
+    @property
+    def text(self) -> str:
+        """The same in words."""
+        return f"status is {'BUSY once, then ' if self.is_asynchronous else ''}{self.end}"
 
 
 class TableBody(NamedTuple):
@@ -193,6 +204,8 @@ def result_body(name: str, rules: Mapping[str, Value]) -> ResultBody | None:
 
 def _apply(move: _Move, memory: Memory, address: int) -> None:
     value, size = move.data, move.size
+    if move.once is not None and not any(memory.read(address + move.once[0], move.once[1])):
+        return
     for source in move.sources:
         value = memory.read(address + source, size)
         if any(value):
@@ -216,23 +229,29 @@ def table_body(data_type: DataBlockType[Any], rules: Mapping[str, Value]) -> Tab
             moves.append(move)
             if move.followed:
                 texts.append(f"{output} follows {' or '.join(move.followed)}")
-    status = None if "status" in rules else _status(data_type)
+            elif move.once is not None:
+                texts.append(f"{output} is {value}")
+    status = _status(data_type, rules.get("status", ERR_OK))
     if status is not None:
-        texts.append("status is BUSY once, then 0" if status.is_asynchronous else "status is 0")
+        moves = [each for each in moves if each.target != status.target]
+        texts.append(status.text)
     return TableBody(tuple(moves), ", ".join(texts), data_type.size, status) if texts else None
 
 
-def _status(data_type: StructType[Any]) -> _Status | None:
-    """Return what becomes of ``status``: libraries of the controller spell it so."""
+def _status(data_type: StructType[Any], end: Value) -> _Status | None:
+    """Return what becomes of ``status``: libraries of the controller spell it so.
+
+    None where a rule gives it another end than a number.
+    """
     names = {each.name for each in data_type.members}
     enable = _elementary(data_type, "enable", Section.INPUT)
     status = _elementary(data_type, "status", Section.OUTPUT)
     if not names >= {"enable", "status"} or enable is None or status is None:
         return None
-    if enable[0] is not BOOL or status[0] not in (UINT, UDINT):
+    if enable[0] is not BOOL or status[0] not in (UINT, UDINT) or not isinstance(end, int):
         return None
     is_asynchronous = any(name.lower() in _STATE_NAMES for name in names)
-    return _Status(status[1], status[0].size, enable[1], is_asynchronous)
+    return _Status(status[1], status[0].size, enable[1], is_asynchronous, end)
 
 
 def _named(data_type: StructType[Any], rules: Mapping[str, Value]) -> dict[str, Value]:
@@ -258,6 +277,9 @@ def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None
     if not isinstance(value, (str, list)):
         return _Move(offset, kind.size, (), struct.pack(f"<{kind.code}", value))
     names = [value] if isinstance(value, str) else value
+    number, once, trigger = names[0].partition(_ONCE)
+    if once:
+        return _move_once(data_type, kind, offset, number, trigger)
     _, _, keeper = names[-1].partition(_WHILE)
     names = [name.partition(_WHILE)[0] for name in names]
     found = {name: _elementary(data_type, name, Section.INPUT) for name in (*names, keeper)}
@@ -266,6 +288,17 @@ def _move(data_type: StructType[Any], output: str, value: Value) -> _Move | None
     if not places or (keeper and kept is None):
         return None
     return _Move(offset, kind.size, tuple(places.values()), b"", tuple(places), kept)
+
+
+def _move_once(
+    data_type: StructType[Any], kind: ElementaryType[Any], offset: int, number: str, trigger: str
+) -> _Move | None:
+    """Return what ``"1 once enable"`` says; None without a number, or such an input."""
+    found = _elementary(data_type, trigger, Section.INPUT)
+    if found is None or not number.isdecimal():
+        return None
+    data = struct.pack(f"<{kind.code}", int(number))
+    return _Move(offset, kind.size, (), data, once=(found[1], found[0].size))
 
 
 def _elementary(

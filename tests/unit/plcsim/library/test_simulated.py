@@ -5,7 +5,7 @@ import pytest
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.library.simulated import Rules, built_in_rules, table_body
-from st_types import BOOL, DINT, INT, UINT
+from st_types import BOOL, DINT, INT, UDINT, UINT
 from st_types.types.derived import DataBlockType, Member, Section, StructType
 
 BLOCK = DataBlockType(
@@ -198,7 +198,66 @@ def test_a_block_with_enable_has_the_statuses_of_the_controller(block, statuses,
     assert found == statuses
 
 
-def test_a_project_may_say_what_the_status_is():
-    body = table_body(_classic("i_state"), {"status": 0, "enable": "status"})
-    assert body is None
+@pytest.mark.parametrize(
+    ("internal", "text", "statuses"),
+    [
+        ("i_state", "status is BUSY once, then 8877", [0xFFFE, 0xFFFF, 8877]),
+        ("old", "status is 8877", [0xFFFE, 8877, 8877]),
+    ],
+)
+def test_a_rule_says_with_which_status_a_block_ends(internal, text, statuses):
+    memory = Memory()
+    block = _classic(internal)
+    address = memory.allocate(block.size)
+    body = table_body(block, {"status": 8877})
+    assert body.text == text
+    run = body.bind(Context(memory, None))
+    found = []
+    for enable in (False, True, True):
+        memory.set(BOOL, address + block.find("enable")[1], enable)
+        run(address)
+        found.append(memory.get(UINT, address + block.find("status")[1]))
+    assert found == statuses
+
+
+def test_a_status_that_follows_an_input_has_no_end():
+    assert table_body(_classic("i_state"), {"status": "enable"}) is None
     assert table_body(_classic("i_state", status=BOOL), {}) is None
+
+
+OPENING = DataBlockType(
+    "MBMOpen",
+    [
+        Member("enable", BOOL, section=Section.INPUT),
+        Member("status", UINT, section=Section.OUTPUT),
+        Member("ident", UDINT, section=Section.OUTPUT),
+    ],
+)
+
+
+def test_what_names_a_connection_is_not_0_once_it_was_opened():
+    memory = Memory()
+    address = memory.allocate(OPENING.size)
+    body = table_body(OPENING, built_in_rules().of("MBMOpen"))
+    assert body.text == "ident is 1 once enable, status is 0"
+    run = body.bind(Context(memory, None))
+    found = []
+    for enable in (False, True, False):
+        memory.set(BOOL, address + OPENING.find("enable")[1], enable)
+        run(address)
+        found.append(memory.get(UDINT, address + OPENING.find("ident")[1]))
+    assert found == [0, 1, 1]
+
+
+@pytest.mark.parametrize("rule", ["1 once Home", "Home once enable", "-1 once enable"])
+def test_what_comes_once_is_a_number_at_an_input(rule):
+    assert table_body(OPENING, {"ident": rule, "status": "enable"}) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "status"),
+    [("CANread", 8877), ("CANopenRecvEmcy", 30820), ("CANopenPDORead8", 30847)],
+)
+def test_a_block_that_receives_has_received_nothing(name, status):
+    body = table_body(_classic("old"), built_in_rules().of(name))
+    assert body.text == f"status is {status}"
