@@ -138,7 +138,7 @@ def first_use(name: str, sources: Iterable[Path]) -> str:
     word = re.escape(name.rpartition("::")[2])
     used = re.compile(rf"(?:[;{{}}()=,&|!+\-/<>?:\[.]|\b(?:return|else|do))\s*({word})\b")
     seen = re.compile(rf"\b({word})\b")
-    texts = {source: _without_comments(source) for source in sources}
+    texts = {source: without_comments(source) for source in sources}
     for pattern in (used, seen):
         for source, text in texts.items():
             if found := pattern.search(text):
@@ -146,7 +146,8 @@ def first_use(name: str, sources: Iterable[Path]) -> str:
     return ""
 
 
-def _without_comments(source: Path) -> str:
+def without_comments(source: Path) -> str:
+    """Return the text of a source with its lines and no comments, "" where it cannot be read."""
     try:
         text = source.read_text("latin-1")
     except OSError:

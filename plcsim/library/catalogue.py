@@ -36,7 +36,7 @@ class Catalogue:
         libraries: as above.
         languages: that bodies may be written in.
         stubs: names of libraries, in small letters, in which what has no body is idle, or follows
-            rules.
+            rules; "*" for whatever comes compiled.
         rules: for blocks of such libraries.
 
     Attributes:
@@ -93,6 +93,15 @@ class Catalogue:
     def has_stubs(self, library: Library) -> bool:
         """Whether what has no body in a library is idle."""
         return library.name.lower() in self._stubs
+
+    @property
+    def has_idle_objects(self) -> bool:
+        """Whether functions of compiled code are idle that belongs to a program, no library."""
+        return "*" in self._stubs
+
+    def note_idle(self, owner: str, name: str) -> None:
+        """Take down a function of C that only compiled code of a library or a program holds."""
+        self.stubbed.setdefault(owner, {})[name] = ""
 
     def _body(self, library: Library, name: str) -> Executable | None:
         body = self.bodies(library).get(name)

@@ -168,7 +168,7 @@ def folder_layout(
 def _as_vendors(place: LibraryPlace, stubs: Collection[str]) -> LibraryPlace:
     """Return a library as a vendor's, where it is among ``stubs`` and has no sources."""
     name = _name_of(place)
-    if name.lower() not in stubs or _has_sources(place):
+    if name.lower() not in stubs or has_sources(place.files):
         return place
     return place._replace(name=name, is_vendor=True)
 
@@ -179,8 +179,9 @@ def _name_of(place: LibraryPlace) -> str:
     return place.name or (interfaces[0] if len(interfaces) == 1 else place.folder.name)
 
 
-def _has_sources(place: LibraryPlace) -> bool:
-    return any(file.suffix.lower() in (*NESTED, ".py") for file in place.files)
+def has_sources(files: Iterable[Path]) -> bool:
+    """Return whether any of the files of a library is compiled, or is Python."""
+    return any(file.suffix.lower() in (*NESTED, ".py") for file in files)
 
 
 def program_places(folder: Path, sources: Iterable[str]) -> dict[str, ProgramPlace]:

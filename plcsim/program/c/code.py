@@ -89,7 +89,10 @@ class CCode:
         variables, constants = self._variables.allocate(site.memory, name)
         own = [variables] if constants is None else [variables, constants]
         size = heap_size_of(self._module, self._default_heap)
-        surroundings = ProgramSurroundings(name, site, self._scope, own, size, self._global_sizes)
+        folders = [file.parent for file in self._sources]
+        surroundings = ProgramSurroundings(
+            name, site, self._scope, own, size, self._global_sizes, folders
+        )
         module = CModule(name, self._module, site.machine, surroundings, sources=self._sources)
         surroundings.define(module.address_of)
         placed = partial(self._task, name, site, own, surroundings, module)

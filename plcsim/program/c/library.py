@@ -99,7 +99,8 @@ class CLibraryCode:
         name = f"library {self._library.name}"
         scope = self._library.scope
         size = heap_size_of(self.module, self._library.c_build.heap_size)
-        surroundings = ProgramSurroundings(name, site, scope, (), size)
+        folders = [file.parent for file in self._sources]
+        surroundings = ProgramSurroundings(name, site, scope, (), size, folders=folders)
         module = CModule(
             name, self.module, site.machine, surroundings, sources=self._sources
         ).link()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.ansi_c.heap import ProgramHeap, is_of_heap
+from plcsim.ansi_c.plain_words import plain_name
+from plcsim.ansi_c.prebuilt import declaring_header
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.heap_use import Heaps
 from plcsim.library.executable import CompiledExecutable
@@ -16,7 +18,8 @@ from st_types.types.derived import StructType
 from st_types.types.values import initial_image
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from pathlib import Path
 
     from plcsim.ansi_c.c_library import CLibrary
     from plcsim.core.tag import Tag
@@ -58,6 +61,7 @@ class ProgramSurroundings:
         own: the program's variables, and its constants.
         heap_size: in bytes, of the heap that it gets where it uses one.
         global_sizes: of the variables that it defines for all programs, by name.
+        folders: where its sources lie.
 
     Attributes:
         heap: its heap, None where it uses none.
@@ -74,8 +78,10 @@ class ProgramSurroundings:
         own: Sequence[Tag],
         heap_size: int,
         global_sizes: Mapping[str, int] | None = None,
+        folders: Iterable[Path] = (),
     ) -> None:
         self._name = name
+        self._folders = frozenset(folders)
         self._site = site
         self._scope = scope
         self._variables: dict[str, int] = {}
@@ -148,7 +154,7 @@ class ProgramSurroundings:
             return self._own_heap().extern(name)
         found = self._block(name) or self._compiled_function(name)
         if found is None:
-            return self._any_function(name)
+            return self._any_function(name) or (wanted and self._prebuilt(name, wanted))
         of_c = self._library.extern(name)
         if of_c is None or found.type in (wanted, of_c.type):
             return found
@@ -181,6 +187,22 @@ class ProgramSurroundings:
             return None
         return self._compiled.function_for_c(function)
 
+    def _prebuilt(self, name: str, wanted: Type) -> Extern | None:
+        """Return what stands for a function that only compiled code holds: it gives 0."""
+        plain = plain_name(name)
+        for owner, folder in self._compiled_code():
+            if declaring_header(folder, plain):
+                self._site.catalogue.note_idle(owner, plain)
+                return self._site.machine.host_function(_zero, wanted.params, wanted.results)
+        return None
+
+    def _compiled_code(self) -> Iterator[tuple[str, Path]]:
+        """Yield the names and folders of all whose compiled code may be idle."""
+        catalogue = self._site.catalogue
+        yield from ((x.name, x.folder) for x in catalogue.libraries if catalogue.has_stubs(x))
+        if catalogue.has_idle_objects:
+            yield from ((folder.name, folder) for folder in sorted(self._folders))
+
     def _own_heap(self) -> ProgramHeap:
         if self.heap is None:
             self.heap = ProgramHeap(self._name, self._site.machine, self._library, self._heap_size)
@@ -191,6 +213,10 @@ class ProgramSurroundings:
         """Forget what lies on the heap."""
         if self.heap is not None:
             self.heap.reset()
+
+
+def _zero(*_parameters: object) -> int:
+    return 0
 
 
 def _library(site: Site) -> CLibrary:

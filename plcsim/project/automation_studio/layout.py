@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from plcsim.ansi_c.prebuilt import has_objects
 from plcsim.program.layout import (
     DeclarationPlace,
     LibraryPlace,
     MadeVariable,
     ProgramPlace,
     SourceLayout,
+    has_sources,
 )
 
 if TYPE_CHECKING:
@@ -77,7 +79,8 @@ def _library(library: SourceFolder) -> LibraryPlace:
     folder, files = library.folder.resolve(), _resolved(library.files)
     package = "_".join(("library", *library.path))
     needs = tuple(each.name.upper() for each in library.dependencies)
-    return LibraryPlace(library.name, folder, files, package, library.is_binary, needs)
+    is_vendor = library.is_binary or (not has_sources(files) and has_objects(folder))
+    return LibraryPlace(library.name, folder, files, package, is_vendor, needs)
 
 
 def _c_build(project: AutomationStudioProject) -> CBuild:

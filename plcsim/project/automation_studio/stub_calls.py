@@ -82,8 +82,15 @@ def stub_calls(catalogue: Catalogue, sources: Mapping[str, Sequence[Path]]) -> l
 def _names(catalogue: Catalogue, space: str) -> frozenset[str]:
     scopes = [library.scope for library in catalogue.libraries if catalogue.has_stubs(library)]
     if space == "functions":
-        return frozenset(name for scope in scopes for name in scope.index.names("functions"))
+        declared = (name for scope in scopes for name in scope.index.names("functions"))
+        return frozenset([*declared, *_idle(catalogue)])
     return frozenset(block.name for scope in scopes for block in scope.function_blocks)
+
+
+def _idle(catalogue: Catalogue) -> dict[str, str]:
+    """Return who brings what was looked up and does nothing, functions of compiled C among it."""
+    found = catalogue.stubbed.items()
+    return {name: owner for owner, names in found for name, text in names.items() if not text}
 
 
 def _stubbed_in(catalogue: Catalogue, name: str) -> str | None:
@@ -92,7 +99,7 @@ def _stubbed_in(catalogue: Catalogue, name: str) -> str | None:
         for found in (catalogue.find_block(name), catalogue.find_function(name)):
             if found is not None and found[1] is not None and found[1].language in (STUB, TABLE):
                 return found[0].name
-    return None
+    return _idle(catalogue).get(name)
 
 
 def _is_built_in(name: str) -> bool:

@@ -162,3 +162,45 @@ def test_what_maps_and_plc_toml_name_and_is_not_there_is_told(surveyed, write_pr
     (folder / "plc.toml").write_text('[operator.inputs]\n"IoMap.M.C" = true\n')
     found = surveyed(folder)
     assert (found.settings, found.is_right) == ((), True)
+
+
+COVERAGE = '#ifdef __cplusplus\nextern "C" {\n#endif\nint CovSave(const char *path, double x);\n'
+
+
+@pytest.mark.usefixtures("_a_compiler")
+def test_functions_of_c_that_only_compiled_code_holds_are_stubs(surveyed, write_project):
+    main = '#include <AsDefault.h>\n#include "{}.h"\nvoid _CYCLIC run(void)\n{{\n\tsaved = {}\n}}\n'
+    folder = write_project(
+        {
+            "Logical/Package.pkg": ["Library:Cov", "Program:Good", "Program:Own", "Program:Bad"],
+            "Logical/Cov/ANSIC.lby": "<Library><Files><File>Cov.h</File></Files></Library>",
+            "Logical/Cov/Cov.h": COVERAGE + "#ifdef __cplusplus\n}\n#endif\n",
+            "Logical/Cov/SG4/cov.o": "",
+            "Logical/Good/ANSIC.prg": ["File:Main.c", "File:V.var"],
+            "Logical/Good/V.var": "VAR saved : DINT := 5; END_VAR",
+            "Logical/Good/Main.c": main.format("Cov", 'CovSave("C:", 1) + CovSave("", 2);'),
+            "Logical/Own/ANSIC.prg": ["File:Main.c", "File:V.var", "File:own.h"],
+            "Logical/Own/V.var": "VAR saved : DINT := 5; END_VAR",
+            "Logical/Own/own.h": "long long OwnRead(float x);\n",
+            "Logical/Own/libown.a": "",
+            "Logical/Own/Main.c": main.format("own", "OwnRead(1);"),
+            "Logical/Bad/ANSIC.prg": ["File:Main.c", "File:V.var"],
+            "Logical/Bad/V.var": "VAR saved : DINT; END_VAR",
+            "Logical/Bad/Main.c": main.format("Cov", "CovLoad();"),
+        },
+        ["Good", "Own", "Bad"],
+    )
+    found = surveyed(folder)
+    rows = {row.entry.name: row for row in found.rows}
+    assert [name for name, row in rows.items() if row.reasons] == ["Bad"]
+    (reason,) = rows["Bad"].reasons
+    assert reason.endswith("Bad/Main.c:5: Bad uses function CovLoad, which is nowhere")
+    (call,) = rows["Good"].stubs
+    assert call[:3] == ("Cov", "CovSave", "Good")
+    assert (call.location, call.times) == (f"{folder}/Logical/Good/Main.c:5", 2)
+    assert [stub[:2] for stub in rows["Own"].stubs] == [("Own", "OwnRead")]
+    controller = found.controller
+    controller.boot()
+    controller.run(cycles=3)
+    tags = controller.tags
+    assert [tags.read(tags.find(f"{name}.saved")) for name in ("Good", "Own")] == [0, 0]
