@@ -104,6 +104,7 @@ class MasterClient:
         self._registrations: list[Registration] = []
         self._now_ns = 0
         self._backoff = Backoff(FIRST_RETRY_NS, LONGEST_RETRY_NS)
+        self._losses = 0
         self._ping: ApiCall | None = None
         self._ping_ns = 0
         self._is_dirty = False
@@ -186,7 +187,8 @@ class MasterClient:
     def step(self, now_ns: int) -> None:
         """Send what is due."""
         self._now_ns = now_ns
-        if self.is_found and not self._caller.is_connected(self.uri):
+        losses, self._losses = self._losses, self._caller.losses(self.uri)
+        if self.is_found and losses != self._losses:  # the next master may be there already
             self._unreachable("the connection was closed")
         if not self._backoff.is_due(now_ns):
             return

@@ -77,6 +77,11 @@ class Failed(ConnectionEvent):
 
 
 @dataclass(frozen=True, slots=True)
+class Silent(Failed):
+    """The connection is over because the peer did not do its part in time."""
+
+
+@dataclass(frozen=True, slots=True)
 class Closed(ConnectionEvent):
     """The peer closed between two messages."""
 
@@ -168,7 +173,7 @@ class ProtocolConnection(ABC):
         deadline_ns = self.deadline_ns
         if deadline_ns is None or now_ns < deadline_ns:
             return None
-        return self._fail(f"silent for {self._timeout_ns} ns")
+        return Silent(self._fail(f"silent for {self._timeout_ns} ns").reason)
 
     def data_to_send(self) -> list[bytes | memoryview]:
         """Return what is to be written, in order, and forget it."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from crosnode.errors import HostPendingError, InvalidNameError, MessageValueError
 from crosnode.transport.budget import ALONE_WORK, CALL_WORK, TRANSFER_WORK
-from crosnode.transport.connection import ConnectionState
+from crosnode.transport.connection import ConnectionState, Silent
 from crosnode.transport.link import LinkState
 from crosnode.xmlrpc import (
     FaultReceived,
@@ -136,6 +136,11 @@ class ApiCaller:
         channel = self._channels.get(uri)
         return channel is not None and channel.link is not None
 
+    def losses(self, uri: str) -> int:
+        """Return how often a connection to a node was lost that was to be kept."""
+        channel = self._channels.get(uri)
+        return channel.losses if channel else 0
+
     def start(self, call: ApiCall, *, keep: bool = False) -> ApiCall:
         """Queue a call; ``keep`` leaves the connection open for the next one."""
         channel = self._channels.setdefault(call.uri, _Channel(self._last_call))
@@ -177,7 +182,7 @@ class ApiCaller:
         for uri, channel in channels[self._turn :] + channels[: self._turn]:
             if channel.calls and channel.link is None:
                 self._connect(uri, channel, now_ns, budget)
-            elif not channel.calls and channel.link is None:
+            elif not channel.calls and channel.link is None and not channel.keep:
                 del self._channels[uri]
             if channel.link is not None:
                 channel.advance(now_ns, budget)
@@ -195,8 +200,7 @@ class ApiCaller:
         connection = XmlRpcClientConnection(
             f"{address.ip}:{address.port}", self._limits, now_ns, self._last_use
         )
-        channel.link = self._loop.connect(address, connection, channel, now_ns)
-        channel.connection = connection
+        channel.begin(self._loop.connect(address, connection, channel, now_ns), connection)
 
 
 class _Channel:
@@ -204,6 +208,15 @@ class _Channel:
 
     Args:
         last_call: when the node called any other one last.
+
+    Attributes:
+        calls: those that wait, the running one first.
+        link: to the node, None while there is none.
+        connection: of the link.
+        keep: whether the connection stays open for calls to come.
+        is_calling: whether the first call was sent and has no answer yet.
+        losses: connections that were to be kept, carried calls, and ended without a word of the
+            node that it would end them.
     """
 
     def __init__(self, last_call: LastUse) -> None:
@@ -212,12 +225,14 @@ class _Channel:
         self.link: PeerLink | None = None
         self.connection: XmlRpcClientConnection | None = None
         self.keep = False
+        self.is_calling = False
+        self.losses = 0
+        self._is_used = False
 
-    @property
-    def is_calling(self) -> bool:
-        """Whether the first call runs, or failed and is about to end."""
-        connection = self.connection
-        return connection is not None and connection.state is not ConnectionState.IDLE
+    def begin(self, link: PeerLink, connection: XmlRpcClientConnection) -> None:
+        """Use a connection that was begun."""
+        self.link, self.connection = link, connection
+        self.is_calling = self._is_used = False
 
     def advance(self, now_ns: int, budget: StepBudget) -> None:
         """Send the next call, or close a connection that is needed no more."""
@@ -241,25 +256,34 @@ class _Channel:
         except MessageValueError as error:
             self.calls.popleft().fail(str(error), was_answered=True)
         else:
+            self.is_calling = self._is_used = True
             if self.link and budget.work >= TRANSFER_WORK:  # it leaves in this step
                 self.link.flush(now_ns, budget)
 
     def fail_all(self, reason: str) -> None:
         """End all calls."""
+        self.is_calling = False
         calls, self.calls = self.calls, deque()
         for call in calls:
             call.fail(reason)
 
     def handle_event(self, link: PeerLink, event: ConnectionEvent, now_ns: int) -> None:
-        """Take the answer to the running call."""
+        """Take the answer to the running call; a node that gives none in time gives none to any."""
         if isinstance(event, ResponseReceived):
-            self.calls.popleft().answer(event.value)
+            self._take().answer(event.value)
         elif isinstance(event, FaultReceived):
-            self.calls.popleft().fail(event.text, was_answered=True)
+            self._take().fail(event.text, was_answered=True)
         elif isinstance(event, Unreadable):
-            call = self.calls.popleft()
+            call = self._take()
             call.is_unreadable = True
             call.fail(event.reason, was_answered=True)
+        elif isinstance(event, Silent):
+            self.fail_all(event.reason)
+
+    def _take(self) -> ApiCall:
+        """Take the running call out."""
+        self.is_calling = False
+        return self.calls.popleft()
 
     def expects_data(self, link: PeerLink) -> bool:
         """Whether a call waits for its answer."""
@@ -269,7 +293,17 @@ class _Channel:
         """Nothing waits beside the call that was sent."""
 
     def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
-        """Fail what waits; an idle connection that the node closed is made again when needed."""
-        if link is self.link:
-            self.link = self.connection = None
-            self.fail_all(reason or "the connection was closed")
+        """Fail the running call; those behind it are made by another connection.
+
+        A node that cannot be reached, or ends a connection before it has carried a call, fails all.
+        """
+        if link is not self.link:
+            return
+        is_told = self.connection is not None and self.connection.is_last_call
+        self.losses += self.keep and self._is_used and not is_told
+        self.link = self.connection = None
+        reason = reason or "the connection was closed"
+        if not self._is_used:
+            self.fail_all(reason)
+        elif self.is_calling:
+            self._take().fail(reason)

@@ -182,6 +182,7 @@ class XmlRpcConnection(ProtocolConnection):
 
     Attributes:
         is_beyond_limits: whether it ended because a document was larger or deeper than we accept.
+        is_last_call: whether one end has said that no call follows the one that ended.
     """
 
     IS_PARSED: ClassVar[bool] = True
@@ -205,6 +206,7 @@ class XmlRpcConnection(ProtocolConnection):
         self._part = _Part.NOTHING
         self._is_cold = False
         self.is_beyond_limits = False
+        self.is_last_call = False
 
     def event_price(self, now_ns: int) -> int:
         """A part of a document that is read, or what follows of it."""
@@ -301,6 +303,7 @@ class XmlRpcConnection(ProtocolConnection):
             self._http.start_next_cycle()
             self._move(Trigger.REPLY)
         else:
+            self.is_last_call = True
             self._move(Trigger.LAST)
 
     def _send(self, *http_events: h11.Event) -> None:

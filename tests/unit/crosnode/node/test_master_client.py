@@ -1,11 +1,23 @@
 """The node and its master on bad days: absent, restarted, restarted with the same pid, refusing."""
 
+import pytest
+
 from crosnode.node import StatusKind
 from crosnode.node.registration import RegistrationState
 from crosnode.xmlrpc.api_caller import ApiCall
 from plcsim.network import Outcome
 
-from .world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World, drain, news, words
+from .world import (
+    MASTER_IP,
+    OTHER_IP,
+    PLC_IP,
+    STRING,
+    World,
+    drain,
+    end_behind_answers,
+    news,
+    words,
+)
 
 
 def test_a_node_waits_for_a_master_that_comes_later() -> None:
@@ -227,3 +239,46 @@ def test_what_the_master_refused_is_gone_at_once() -> None:
     node.unregister(subscriber)
     assert subscriber.registration.state is RegistrationState.GONE
     assert node.is_registered
+
+
+@pytest.mark.parametrize("steps", [50, 51])  # calls go before the connections in every other one
+def test_a_master_that_was_started_again_while_the_controller_stood_still_is_told_all(
+    steps: int,
+) -> None:
+    world = World()
+    node = world.node("n")
+    node.register_publisher("/before", STRING)
+    world.until(lambda: node.is_registered)
+    world.run(steps * 10, step_ms=10)  # in such a step there is time to connect again
+    world.steps.remove(node.do_events_loop)
+    world.kill_master()
+    world.restart_master()
+    world.run(100, step_ms=10)
+    node.register_publisher("/behind", STRING)
+    node.get_param("/p")  # this call, not sent yet, finds the new master
+    world.steps.append(node.do_events_loop)
+    world.run(500, step_ms=10)
+    assert world.master
+    state = str(world.master.master.get_system_state("/x"))
+    assert "'/before'" in state
+    assert "'/behind'" in state
+
+
+def test_a_master_that_ends_each_connection_behind_its_answer_is_not_lost(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World()
+    end_behind_answers(monkeypatch)
+    talker, listener = world.node("talker"), world.node("listener", OTHER_IP)
+    publisher = talker.register_publisher("/x", STRING)
+    subscriber = listener.register_subscriber("/x", STRING)
+    world.until(lambda: subscriber.publishers, 500)
+    world.run(5_000)
+    assert not news(listener, StatusKind.MASTER_LOST)
+    world.kill_master()
+    world.run(2_000)
+    assert len(news(talker, StatusKind.MASTER_LOST)) == 1
+    world.restart_master()
+    world.until(lambda: talker.is_registered and listener.is_registered)
+    publisher.send(publisher.new(data="still"))
+    world.until(lambda: words(subscriber.pop) == ["still"], 50)

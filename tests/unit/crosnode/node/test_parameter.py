@@ -179,3 +179,18 @@ def test_an_update_beyond_the_limit_is_told_once_and_the_others_go_on() -> None:
     (refused,) = news(node, StatusKind.PEER_REFUSED)
     assert "more than 2000 bytes" in refused.text
     assert (much.value, little.value) == ({}, 5)
+
+
+def test_an_update_beyond_the_limit_takes_none_of_its_burst_with_it() -> None:
+    world = World()
+    limits = XmlRpcLimits(values=ValueLimits(max_size=2_000))
+    node, other = world.node("n", xmlrpc=limits), world.node("other", OTHER_IP)
+    much, little = node.subscribe_param("/much"), node.subscribe_param("/little")
+    world.until(lambda: little.registration.state is RegistrationState.REGISTERED)
+    world.run(50)
+    for number in range(3):
+        other.set_param("/much", "x" * 3_000)
+        other.set_param("/little", number)
+    world.until(lambda: little.value == 2, 500)
+    assert much.value == {}
+    assert len(news(node, StatusKind.PEER_REFUSED)) == 3

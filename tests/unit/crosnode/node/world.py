@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 from crosnode.graph.arguments import node_settings
 from crosnode.master.server import MasterOptions, MasterServer
 from crosnode.node import CrosNode, NodeOptions, Status, StatusKind
 from crosnode.tcpros.header import encode_header
 from crosnode.transport.budget import StepBudget, StepLimits
+from crosnode.xmlrpc import XmlRpcServerConnection
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
 from plcsim.network import Address, Link, Outcome, Socket, VirtualNetwork
@@ -150,3 +153,13 @@ def words(pop: Callable[[], Any]) -> list[str]:
 def news(node: CrosNode, kind: StatusKind) -> list[Status]:
     """Return all news of a kind, and forget the others."""
     return [status for status in drain(node.pop_status) if status.kind is kind]
+
+
+def end_behind_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let all servers do as those of HTTP/1.0."""
+    send = XmlRpcServerConnection._send_document
+
+    def send_last(connection: XmlRpcServerConnection, document: bytes, status: int) -> None:
+        send(connection, document, status, ("Connection", "close"))
+
+    monkeypatch.setattr(XmlRpcServerConnection, "_send_document", send_last)

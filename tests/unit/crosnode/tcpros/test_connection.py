@@ -20,7 +20,7 @@ from crosnode.tcpros import (
 from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
 from crosnode.tcpros.reader import length_of
-from crosnode.transport.connection import ConnectionEvent, ConnectionState, Failed, Trigger
+from crosnode.transport.connection import ConnectionEvent, ConnectionState, Failed, Silent, Trigger
 
 STRING = TypeInfo("std_msgs/String", "992c", "string data\n")
 LIMITS = TcprosLimits(max_header=300, max_message=50, timeout_ns=1000)
@@ -118,7 +118,7 @@ def test_silent_peer(role: Callable[[], TcprosConnection]) -> None:
     connection = role()
     assert connection.deadline_ns == 1000
     assert connection.handle_timer(999) is None
-    assert connection.handle_timer(1000) == Failed("silent for 1000 ns")
+    assert connection.handle_timer(1000) == Silent("silent for 1000 ns")
     assert connection.state is ConnectionState.CLOSED
     assert connection.handle_timer(9999) is None
 

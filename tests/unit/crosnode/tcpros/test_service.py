@@ -15,7 +15,7 @@ from crosnode.tcpros import (
 )
 from crosnode.tcpros.connection import TcprosConnection
 from crosnode.tcpros.header import encode_header
-from crosnode.transport.connection import Closed, ConnectionState, Failed
+from crosnode.transport.connection import Closed, ConnectionState, Failed, Silent
 
 TWO_INTS = TypeInfo("roscpp_tutorials/TwoInts", "6a2e")
 LIMITS = TcprosLimits(timeout_ns=1000)
@@ -176,9 +176,9 @@ def test_deadlines() -> None:
     assert client.deadline_ns is None
     client.send_request(b"", 500)
     assert client.deadline_ns == 1500
-    assert client.handle_timer(1500) == Failed("silent for 1000 ns")
+    assert client.handle_timer(1500) == Silent("silent for 1000 ns")
     assert server.deadline_ns == 1000
-    assert server.handle_timer(1000) == Failed("silent for 1000 ns")
+    assert server.handle_timer(1000) == Silent("silent for 1000 ns")
 
 
 def test_persistent_client_may_take_its_time() -> None:

@@ -8,8 +8,8 @@ from crosnode.errors import LocalProtocolError
 from crosnode.transport.connection import (
     ConnectionEvent,
     ConnectionState,
-    Failed,
     ProtocolConnection,
+    Silent,
     Table,
     Trigger,
 )
@@ -70,7 +70,7 @@ def test_deadline_only_in_timed_states() -> None:
     assert connection.deadline_ns is None
     assert connection.handle_timer(10**9) is None
     connection._move(Trigger.REPLY)
-    assert connection.handle_timer(1100) == Failed("silent for 100 ns")
+    assert connection.handle_timer(1100) == Silent("silent for 100 ns")
     assert connection.state is ConnectionState.CLOSED
 
 

@@ -1,8 +1,11 @@
 """Calls: in order for each node, never lost without a word."""
 
-from crosnode.xmlrpc.api_caller import MAX_WAITING, ApiCall, CallState
+import pytest
 
-from ..node.world import OTHER_IP, PLC_IP, World
+from crosnode.xmlrpc.api_caller import MAX_WAITING, ApiCall, CallState
+from plcsim.network import Outcome
+
+from ..node.world import OTHER_IP, PLC_IP, World, end_behind_answers
 
 
 def test_calls_to_one_node_are_made_in_order_over_one_connection() -> None:
@@ -61,3 +64,48 @@ def test_an_answer_of_another_form_is_the_value_itself() -> None:
     refused = ApiCall("http://x:1/", "m", [])
     refused.answer([-1, "no", 0])
     assert (refused.state, refused.error, refused.reply) == (CallState.FAILED, "no", [-1, "no", 0])
+
+
+def test_a_node_that_ends_each_connection_behind_its_answer_answers_all(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World()
+    node, other = world.node("n"), world.node("other", OTHER_IP)
+    world.until(lambda: node.is_registered and other.is_registered)
+    end_behind_answers(monkeypatch)
+    calls = [node.call_node(other.uri, "getPid") for _ in range(5)]
+    world.until(lambda: node.core.api.is_idle, 200)
+    assert [call.state for call in calls] == [CallState.DONE] * 5
+
+
+def test_a_node_that_ends_connections_without_a_word_fails_one_call_with_each() -> None:
+    world = World()
+    node = world.node("n")
+    listener = world.net.host(OTHER_IP).open("", 5).socket
+    assert listener is not None
+    listener.listen(5)
+    calls = [node.call_node(f"http://{OTHER_IP}:5/", "getPid") for _ in range(3)]
+    states = []
+    for _ in range(100):
+        world.run(10)
+        if (accepted := listener.accept()).outcome is Outcome.OK:
+            assert accepted.socket
+            world.run(10)
+            states.append([call.state for call in calls])
+            accepted.socket.close()
+    waiting, failed = CallState.WAITING, CallState.FAILED
+    assert states == [
+        [waiting, waiting, waiting], [failed, waiting, waiting], [failed, failed, waiting],
+    ]  # fmt: skip
+    assert {call.state for call in calls} == {failed}
+
+
+def test_a_node_that_does_not_answer_in_time_fails_all() -> None:
+    world = World()
+    node = world.node("n")
+    listener = world.net.host(OTHER_IP).open("", 5).socket
+    assert listener is not None
+    listener.listen(5)
+    calls = [node.call_node(f"http://{OTHER_IP}:5/", "getPid") for _ in range(3)]
+    world.run(10_200, step_ms=10)
+    assert {call.error for call in calls} == {"silent for 10000000000 ns"}

@@ -14,6 +14,7 @@ from crosnode.transport.connection import (
     ConnectionState,
     Failed,
     Progress,
+    Silent,
     Trigger,
 )
 from crosnode.xmlrpc import (
@@ -234,7 +235,7 @@ def test_deadlines() -> None:
     assert theirs.deadline_ns == 6000
     theirs.receive_data(b"OST")
     event_of(theirs, 5500)
-    assert theirs.handle_timer(6000) == Failed("silent for 1000 ns")
+    assert theirs.handle_timer(6000) == Silent("silent for 1000 ns")
     ours = client()
     assert ours.deadline_ns is None
     assert ours.idle_since_ns is None
