@@ -126,6 +126,11 @@ class PublisherLink:
         """Whether its header came and fits."""
         return self.state is PublisherState.STREAMING
 
+    @property
+    def is_waiting(self) -> bool:
+        """Whether no connection is there or on its way: the last was lost, or came to nothing."""
+        return self.state is PublisherState.WAITING
+
     def step(self, now_ns: int, budget: StepBudget) -> None:
         """Ask for the address, then connect, each when it is time."""
         if self.state is PublisherState.WAITING:

@@ -164,11 +164,12 @@ class Subscriber:
         """Part from publishers that the present master never named and that are not connected.
 
         A master that was started again knows those that have registered again; rospy does not.
-        An open connection is kept as long as it lives, as in rospy and roscpp.
+        An open connection is kept as long as it lives, and one on its way is made, as in rospy and
+        roscpp.
         """
         unnamed = [uri for uri, peer in self.peers.items() if not self._is_named(peer)]
         for uri in unnamed:
-            if not self.peers[uri].is_streaming:
+            if self.peers[uri].is_waiting:
                 self.peers.pop(uri).leave()
         self._has_unnamed = bool(unnamed)
 

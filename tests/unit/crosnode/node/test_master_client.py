@@ -84,6 +84,25 @@ def test_an_open_connection_is_kept_though_a_new_master_never_names_the_publishe
     assert subscriber.peers == {}  # nobody names it: it is not tried again
 
 
+@pytest.mark.parametrize("state", ["ASKING", "CONNECTING"])
+def test_a_connection_on_its_way_is_made_though_the_master_dies(state: str) -> None:
+    world = World()
+    listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
+    subscriber = listener.register_subscriber("/x", STRING)
+    world.until(lambda: listener.is_registered)
+    publisher = talker.register_publisher("/x", STRING)
+    world.until(lambda: [each.state.name for each in subscriber.peers.values()] == [state])
+    world.leave_to_its_connections(talker)
+    stopped = world.steps.pop()
+    world.kill_master()
+    world.restart_master()
+    world.run(100)
+    world.until(lambda: listener.is_registered)
+    world.run(100)
+    world.steps.append(stopped)
+    world.until(lambda: subscriber.publishers == publisher.subscribers == 1, 100)
+
+
 def test_what_the_same_master_takes_away_is_left_though_the_connection_lives() -> None:
     world = World()
     listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
