@@ -8,7 +8,8 @@ two roscpp listeners follow joints and frames, one of them is stopped for 3 s an
 killed with -9 every ``--restart`` seconds and started again 2 s later.
 
 Exit code 1 where a message of an open connection or a goal was lost, or a cycle time violation was
-the program's. Needs what tests/interop/ros1/install.sh installs.
+the program's; one that ended the cell in SERVICE is told, for then goals are lost too. Needs what
+tests/interop/ros1/install.sh installs.
 """
 
 from __future__ import annotations
@@ -37,6 +38,8 @@ HERE = Path(__file__).parent
 PUBLISHER = "/usr/lib/robot_state_publisher/robot_state_publisher"
 STOP_EVERY_S, STOP_S = 20, 3
 MASTER_AWAY_S = 2
+SHORTEST_RESTART_S = 5
+"""A master that is killed in the middle of this time has come back before the end of it."""
 STATES_PER_S = 50
 ARM_FRAMES = 6
 
@@ -222,6 +225,8 @@ def main() -> int:
     parser.add_argument("--restart", type=number_above_0, default=60)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
+    if options.restart < SHORTEST_RESTART_S:
+        parser.error(f"--restart: at least {SHORTEST_RESTART_S} seconds")
     hosts = [print_machine("before")]
     found = measure(options.seconds, options.restart)
     hosts.append(print_machine("after"))
@@ -232,6 +237,8 @@ def main() -> int:
     scan = found["report"]["task_classes"][0]
     console.print(f"cell: {scan['cycles']} cycles of 4 ms, violations {scan['violations']}, "
                   f"longest own CPU {scan['execution_ns']['maximum'] / 1e6:.2f} ms")  # fmt: skip
+    if found["report"]["fault"]:
+        console.print(f"the cell ended in {found['report']['state']}: {found['report']['fault']}")
     targets = found_targets(found, options.seconds)
     print_targets(targets)
     write_json(options.json, hosts, targets, found=found)
