@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
+from plcsim.library.bus import objects
 from plcsim.library.loops import pid, signals, technology
 from plcsim.library.mapp import (
     alarm_blocks,
@@ -16,7 +17,7 @@ from plcsim.library.mapp import (
     recipe_blocks,
     temperature_blocks,
 )
-from plcsim.library.motion import assembly, cyclic, mapp, plcopen
+from plcsim.library.motion import assembly, cyclic, drive_parameters, mapp, plcopen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -41,6 +42,8 @@ class BlockModel(Protocol):
 
 
 _AXIS: Final = "an axis with trapezoidal profile"
+_DRIVE: Final = "parameters of a drive, read back as they were written"
+_BUS: Final = "registers and objects of devices, read back as they were written"
 _ALARMS: Final = "the alarms of its core"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
@@ -52,6 +55,8 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (cyclic.BLOCKS, _AXIS),
     (mapp.BLOCKS, _AXIS),
     (assembly.BLOCKS, _AXIS),
+    (drive_parameters.BLOCKS, _DRIVE),
+    (objects.BLOCKS, _BUS),
     (alarm_blocks.BLOCKS, _ALARMS),
     (recipe_blocks.BLOCKS, _RECIPES),
     (packml_blocks.BLOCKS, _PACKML),

@@ -118,9 +118,11 @@ class Axis:
         velocity: in units/s.
         is_powered: whether its controller is on.
         is_homed: whether its position was set once.
+        parameters: of its drive, by number, as a program wrote them.
     """
 
     def __init__(self) -> None:
+        self.parameters: dict[int, float] = {}
         self.state = AxisState.DISABLED
         self.position = 0.0
         self.velocity = 0.0

@@ -8,11 +8,14 @@ from plcsim.core.clock import VirtualClock
 from plcsim.library import face
 from plcsim.library.installed import Scopes, installed
 from plcsim.library.library import Library
+from plcsim.library.members import BlockVariables, StructMembers
+from plcsim.library.models import modelled_block
 from plcsim.library.runtime import ERR_FUB_BUSY
 from plcsim.program.loader import installed_catalogue
 from plcsim.program.python.language import PythonCode
 from plcsim.program.python.program import Program
 from plcsim.program.setup import ProgramSetup, Setup, TaskClassSetup, make_controller
+from st_types.types.derived import DataBlockType, Member, Section
 
 FILES = {
     "ramps.fun": """
@@ -90,14 +93,43 @@ class Idle(Program):
         pass
 
 
+class ModelBlock:
+    """A block that a model runs; a call returns its status."""
+
+    def __init__(self, plc, name, inputs, outputs):
+        members = [Member(each, kind, section=Section.INPUT) for each, kind in inputs.items()]
+        members += [Member(each, kind, section=Section.OUTPUT) for each, kind in outputs.items()]
+        data_type = DataBlockType(name, members)
+        self._address = plc.memory.allocate(data_type.size)
+        self._variables = BlockVariables(plc.memory, StructMembers(data_type), self._address)
+        self._run = modelled_block(data_type, {}.get).bind(plc.context)
+
+    def __getitem__(self, name):
+        return self._variables.number(name)
+
+    def __call__(self, **inputs):
+        self._variables.set(**inputs)
+        self._run(self._address)
+        return self["status"]
+
+    def finish(self, **inputs):
+        """Call it with enable until it is done; it is BUSY in the first call."""
+        assert self(enable=True, **inputs) == ERR_FUB_BUSY
+        for _ in range(1000):
+            status = self()
+            if status != ERR_FUB_BUSY:
+                return status
+        raise AssertionError("it is BUSY for ever")
+
+
 class Plc:
     """A controller whose program does nothing, and shortcuts to call blocks and functions on it."""
 
-    def __init__(self, settings=(), start_date_ns=None, network=None):
+    def __init__(self, settings=(), start_date_ns=None, network=None, channels=None):
         self.clock = VirtualClock(0)
         tasks = TaskClassSetup(1, 10_000_000, [ProgramSetup("idle", PythonCode(Idle))])
         self.controller = make_controller(
-            Setup([tasks], settings=settings, start_date_ns=start_date_ns),
+            Setup([tasks], settings=settings, start_date_ns=start_date_ns, channels=channels),
             clock=self.clock,
             network=network,
         )
@@ -142,6 +174,10 @@ class Plc:
             calls += 1
             assert calls < 1000
         return block
+
+    def model(self, name, inputs, outputs):
+        """Make a block that a model runs; members are given as types by name."""
+        return ModelBlock(self, name, inputs, outputs)
 
     def function(self, name):
         """Return a FUNCTION of any library, ready to be called."""
