@@ -9,6 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.bus import objects
+from plcsim.library.http import client, texts
 from plcsim.library.loops import pid, signals, technology
 from plcsim.library.mapp import (
     alarm_blocks,
@@ -44,6 +45,8 @@ class BlockModel(Protocol):
 _AXIS: Final = "an axis with trapezoidal profile"
 _DRIVE: Final = "parameters of a drive, read back as they were written"
 _BUS: Final = "registers and objects of devices, read back as they were written"
+_HTTP: Final = "requests over the controller's network, without TLS"
+_TEXTS: Final = "conversions of texts"
 _ALARMS: Final = "the alarms of its core"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
@@ -57,6 +60,8 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (assembly.BLOCKS, _AXIS),
     (drive_parameters.BLOCKS, _DRIVE),
     (objects.BLOCKS, _BUS),
+    (client.BLOCKS, _HTTP),
+    (texts.BLOCKS, _TEXTS),
     (alarm_blocks.BLOCKS, _ALARMS),
     (recipe_blocks.BLOCKS, _RECIPES),
     (packml_blocks.BLOCKS, _PACKML),

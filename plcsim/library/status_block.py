@@ -37,8 +37,11 @@ class StatusBlock:
             PageFault: an address in it is wild.
         """
         variables = BlockVariables(self.context.memory, self._members, address)
-        enable = variables.is_true("enable")
-        variables.set(status=self.step(variables) if enable else ERR_FUB_ENABLE_FALSE)
+        if variables.is_true("enable"):
+            variables.set(status=self.step(variables))
+        else:
+            self.rest(variables)
+            variables.set(status=ERR_FUB_ENABLE_FALSE)
 
     def step(self, variables: BlockVariables) -> int:
         """Run one call with enable TRUE; return the status.
@@ -47,6 +50,9 @@ class StatusBlock:
             PageFault: an address in the data block is wild.
         """
         raise NotImplementedError(type(self).__name__)
+
+    def rest(self, variables: BlockVariables) -> None:
+        """Run one call with enable FALSE: for most, nothing."""
 
 
 class DelayedBlock(StatusBlock):

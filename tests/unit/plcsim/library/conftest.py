@@ -96,13 +96,14 @@ class Idle(Program):
 class ModelBlock:
     """A block that a model runs; a call returns its status."""
 
-    def __init__(self, plc, name, inputs, outputs):
+    def __init__(self, plc, name, inputs, outputs, types):
         members = [Member(each, kind, section=Section.INPUT) for each, kind in inputs.items()]
         members += [Member(each, kind, section=Section.OUTPUT) for each, kind in outputs.items()]
         data_type = DataBlockType(name, members)
         self._address = plc.memory.allocate(data_type.size)
         self._variables = BlockVariables(plc.memory, StructMembers(data_type), self._address)
-        self._run = modelled_block(data_type, {}.get).bind(plc.context)
+        found = {each.name: each for each in types}
+        self._run = modelled_block(data_type, found.get).bind(plc.context)
 
     def __getitem__(self, name):
         return self._variables.number(name)
@@ -175,9 +176,12 @@ class Plc:
             assert calls < 1000
         return block
 
-    def model(self, name, inputs, outputs):
-        """Make a block that a model runs; members are given as types by name."""
-        return ModelBlock(self, name, inputs, outputs)
+    def model(self, name, inputs, outputs, types=()):
+        """Make a block that a model runs; members are given as types by name.
+
+        Its library has ``types`` as well.
+        """
+        return ModelBlock(self, name, inputs, outputs, types)
 
     def function(self, name):
         """Return a FUNCTION of any library, ready to be called."""

@@ -1,0 +1,1 @@
+"""AsHttp: a client over the controller's network, and conversions of texts."""
