@@ -105,7 +105,11 @@ class Peers:
         process.send_signal(signal.SIGINT)
         with contextlib.suppress(subprocess.TimeoutExpired):
             process.wait(patience_s)
-        return (self._folder / f"{name}.log").read_text().strip().rpartition("\n")[2]
+        return self.said(name).rpartition("\n")[2]
+
+    def said(self, name: str) -> str:
+        """Return the end of what a process has said."""
+        return (self._folder / f"{name}.log").read_text(errors="replace").strip()[-2000:]
 
     def kill_all(self) -> None:
         """Leave nothing behind."""
@@ -198,8 +202,9 @@ def measure(seconds: int, restart_s: int) -> dict[str, Any]:
         finally:
             peers.kill_all()
             cell.stop()
+        said = {"planner": peers.said("planner"), "cell": cell.said}
         return {"deaths": deaths, "planner": planner, "heard": heard, "refused": refused,
-                "report": cell.report()}  # fmt: skip
+                "said": said, "report": cell.report()}  # fmt: skip
 
 
 def found_targets(found: dict[str, Any], seconds: int) -> list[Target]:

@@ -40,7 +40,7 @@ def test_nothing_is_lost_while_masters_die_and_a_peer_stops(
         # for the program, and ends the cell; steps that are too long of themselves show again.
         found = measured(tmp_path / "again.json")
     report = found["report"]
-    told = report["state"], report["fault"], report["violations"], report["logbook"]
+    told = found["said"], *(report[key] for key in ("fault", "violations", "logbook"))
     assert (report["fault"], program_violations(found)) == (None, 0), told
     assert found["deaths"] == SECONDS // RESTART_S
     for heard, lost, beginnings, frames in found["heard"].values():
