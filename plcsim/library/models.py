@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.bus import objects
 from plcsim.library.http import client, texts
-from plcsim.library.loops import pid, signals, technology
+from plcsim.library.loops import pid, positions, signals, technology, temperature
 from plcsim.library.mapp import (
     alarm_blocks,
     alarm_functions,
+    oee_blocks,
     packml_blocks,
     recipe_blocks,
     temperature_blocks,
@@ -51,6 +52,8 @@ _ALARMS: Final = "the alarms of its core"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
 _TEMPERATURE: Final = "heats below the set temperature, and cools above it"
+_OEE: Final = "availability, performance and quality since Enable"
+_POSITIONS: Final = "positions along a trapezoidal profile"
 _LOOPS: Final = "the common formulas of closed loops"
 
 _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
@@ -66,6 +69,9 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (recipe_blocks.BLOCKS, _RECIPES),
     (packml_blocks.BLOCKS, _PACKML),
     (temperature_blocks.BLOCKS, _TEMPERATURE),
+    (temperature.BLOCKS, _TEMPERATURE),
+    (oee_blocks.BLOCKS, _OEE),
+    (positions.BLOCKS, _POSITIONS),
     (signals.BLOCKS, _LOOPS),
     (pid.BLOCKS, _LOOPS),
     (technology.BLOCKS, _LOOPS),
