@@ -28,6 +28,16 @@ if TYPE_CHECKING:
     from crosnode.transport.link import PeerLink
     from plcsim.core.context import Context
 
+ANSWER_NS: Final = 3_600_000_000_000
+"""Nanoseconds that a node which stands still may take to hear the news, such as a controller that
+is halted; rosmaster waits without an end. A host that has gone is noticed by TCP."""
+
+PATIENCE_NS: Final = 120_000_000_000
+"""Nanoseconds that news wait for a node which cannot be reached: as long as Linux tries to connect
+for rosmaster (tcp(7), tcp_syn_retries)."""
+
+NEWS: Final = ("publisherUpdate", "paramUpdate")
+
 CALLERS_PART: Final = 2
 """One in so many idents is for those who call the master; it calls nodes with the others."""
 
@@ -86,9 +96,9 @@ class MasterServer:
             bind_ip = own_interface(options.host, ipv6=options.ipv6)
         self.bind_ip = bind_ip
         self._listener = self._loop.listen(self.bind_ip, options.port, acceptor)
-        self._api = ApiCaller(
-            self._loop, HostTable(options.hosts, ipv6=options.ipv6), options.xmlrpc
-        )
+        hosts = HostTable(options.hosts, ipv6=options.ipv6)
+        limits = options.xmlrpc._replace(timeout_ns=ANSWER_NS)
+        self._api = ApiCaller(self._loop, hosts, limits)
         self.uri = make_uri("http", options.host, options.port)
         self.master = Master(self.uri, options.pid, options.parameters)
 
@@ -134,7 +144,10 @@ class MasterServer:
             if answer.was_answered:
                 self.master.handle_reply(call, answer.reply)
 
-        self._api.start(ApiCall(call.uri, call.method, call.params, answered))
+        patience_ns = PATIENCE_NS if call.method in NEWS else 0
+        self._api.start(
+            ApiCall(call.uri, call.method, call.params, answered, patience_ns=patience_ns)
+        )
 
     def expects_data(self, link: PeerLink) -> bool:
         """A caller may always call."""

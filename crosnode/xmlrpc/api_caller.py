@@ -19,6 +19,7 @@ from crosnode.xmlrpc import (
     XmlRpcClientConnection,
     XmlRpcLimits,
 )
+from plcsim.core.backoff import Backoff
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -33,6 +34,10 @@ MAX_WAITING: Final = 1000
 """Calls that wait for one node; the oldest one fails for the next."""
 
 SUCCESS: Final = 1
+
+FIRST_RETRY_NS: Final = 500_000_000
+LONGEST_RETRY_NS: Final = 8_000_000_000
+"""Nanoseconds between two attempts to reach a node that patience is had with."""
 
 
 class CallState(Enum):
@@ -50,6 +55,7 @@ class ApiCall:
         uri: of the node or master.
         method: of its API.
         params: as they go on the wire.
+        patience_ns: nanoseconds that it waits for a node which cannot be reached.
         state: WAITING, DONE or FAILED.
         value: the value of the answer once DONE.
         error: why it failed once FAILED.
@@ -59,8 +65,8 @@ class ApiCall:
         reply: the answer as it came, code and message included.
     """
 
-    __slots__ = ("error", "is_unreadable", "method", "on_end", "params", "reply", "state", "uri",
-                 "value", "was_answered")  # fmt: skip
+    __slots__ = ("error", "is_unreadable", "method", "on_end", "params", "patience_ns", "reply",
+                 "state", "uri", "value", "was_answered")  # fmt: skip
 
     def __init__(
         self,
@@ -68,8 +74,11 @@ class ApiCall:
         method: str,
         params: Sequence[Value],
         on_end: Callable[[ApiCall], None] | None = None,
+        *,
+        patience_ns: int = 0,
     ) -> None:
         self.uri = uri
+        self.patience_ns = patience_ns
         self.method = method
         self.params = list(params)
         self.on_end = on_end
@@ -143,7 +152,7 @@ class ApiCaller:
 
     def start(self, call: ApiCall, *, keep: bool = False) -> ApiCall:
         """Queue a call; ``keep`` leaves the connection open for the next one."""
-        channel = self._channels.setdefault(call.uri, _Channel(self._last_call))
+        channel = self._channel(call.uri)
         channel.keep = channel.keep or keep
         channel.calls.append(call)
         if len(channel.calls) > MAX_WAITING:
@@ -153,9 +162,14 @@ class ApiCaller:
             oldest.fail("too many calls wait for this node")
         return call
 
+    def _channel(self, uri: str) -> _Channel:
+        if uri not in self._channels:
+            self._channels[uri] = _Channel(self._last_call)
+        return self._channels[uri]
+
     def open(self, uri: str, now_ns: int, budget: StepBudget) -> None:
         """Begin a connection for calls to a node before there are any, in INIT."""
-        channel = self._channels.setdefault(uri, _Channel(self._last_call))
+        channel = self._channel(uri)
         channel.keep = True
         self._connect(uri, channel, now_ns, budget)
 
@@ -180,7 +194,7 @@ class ApiCaller:
         channels = list(self._channels.items())
         self._turn = (self._turn + 1) % max(1, len(channels))
         for uri, channel in channels[self._turn :] + channels[: self._turn]:
-            if channel.calls and channel.link is None:
+            if channel.calls and channel.link is None and channel.is_due(now_ns):
                 self._connect(uri, channel, now_ns, budget)
             elif not channel.calls and channel.link is None and not channel.keep:
                 del self._channels[uri]
@@ -221,6 +235,8 @@ class _Channel:
 
     def __init__(self, last_call: LastUse) -> None:
         self._last_call = last_call
+        self._backoff = Backoff(FIRST_RETRY_NS, LONGEST_RETRY_NS)
+        self._missed_ns: int | None = None  # since then it cannot be reached
         self.calls: deque[ApiCall] = deque()
         self.link: PeerLink | None = None
         self.connection: XmlRpcClientConnection | None = None
@@ -228,6 +244,10 @@ class _Channel:
         self.is_calling = False
         self.losses = 0
         self._is_used = False
+
+    def is_due(self, now_ns: int) -> bool:
+        """Whether it is time to connect: at once, but for a node that was not reached."""
+        return self._backoff.is_due(now_ns)
 
     def begin(self, link: PeerLink, connection: XmlRpcClientConnection) -> None:
         """Use a connection that was begun."""
@@ -257,12 +277,18 @@ class _Channel:
             self.calls.popleft().fail(str(error), was_answered=True)
         else:
             self.is_calling = self._is_used = True
+            self._be_patient_anew()
             if self.link and budget.work >= TRANSFER_WORK:  # it leaves in this step
                 self.link.flush(now_ns, budget)
+
+    def _be_patient_anew(self) -> None:
+        self._missed_ns = None
+        self._backoff.succeeded()
 
     def fail_all(self, reason: str) -> None:
         """End all calls."""
         self.is_calling = False
+        self._be_patient_anew()
         calls, self.calls = self.calls, deque()
         for call in calls:
             call.fail(reason)
@@ -295,7 +321,8 @@ class _Channel:
     def ended(self, link: PeerLink, reason: str, now_ns: int) -> None:
         """Fail the running call; those behind it are made by another connection.
 
-        A node that cannot be reached, or ends a connection before it has carried a call, fails all.
+        A node that cannot be reached, or ends a connection before it has carried a call, fails all
+        that have no patience.
         """
         if link is not self.link:
             return
@@ -304,6 +331,20 @@ class _Channel:
         self.link = self.connection = None
         reason = reason or "the connection was closed"
         if not self._is_used:
-            self.fail_all(reason)
+            self._not_reached(reason, now_ns)
         elif self.is_calling:
             self._take().fail(reason)
+
+    def _not_reached(self, reason: str, now_ns: int) -> None:
+        """Fail the calls that have no patience with the node, or had it for long enough."""
+        if self._missed_ns is None:
+            self._missed_ns = now_ns
+        missed_ns, calls = now_ns - self._missed_ns, self.calls
+        self.calls = deque(call for call in calls if missed_ns < call.patience_ns)
+        if self.calls:
+            self._backoff.failed(now_ns)
+        else:
+            self._be_patient_anew()
+        for call in calls:
+            if missed_ns >= call.patience_ns:
+                call.fail(reason)

@@ -1,11 +1,12 @@
 """The embedded master on its port."""
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from crosnode.xmlrpc.api_caller import ApiCall
 
-from ..node.world import MASTER_IP, OTHER_IP, PLC_IP, STRING, World
+from ..node.world import MASTER_IP, OTHER_IP, PLC_IP, SECOND, STRING, World
 
 
 def test_a_port_in_use_is_tried_again() -> None:
@@ -41,6 +42,38 @@ def test_a_subscriber_of_a_parameter_that_refuses_is_forgotten() -> None:
     setter.set_param("/p", 1)
     world.run(50)
     assert "/p" not in world.master.master._graph.parameters.nodes
+
+
+def test_a_node_that_stands_still_hears_all_the_news_when_it_goes_on() -> None:
+    world = World()
+    listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
+    subscribers = [listener.register_subscriber(f"/x{number}", STRING) for number in range(3)]
+    param = listener.subscribe_param("/p")
+    world.until(lambda: listener.is_registered and talker.is_registered)
+    world.run(50)
+    world.steps.remove(listener.do_events_loop)
+    for number in range(3):
+        talker.register_publisher(f"/x{number}", STRING)
+    talker.set_param("/p", 5)
+    world.run(30_000, step_ms=10)
+    world.steps.append(listener.do_events_loop)
+    world.until(lambda: all(each.publishers for each in subscribers) and param.value == 5, 1_000)
+
+
+@pytest.mark.parametrize(("silent_s", "is_told"), [(60, True), (200, False)])
+def test_news_wait_two_minutes_for_a_node_that_cannot_be_reached(
+    silent_s: int, *, is_told: bool
+) -> None:
+    world = World()
+    listener, talker = world.node("listener"), world.node("talker", OTHER_IP)
+    subscriber = listener.register_subscriber("/x", STRING)
+    world.until(lambda: listener.is_registered and talker.is_registered)
+    world.run(50)
+    world.leave_to_its_connections(listener)  # which would register again
+    world.faults.silence(MASTER_IP, PLC_IP, until_ns=world.now_ns + silent_s * SECOND)
+    talker.register_publisher("/x", STRING)
+    world.run(250_000, step_ms=20)
+    assert bool(subscriber.peers) is is_told
 
 
 def test_a_dead_node_delays_the_news_of_no_other() -> None:
