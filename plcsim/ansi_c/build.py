@@ -21,6 +21,7 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from plcsim.ansi_c.conversions import SATURATE, as_gcc_converts, may_convert
 from plcsim.ansi_c.gcc_options import for_language, without_standard
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.mends import Mends
@@ -42,6 +43,7 @@ _OPTIONS = (
     *("-fno-strict-aliasing", "-fwrapv", "-fno-delete-null-pointer-checks", "-fsigned-char"),
     # a function that ends without its return goes on, a variable without a value has one
     *("-fno-strict-return", "-ftrivial-auto-var-init=zero"),
+    SATURATE,
     # or a malloc that nobody uses is left out and cannot fail
     *("-fno-builtin-printf", "-fno-builtin-fprintf", "-fno-builtin-sprintf"),  # or iprintf ...
     *("-fno-builtin-malloc", "-fno-builtin-calloc", "-fno-builtin-realloc", "-fno-builtin-free"),
@@ -84,6 +86,7 @@ _ROUNDS = (
 )
 """A file goes through the compiler twice: to bitcode, and with these from there to an object."""
 _NO_PASSES = ("-Xclang", "-disable-llvm-passes")
+_TO_TEXT = ("-S", "-emit-llvm", "-w", *_NO_PASSES)
 _LOOP = b"llvm.loop."
 """Stands in the bitcode of C where a loop that ends is left. Where none is there are no rounds to
 write out, and the passes that the first run has done are not done again."""
@@ -252,7 +255,7 @@ class _Object:
         self._rounds = [*_ROUNDS, "-mllvm", f"-unroll-count={toolchain.rounds}"]
         self._options = options
         ways = [*self._rounds, *_NO_PASSES]
-        self._manifest = _key("manifest 3", toolchain.identity, *self.command, *ways)
+        self._manifest = _key("manifest 4", toolchain.identity, *self.command, *ways)
 
     def load(self, cache: CodeCache) -> bool:
         """Take the object from the cache where nothing has changed."""
@@ -288,6 +291,10 @@ class _Object:
         return self.file.with_suffix(".bc")  # the suffix tells the compiler what it is
 
     @cached_property
+    def _text(self) -> Path:
+        return self.file.with_suffix(".ll")
+
+    @cached_property
     def is_made_at_once(self) -> bool:
         """Whether the first run of the compiler makes the object."""
         try:
@@ -311,6 +318,17 @@ class _Object:
         passes = self._rounds if has_loops else _NO_PASSES
         options = [*_OPTIONS, *self._options, *passes, "-Wno-unused-command-line-argument"]
         return [*self.toolchain.c, *options, str(self._bitcode), "-o", str(self.file)]
+
+    def command_to_text(self) -> list[str]:
+        """Return what writes the source as text of the compiler's intermediate representation."""
+        return [*self._whole_command(), *_TO_TEXT, "-o", str(self._text)]
+
+    def command_of_text(self) -> list[str]:
+        """Return what compiles that text, as `first_command` does the source."""
+        to_object = self.is_made_at_once
+        target = [str(self.file)] if to_object else [str(self._bitcode), *_TO_BITCODE]
+        options = [*_OPTIONS, *self._options, "-w"]
+        return [*self.toolchain.c, *options, str(self._text), "-o", *target]
 
     def command_that_tells(self) -> list[str]:
         """Return what makes an object at once, and so knows where what is wrong in it stands."""
@@ -351,6 +369,18 @@ class _Object:
         self._begin_again()
         return True
 
+    def converts(self) -> bool:
+        """Return whether the object may make integers of numbers, which clang does its own way."""
+        return not self.errors and may_convert(self.file.read_bytes())
+
+    def is_rewritten(self) -> bool:
+        """Return whether the text was, so that they are converted as GCC does it."""
+        before = self._text.read_text("utf-8", "surrogateescape")
+        after = as_gcc_converts(before)
+        if after != before:
+            self._text.write_text(after, "utf-8", "surrogateescape")
+        return after != before
+
     def _begin_again(self) -> None:
         """Forget what the next run tells again."""
         self.warnings = list(self._mends.told)
@@ -390,9 +420,18 @@ def _compile(objects: Sequence[_Object]) -> None:
     right = [each for each in objects if not each.errors and not each.is_made_at_once]
     _run(right, _Object.command_to_object)
     _run([each for each in right if each.errors], _Object.command_that_tells)
+    _convert([each for each in objects if each.converts()])
     for each in objects:
         if not each.errors:
             each.finish()
+
+
+def _convert(objects: Sequence[_Object]) -> None:
+    """Compile files again in which numbers become integers."""
+    _run(objects, _Object.command_to_text)
+    again = [each for each in objects if not each.errors and each.is_rewritten()]
+    _run(again, _Object.command_of_text)
+    _run([each for each in again if not each.is_made_at_once], _Object.command_to_object)
 
 
 def _run(objects: Sequence[_Object], command: Callable[[_Object], list[str]]) -> None:

@@ -171,6 +171,61 @@ float fdimf(float x, float y);
 float fmaxf(float x, float y);
 float fminf(float x, float y);
 
+/* long double is double, and so are its functions. */
+long double acosl(long double x) __asm__("acos");
+long double acoshl(long double x) __asm__("acosh");
+long double asinl(long double x) __asm__("asin");
+long double asinhl(long double x) __asm__("asinh");
+long double atanl(long double x) __asm__("atan");
+long double atanhl(long double x) __asm__("atanh");
+long double cbrtl(long double x) __asm__("cbrt");
+long double ceill(long double x) __asm__("ceil");
+long double cosl(long double x) __asm__("cos");
+long double coshl(long double x) __asm__("cosh");
+long double erfl(long double x) __asm__("erf");
+long double erfcl(long double x) __asm__("erfc");
+long double expl(long double x) __asm__("exp");
+long double exp2l(long double x) __asm__("exp2");
+long double expm1l(long double x) __asm__("expm1");
+long double fabsl(long double x) __asm__("fabs");
+long double floorl(long double x) __asm__("floor");
+long double lgammal(long double x) __asm__("lgamma");
+long double logl(long double x) __asm__("log");
+long double log10l(long double x) __asm__("log10");
+long double log1pl(long double x) __asm__("log1p");
+long double log2l(long double x) __asm__("log2");
+long double logbl(long double x) __asm__("logb");
+long double nearbyintl(long double x) __asm__("nearbyint");
+long double rintl(long double x) __asm__("rint");
+long double roundl(long double x) __asm__("round");
+long double sinl(long double x) __asm__("sin");
+long double sinhl(long double x) __asm__("sinh");
+long double sqrtl(long double x) __asm__("sqrt");
+long double tanl(long double x) __asm__("tan");
+long double tanhl(long double x) __asm__("tanh");
+long double tgammal(long double x) __asm__("tgamma");
+long double truncl(long double x) __asm__("trunc");
+long double atan2l(long double x, long double y) __asm__("atan2");
+long double copysignl(long double x, long double y) __asm__("copysign");
+long double fdiml(long double x, long double y) __asm__("fdim");
+long double fmaxl(long double x, long double y) __asm__("fmax");
+long double fminl(long double x, long double y) __asm__("fmin");
+long double fmodl(long double x, long double y) __asm__("fmod");
+long double hypotl(long double x, long double y) __asm__("hypot");
+long double nextafterl(long double x, long double y) __asm__("nextafter");
+long double powl(long double x, long double y) __asm__("pow");
+long double remainderl(long double x, long double y) __asm__("remainder");
+long double fmal(long double x, long double y, long double z) __asm__("fma");
+long double modfl(long double x, long double *whole) __asm__("modf");
+long double frexpl(long double x, int *exponent) __asm__("frexp");
+long double ldexpl(long double x, int exponent) __asm__("ldexp");
+long double scalbnl(long double x, int exponent) __asm__("scalbn");
+int ilogbl(long double x) __asm__("ilogb");
+long lroundl(long double x) __asm__("lround");
+long lrintl(long double x) __asm__("lrint");
+long long llroundl(long double x) __asm__("llround");
+long long llrintl(long double x) __asm__("llrint");
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "decimal.h"
@@ -372,6 +373,40 @@ static void put_text(struct target *to, struct format f, const char *text)
 	put_field(to, &f, "", text, (int)length);
 }
 
+/* What `%ls` and `%lc` say: bytes of UTF-8, no part of a character where the precision ends. */
+static void put_wide(struct target *to, struct format f, const wchar_t *text)
+{
+	char bytes[4];
+	size_t length = 0, most = f.precision < 0 ? (size_t)-1 : (size_t)f.precision;
+	const wchar_t *end = text;
+	for (int count; *end && (count = wctomb(bytes, *end)) > 0 && length + (size_t)count <= most; end++)
+		length += (size_t)count;
+	f.zero = 0;
+	begin_field(to, &f, "", (int)length);
+	for (; text < end; text++)
+		put(to, bytes, (size_t)wctomb(bytes, *text));
+	end_field(to, &f, "", (int)length);
+}
+
+static void put_character(struct target *to, struct format f, int character)
+{
+	wchar_t wide[2] = {character, 0};
+	char narrow = (char)character;
+	f.zero = 0;
+	if (f.length == 'l')
+		put_wide(to, f, wide);
+	else
+		put_field(to, &f, "", &narrow, 1);
+}
+
+static void put_string(struct target *to, const struct format *f, const void *text)
+{
+	if (f->length == 'l' && text)
+		put_wide(to, *f, text);
+	else
+		put_text(to, *f, text);
+}
+
 static void store_count(const struct format *f, void *at, size_t count)
 {
 	if (f->length == 'H')
@@ -386,7 +421,6 @@ static void store_count(const struct format *f, void *at, size_t count)
 
 static void put_value(struct target *to, struct format *f, char kind, va_list *values)
 {
-	char character;
 	u64 value;
 	switch (kind) {
 	case 'd':
@@ -408,12 +442,10 @@ static void put_value(struct target *to, struct format *f, char kind, va_list *v
 		put_integer(to, *f, "0x", (uintptr_t)va_arg(*values, void *), 16, 0);
 		break;
 	case 'c':
-		character = (char)va_arg(*values, int);
-		f->zero = 0;
-		put_field(to, f, "", &character, 1);
+		put_character(to, *f, va_arg(*values, int));
 		break;
 	case 's':
-		put_text(to, *f, va_arg(*values, const char *));
+		put_string(to, f, va_arg(*values, const void *));
 		break;
 	case 'n':
 		store_count(f, va_arg(*values, void *), to->count);

@@ -204,3 +204,24 @@ def test_what_is_printed_goes_to_the_scan_s_output(capsys):
     out, err = capsys.readouterr()
     assert out == "5 1.5\n" + "x" * 700 + "\n"
     assert err == "wrong\\xff"
+
+
+@pytest.mark.parametrize(
+    ("text", "wide", "result"),
+    [
+        (b"%ls|", "wide", b"wide|"),
+        (b"%8ls|", "gr\xfcn", b"   gr\xc3\xbcn|"),
+        (b"%-6.3ls|", "gr\xfcn", b"gr    |"),  # no half character
+        (b"%.2ls|", "wide", b"wi|"),
+        (b"%ls|", "", b"|"),
+    ],
+)
+def test_wide_texts(text, wide, result):
+    at = AREA + 0x1C00
+    WORLD.memory.write(at, f"{wide}\0".encode("utf-32-le"))
+    found, count = WORLD.formatted(text, at)
+    assert (found.encode("latin-1"), count) == (result, len(result))
+
+
+def test_wide_characters_and_a_wide_text_that_is_nowhere():
+    assert WORLD.formatted(b"%lc%3lc|%ls", 0x41, 0xE4, 0)[0] == "A \xc3\xa4|(null)"

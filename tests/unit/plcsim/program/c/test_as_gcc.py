@@ -325,3 +325,18 @@ def test_an_inline_function_is_one_for_other_files_with_gcc_4(run, value):
         "main/Deep.c": "inline int deep(int n)\n{ return n < 1 ? 1 : n * deep(n - 1); }\n",
     }
     assert value(run(files), "main.result[0]") == 24
+
+
+def test_long_double_has_its_functions(results):
+    text = _with_head("""
+#include <math.h>
+#include <stdio.h>
+void _CYCLIC run(void)
+{
+	volatile long double x = 6.25L; long double whole; int exponent; char text[20];
+	result[0] = 100 * sqrtl(x) + fabsl(-x) * 4; result[1] = powl(x, 2) * 16;
+	result[2] = 100 * modfl(x, &whole) + whole; result[3] = 100 * frexpl(x, &exponent);
+	result[4] = exponent + lroundl(x) + snprintf(text, sizeof text, "%.3Lf", sinl(x));
+}
+""")
+    assert results({"Main.c": text}, 5) == [275, 625, 31, 78, 3 + 6 + 6]
