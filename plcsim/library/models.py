@@ -14,6 +14,7 @@ from plcsim.library.loops import pid, positions, signals, technology, temperatur
 from plcsim.library.mapp import (
     alarm_blocks,
     alarm_functions,
+    history_blocks,
     oee_blocks,
     packml_blocks,
     recipe_blocks,
@@ -49,6 +50,7 @@ _BUS: Final = "registers and objects of devices, read back as they were written"
 _HTTP: Final = "requests over the controller's network, without TLS"
 _TEXTS: Final = "conversions of texts"
 _ALARMS: Final = "the alarms of its core"
+_HISTORY: Final = "the changes of alarms of all cores"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
 _TEMPERATURE: Final = "heats below the set temperature, and cools above it"
@@ -66,6 +68,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (client.BLOCKS, _HTTP),
     (texts.BLOCKS, _TEXTS),
     (alarm_blocks.BLOCKS, _ALARMS),
+    (history_blocks.BLOCKS, _HISTORY),
     (recipe_blocks.BLOCKS, _RECIPES),
     (packml_blocks.BLOCKS, _PACKML),
     (temperature_blocks.BLOCKS, _TEMPERATURE),
@@ -83,6 +86,7 @@ _FUNCTIONS: Final[Mapping[str, tuple[Callable[..., Any], str]]] = {
     name: (function, text)
     for group, text in (
         (alarm_functions.FUNCTIONS, _ALARMS),
+        (history_blocks.FUNCTIONS, _HISTORY),
         (packml_blocks.FUNCTIONS, _PACKML),
     )
     for name, function in group.items()

@@ -134,7 +134,7 @@ class AlarmControl(AlarmBlock):
         """Take a command; return the status."""
         name, ident = variables.text("Name"), int(variables.number("ID"))
         if edge == "Set":
-            made = core.set(name, self.context.date_ns)
+            made = core.set(name)
             variables.set(InstanceID=made)
             return 0 if made else NAME_NOT_FOUND
         found = core.numbered(ident) if ident else core.named(name)
@@ -197,13 +197,13 @@ class ListUI(AlarmBlock):
             "InstanceID": 0 if pending is None else pending.ident,
             "StateActive": pending is not None and pending.is_active,
             "StateAcknowledged": pending is not None and not pending.waits_for_acknowledgement,
-            "Timestamp": "" if pending is None else _date_text(pending.set_ns),
+            "Timestamp": "" if pending is None else date_text(pending.set_ns),
         }
         for name, value in line.items():
             screen.set_element(f"AlarmList.{name}", index, value)
 
 
-def _date_text(date_ns: int) -> str:
+def date_text(date_ns: int) -> str:
     """Return a date as UISetup.TimeStampPattern has it unless it is set: with milliseconds."""
     seconds, rest_ns = divmod(date_ns, NS_PER_SECOND)
     return f"{date_of(seconds):%Y-%m-%d %H:%M:%S}:{rest_ns // NS_PER_MS:03}"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.library.mapp.alarms import AlarmState
 from plcsim.library.mapp.errors import ACK_NOT_ALLOWED, ALARM_NOT_ACTIVE, MPLINK_NULL, NO_ERROR
 from plcsim.library.mapp.links import links_of
 
@@ -18,17 +18,6 @@ if TYPE_CHECKING:
     Do = Callable[[AlarmCore, list[PendingAlarm]], int]
 
 LONGEST_NAME: Final = 255
-
-
-class _State(IntEnum):
-    """MpAlarmXStateEnum; no alarm here is to be confirmed."""
-
-    NONE = 0
-    ACTIVE = 1
-    INACTIVE = 2
-    ACKNOWLEDGED = 3
-    UNACKNOWLEDGED = 4
-    CONFIRMED = 5
 
 
 def _name(context: Context, address: int) -> str:
@@ -46,7 +35,7 @@ def _numbered(_context: Context, core: AlarmCore, ident: int) -> list[PendingAla
 def set_alarm(context: Context, p_link: int, p_name: int) -> int:
     """MpAlarmXSet: return the number of the instance, 0 where there is no such alarm."""
     core = links_of(context).at(p_link)
-    return 0 if core is None else core.set(_name(context, p_name), context.date_ns)
+    return 0 if core is None else core.set(_name(context, p_name))
 
 
 def reset(core: AlarmCore, found: list[PendingAlarm]) -> int:
@@ -83,23 +72,23 @@ def _check(find: Find) -> Callable[[Context, int, int, int], bool]:
     def check(context: Context, p_link: int, alarm: int, state: int) -> bool:
         core = links_of(context).at(p_link)
         found = [] if core is None else find(context, core, alarm)
-        return any(_has_state(each, state) for each in found) if found else state == _State.NONE
+        return any(_has_state(each, state) for each in found) if found else state == AlarmState.NONE
 
     return check
 
 
 def _has_state(pending: PendingAlarm, state: int) -> bool:
     match state:
-        case _State.ACTIVE:
+        case AlarmState.ACTIVE:
             return pending.is_active
-        case _State.INACTIVE:
+        case AlarmState.INACTIVE:
             return not pending.is_active
-        case _State.ACKNOWLEDGED:
+        case AlarmState.ACKNOWLEDGED:
             return not pending.waits_for_acknowledgement
-        case _State.UNACKNOWLEDGED:
+        case AlarmState.UNACKNOWLEDGED:
             return pending.waits_for_acknowledgement
         case _:
-            return state == _State.CONFIRMED
+            return state == AlarmState.CONFIRMED
 
 
 def check_reaction(context: Context, p_link: int, p_name: int) -> bool:

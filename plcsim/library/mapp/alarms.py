@@ -6,8 +6,10 @@ acknowledged.
 
 from __future__ import annotations
 
+from collections import deque
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from enum import IntEnum
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from plcsim.library.mapp.configuration import (
     Acknowledgement,
@@ -17,10 +19,40 @@ from plcsim.library.mapp.configuration import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
 MOST_PENDING: Final = 500
 """Alarms of a core that are pending at a time; what is beyond is not set."""
+
+MOST_RECORDED: Final = 200
+"""Changes of the alarms of a core that are kept; older ones make room."""
+
+
+class AlarmState(IntEnum):
+    """MpAlarmXStateEnum; no alarm here is to be confirmed."""
+
+    NONE = 0
+    ACTIVE = 1
+    INACTIVE = 2
+    ACKNOWLEDGED = 3
+    UNACKNOWLEDGED = 4
+    CONFIRMED = 5
+
+
+class StateChange(NamedTuple):
+    """An entry of the history.
+
+    Attributes:
+        alarm: whose state changed.
+        old: its state before.
+        new: its state since.
+        date_ns: nanoseconds since 1970.
+    """
+
+    alarm: AlarmConfiguration
+    old: AlarmState
+    new: AlarmState
+    date_ns: int
 
 
 @dataclass(slots=True, eq=False)
@@ -61,15 +93,20 @@ class AlarmCore:
         configuration: of its alarms; without any, every name is an alarm that is active until it
             is reset.
 
+        date: gives the date, nanoseconds since 1970.
+
     Attributes:
         configuration: as above.
         pending: in the order in which they were set.
+        history: changes of their states, the oldest first.
         changes: how often something was done to them.
     """
 
-    def __init__(self, configuration: AlarmCoreConfiguration) -> None:
+    def __init__(self, configuration: AlarmCoreConfiguration, date: Callable[[], int]) -> None:
         self.configuration = configuration
+        self._date = date
         self.pending: list[PendingAlarm] = []
+        self.history: deque[StateChange] = deque(maxlen=MOST_RECORDED)
         self.changes = 0
         self._last = 0
 
@@ -98,40 +135,39 @@ class AlarmCore:
         """Those that somebody has to acknowledge."""
         return (each for each in self.pending if each.waits_for_acknowledgement)
 
-    def set(self, name: str, now_ns: int) -> int:
-        """Set an alarm; return the number of its instance, 0 where there is no such alarm.
-
-        Args:
-            name: of the alarm.
-            now_ns: date, nanoseconds since 1970.
-        """
+    def set(self, name: str) -> int:
+        """Set an alarm; return the number of its instance, 0 where there is no such alarm."""
         alarm = self.alarm(name)
         if alarm is None:
             return 0
         found = [] if alarm.behavior.has_instances else self.named(name)
-        pending = found[0] if found else self._new(alarm, now_ns)
+        pending = found[0] if found else self._new(alarm)
         if pending is None:
             return 0
         if not pending.is_active:
             self.changes += 1
-            pending.is_active, pending.set_ns = True, now_ns
+            pending.is_active, pending.set_ns = True, self._date()
+            self._record(pending, AlarmState.INACTIVE, AlarmState.ACTIVE)
             if alarm.behavior.acknowledgement is Acknowledgement.RESETTABLE:
                 pending.is_acknowledged = False
         if alarm.behavior.auto_reset:
             self.reset([pending])
         return pending.ident
 
-    def _new(self, alarm: AlarmConfiguration, now_ns: int) -> PendingAlarm | None:
+    def _new(self, alarm: AlarmConfiguration) -> PendingAlarm | None:
         if len(self.pending) >= MOST_PENDING:
             return None
         self._last += 1
         self.changes += 1
-        self.pending.append(made := PendingAlarm(self._last, alarm, now_ns))
+        self.pending.append(made := PendingAlarm(self._last, alarm, self._date()))
+        self._record(made, AlarmState.INACTIVE, AlarmState.ACTIVE)
         return made
 
     def reset(self, alarms: list[PendingAlarm]) -> None:
         """Let alarms be inactive."""
         for each in alarms:
+            if each.is_active:
+                self._record(each, AlarmState.ACTIVE, AlarmState.INACTIVE)
             each.is_active = False
         if alarms:
             self._forget()
@@ -145,10 +181,20 @@ class AlarmCore:
             and each.alarm.behavior.acknowledgement is Acknowledgement.AFTER_ACTIVE
         ]
         for each in alarms:
+            if each.waits_for_acknowledgement and each not in refused:
+                self._record(each, AlarmState.UNACKNOWLEDGED, AlarmState.ACKNOWLEDGED)
             each.is_acknowledged = each not in refused
         if alarms:
             self._forget()
         return not refused
+
+    def _record(self, pending: PendingAlarm, old: AlarmState, new: AlarmState) -> None:
+        self.history.append(StateChange(pending.alarm, old, new, self._date()))
+
+    def clear_history(self) -> None:
+        """Forget all changes."""
+        self.changes += 1
+        self.history.clear()
 
     def _forget(self) -> None:
         """Forget what is neither active nor waits for anybody."""

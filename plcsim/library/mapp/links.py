@@ -28,6 +28,7 @@ class AlarmLinks:
     """
 
     def __init__(self, context: Context) -> None:
+        self._context = context
         self._memory = context.memory
         self._cores: dict[int, AlarmCore] = {}
         configuration = context.settings(MappConfiguration) or MappConfiguration()
@@ -40,7 +41,7 @@ class AlarmLinks:
 
     def _add(self, address: int, configuration: AlarmCoreConfiguration) -> AlarmCore:
         self._memory.write(address, address.to_bytes(4, "little"))
-        core = self._cores[address] = AlarmCore(configuration)
+        core = self._cores[address] = AlarmCore(configuration, lambda: self._context.date_ns)
         return core
 
     def __iter__(self) -> Iterator[AlarmCore]:

@@ -44,7 +44,7 @@ class AlarmMonitor:
             elif now_ns - self._since_ns.setdefault(name, now_ns) >= monitoring.delay_ns and not (
                 any(each.is_active for each in pending)
             ):
-                self._core.set(name, self._context.date_ns)
+                self._core.set(name)
 
     def _is_wrong(self, monitoring: Monitoring) -> bool:
         value = self._value(monitoring.variable)
