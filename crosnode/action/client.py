@@ -54,7 +54,7 @@ class ActionClient:
         self._node = node
         self._goals: dict[str, ClientGoal] = {}
         self._numbers = count(1)
-        kinds = self.action_type
+        kinds, name = self.action_type, node.resolve_name(name)
         self._goal_out = node.register_publisher(
             f"{name}/goal", kinds.action_goal.name, queue_size=MOST_GOALS
         )

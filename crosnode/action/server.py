@@ -125,7 +125,8 @@ class ActionServer:
 
     Args:
         node: of the program.
-        name: of the action, resolved by the node.
+        name: of the action, resolved and remapped by the node before its topics are, as in
+            rospy and roscpp.
         type_name: ``pkg/Name``.
 
     Raises:
@@ -149,7 +150,7 @@ class ActionServer:
         self._canceled_until_ns = 0
         self._new: DropOldestQueue[Goal] = DropOldestQueue(MOST_GOALS)
         self._status_ns = 0
-        kinds = self.action_type
+        kinds, name = self.action_type, node.resolve_name(name)
         self._goal_in = node.register_subscriber(
             f"{name}/goal", kinds.action_goal.name, queue_size=MOST_GOALS
         )

@@ -167,6 +167,14 @@ class CrosNode:
         """Whether the master knows all that shall be registered."""
         return self.core.master.is_registered
 
+    def resolve_name(self, name: str) -> str:
+        """Return the global name that the program means, remapped.
+
+        Raises:
+            InvalidNameError: not a legal name.
+        """
+        return self._names.resolve(name)
+
     # What a program registers
 
     def register_publisher(
@@ -306,7 +314,7 @@ class CrosNode:
         service_type = self.types.service(type_name)
         service_type.warm()
         caller = ServiceCaller(
-            self._names.resolve(service),
+            self.resolve_name(service),
             service_type,
             self.core,
             persistent=persistent,
@@ -318,7 +326,7 @@ class CrosNode:
 
     def subscribe_param(self, name: str, *, queue_size: int = 10) -> ParameterSubscription:
         """Follow a parameter, or all below a namespace."""
-        name = self._names.resolve(name)
+        name = self.resolve_name(name)
         registration = Registration(
             name,
             ("subscribeParam", [self.uri, name]),
@@ -361,7 +369,7 @@ class CrosNode:
                 link.close("unregistered")
 
     def _new_name(self, name: str, taken: Mapping[str, object]) -> str:
-        name = self._names.resolve(name)
+        name = self.resolve_name(name)
         if name in taken:
             raise InvalidNameError(f"{self.name} has {name} already.")
         return name
@@ -370,19 +378,19 @@ class CrosNode:
 
     def get_param(self, name: str) -> ApiCall:
         """Ask for a parameter or a whole namespace."""
-        return self.core.master.call("getParam", [self._names.resolve(name)])
+        return self.core.master.call("getParam", [self.resolve_name(name)])
 
     def set_param(self, name: str, value: Value) -> ApiCall:
         """Set a parameter, or a whole namespace by a dict."""
-        return self._change_param("setParam", self._names.resolve(name), value)
+        return self._change_param("setParam", self.resolve_name(name), value)
 
     def has_param(self, name: str) -> ApiCall:
         """Ask whether a parameter is set."""
-        return self.core.master.call("hasParam", [self._names.resolve(name)])
+        return self.core.master.call("hasParam", [self.resolve_name(name)])
 
     def delete_param(self, name: str) -> ApiCall:
         """Delete a parameter or a whole namespace."""
-        return self._change_param("deleteParam", self._names.resolve(name))
+        return self._change_param("deleteParam", self.resolve_name(name))
 
     def _change_param(self, method: str, name: str, *value: Value) -> ApiCall:
         def done(call: ApiCall) -> None:

@@ -11,7 +11,7 @@ from crosnode.errors import LocalProtocolError
 from crosnode.messages import Time
 from crosnode.node.ros_time import Epoch
 
-from ..node.world import MS, OTHER_IP, World, drain
+from ..node.world import MS, OTHER_IP, PLC_IP, World, drain
 
 TYPE = "control_msgs/FollowJointTrajectory"
 
@@ -51,6 +51,26 @@ def test_a_goal_is_done_with_feedback_and_a_result() -> None:
     assert (sent.state, sent.text, sent.is_over) == (GoalState.SUCCEEDED, "there", True)
     assert sent.result is not None
     assert sent.result.error_string == "fine"
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("follow", ["follow:=/arm/follow"]),
+        ("~follow", ["~follow:=/arm/follow"]),
+        ("/follow", ["/follow:=/other", "/other/goal:=/arm/follow/goal"]),
+    ],
+)
+def test_the_name_of_an_action_is_remapped(name: str, arguments: list[str]) -> None:
+    world = World()
+    node = world.node("cell", OTHER_IP, *arguments)
+    ActionServer(node, name, TYPE)
+    planner = world.node("planner", PLC_IP, *arguments)
+    ActionClient(planner, name, TYPE)
+    assert "/arm/follow/goal" in node.subscribers
+    assert "/arm/follow/goal" in planner.publishers
+    other = "/other" if name == "/follow" else "/arm/follow"
+    assert set(node.publishers) >= {f"{other}/{each}" for each in ("status", "feedback", "result")}
 
 
 def test_a_canceled_goal_is_stopped_by_the_program() -> None:
