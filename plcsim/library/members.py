@@ -233,6 +233,15 @@ def rises(context: Context, address: int, variables: BlockVariables, name: str) 
     return changes(context, address, name, value) and value
 
 
+def target_of(data_type: StructType[Any], name: str) -> DataType[Any] | None:
+    """Return the type that a REFERENCE TO leads to, None where a structure has no such member."""
+    found = (each for each in data_type.members if each.name.upper() == name.upper())
+    member = next(found, None)
+    kind = None if member is None else resolve_alias(member.data_type)
+    target = kind.target if isinstance(kind, ReferenceType) else None
+    return None if target is None else resolve_alias(target)
+
+
 class ReferredStructure:
     """The structure that a REFERENCE TO in the data blocks of one type leads to.
 
@@ -243,11 +252,7 @@ class ReferredStructure:
 
     def __init__(self, data_type: StructType[Any], name: str) -> None:
         self._name = name
-        found = (each for each in data_type.members if each.name.upper() == name.upper())
-        member = next(found, None)
-        kind = None if member is None else resolve_alias(member.data_type)
-        target = kind.target if isinstance(kind, ReferenceType) else None
-        target = None if target is None else resolve_alias(target)
+        target = target_of(data_type, name)
         self._members = StructMembers(target) if isinstance(target, StructType) else None
 
     def of(self, memory: Memory, variables: BlockVariables) -> BlockVariables | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
+from plcsim.library.accounts import blocks as account_blocks
 from plcsim.library.bus import objects
 from plcsim.library.http import client, texts
 from plcsim.library.loops import pid, positions, signals, technology, temperature
@@ -19,6 +20,7 @@ from plcsim.library.mapp import (
     packml_blocks,
     recipe_blocks,
     temperature_blocks,
+    user_blocks,
 )
 from plcsim.library.motion import assembly, cyclic, drive_parameters, mapp, plcopen
 
@@ -51,6 +53,8 @@ _HTTP: Final = "requests over the controller's network, without TLS"
 _TEXTS: Final = "conversions of texts"
 _ALARMS: Final = "the alarms of its core"
 _HISTORY: Final = "the changes of alarms of all cores"
+_USERS: Final = "any name logs in, with all rights"
+_ACCOUNTS: Final = "users that programs make"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
 _TEMPERATURE: Final = "heats below the set temperature, and cools above it"
@@ -70,6 +74,8 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (alarm_blocks.BLOCKS, _ALARMS),
     (history_blocks.BLOCKS, _HISTORY),
     (recipe_blocks.BLOCKS, _RECIPES),
+    (user_blocks.BLOCKS, _USERS),
+    (account_blocks.BLOCKS, _ACCOUNTS),
     (packml_blocks.BLOCKS, _PACKML),
     (temperature_blocks.BLOCKS, _TEMPERATURE),
     (temperature.BLOCKS, _TEMPERATURE),

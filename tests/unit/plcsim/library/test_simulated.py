@@ -261,3 +261,23 @@ def test_what_comes_once_is_a_number_at_an_input(rule):
 def test_a_block_that_receives_has_received_nothing(name, status):
     body = table_body(_classic("old"), built_in_rules().of(name))
     assert body.text == f"status is {status}"
+
+
+DETAILS = DataBlockType(
+    "ArCertGetOwnDetails",
+    [Member("Execute", BOOL, section=Section.INPUT)]
+    + [Member(name, BOOL, section=Section.OUTPUT) for name in ("Done", "Error")]
+    + [Member("StatusID", DINT, section=Section.OUTPUT)],
+)
+
+
+def test_a_list_of_certificates_has_no_entry():
+    memory = Memory()
+    address = memory.allocate(DETAILS.size)
+    body = table_body(DETAILS, built_in_rules().of(DETAILS.name))
+    assert body.text == "Error follows Execute"
+    memory.set(BOOL, address + DETAILS.find("Execute")[1], True)
+    body.bind(Context(memory, None))(address)
+    values = [memory.get(BOOL, address + DETAILS.find(name)[1]) for name in ("Done", "Error")]
+    assert values == [False, True]
+    assert memory.get(DINT, address + DETAILS.find("StatusID")[1]) == -1070585796
