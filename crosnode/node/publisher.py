@@ -41,6 +41,7 @@ class Publisher:
         bytes_sent: bytes sent to subscribers so far.
         links: connections to subscribers.
         registration: with the master.
+        latched: bytes of the message that a new subscriber gets, None where there is none.
         hand_over: asked with the subscriber's name and the message before it is sent; where it
             returns True the subscriber has it already, past the network.
     """
@@ -66,7 +67,7 @@ class Publisher:
         self.hand_over: Callable[[str, bytes | memoryview], bool] | None = None
         self.links: dict[PeerLink, SubscriberLink] = {}
         DropOldestQueue[bytes](queue_size)  # a wrong size is an error now, not in the cycle
-        self._latched: memoryview | bytes | None = None
+        self.latched: bytes | memoryview | None = None
         self._packets: DropOldestQueue[Message] = DropOldestQueue(1)
         self._period = Period(loop_period_ns)
         self._border = border
@@ -114,7 +115,7 @@ class Publisher:
         self.sent += 1
         self._border.cross(body)
         if self.latching:
-            self._latched = body
+            self.latched = body
         hand_over = self.hand_over
         for link, owner in list(self.links.items()):
             if hand_over is None or not hand_over(owner.subscriber, body):
@@ -130,8 +131,8 @@ class Publisher:
         """Take a new subscriber."""
         self.links[link] = owner
         owner.queue = DropOldestQueue(self.queue_size)
-        if self._latched is not None:
-            owner.queue.push(self._latched)
+        if self.latched is not None:
+            owner.queue.push(self.latched)
 
     def type_info(self) -> TypeInfo:
         """Return what the header says of the type."""

@@ -76,14 +76,19 @@ class StaticTransformBroadcaster:
         self._node = node
         self._publisher = _publisher(node, "/tf_static", latching=True)
         self._stamped = node.types.message(STAMPED)
-        self._told: dict[str, Message] = {}
+        self._told: dict[str, Any] = {}
+        self._sent: bytes | memoryview | None = None
 
     def send(self, parent: str, child: str, transform: Transform) -> None:
-        """Tell where a frame is, and all told before: the last message alone is latched.
+        """Tell where a frame is, and all that the node has told: the last message alone is latched.
 
         Raises:
             MessageValueError: there are too many frames.
         """
+        latched = self._publisher.latched
+        if latched is not None and latched is not self._sent:  # that of another broadcaster
+            transforms = self._publisher.message_type.decode(latched).transforms
+            self._told = {each.child_frame_id: each for each in transforms}
         if child not in self._told and len(self._told) >= MOST_STATIC:
             raise MessageValueError(f"more than {MOST_STATIC} static frames.")
         message = self._stamped.new()
@@ -92,6 +97,7 @@ class StaticTransformBroadcaster:
         fill_message(message.transform, transform)
         self._told[child] = message
         self._publisher.send(self._publisher.new(transforms=list(self._told.values())))
+        self._sent = self._publisher.latched
 
 
 class TransformListener:

@@ -44,6 +44,20 @@ def test_frames_are_told_and_looked_up() -> None:
     assert listener.buffer.frames["foot"].history[0].stamp_ns == EPOCH_NS
 
 
+def test_who_comes_late_hears_the_static_frames_of_all_broadcasters_of_a_node() -> None:
+    world, _, static = world_with_frames()
+    other = StaticTransformBroadcaster(static._node)
+    static.send("world", "base", Transform((0.0, 0.0, 1.0)))
+    other.send("base", "tool", Transform())
+    static.send("world", "base", Transform((0.0, 0.0, 2.0)))
+    static.send("base", "camera", Transform())
+    listener = TransformListener(world.node("late", OTHER_IP, epoch=Epoch(EPOCH_NS)))
+    world.steps.append(listener.step)
+    world.run(200)
+    assert set(listener.buffer.frames) == {"base", "tool", "camera"}
+    assert listener.lookup("world", "tool").translation == (0.0, 0.0, 2.0)
+
+
 def test_one_message_for_all_frames_of_a_cycle_and_one_publisher_for_all_broadcasters() -> None:
     world, moving, _ = world_with_frames()
     again = TransformBroadcaster(moving._node)
