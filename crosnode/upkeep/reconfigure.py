@@ -1,7 +1,8 @@
 """dynamic_reconfigure: values that others may change while a program runs, as a declared table.
 
 The wire is that of dynamic_reconfigure's server: a service ``set_parameters`` and two latched
-topics below the node's name, ``parameter_descriptions`` and ``parameter_updates``.
+topics below the node's name, ``parameter_descriptions`` and ``parameter_updates``. As there, the
+parameter server has the values: those of a launch file count, and ``rosparam dump`` keeps them.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 from crosnode.errors import MessageValueError
+from crosnode.upkeep.stored_values import StoredValues
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -113,6 +115,7 @@ class Reconfigure:
             latching=True,
         )
         descriptions.send(self._description())
+        self._stored = StoredValues(node, below, self.values, self._table, self._read)
         self._tell()
 
     def set(self, name: str, value: Value) -> None:
@@ -121,7 +124,7 @@ class Reconfigure:
         Raises:
             KeyError: there is no such value.
         """
-        self.values[name] = self._table[name].cut(value)
+        self._change(name, value)
         self._tell()
 
     def step(self) -> None:
@@ -130,6 +133,7 @@ class Reconfigure:
             self._take(request.request.config)
             request.respond(config=self._config(self.values))
             self._tell()
+        self._stored.step()
 
     def _take(self, config: Message) -> None:
         """Take values of their own type; unknown names are passed over, as there."""
@@ -139,7 +143,23 @@ class Reconfigure:
                 known = self._table.get(sent.name)
                 is_number = not isinstance(sent.value, float) or isfinite(sent.value)
                 if known is not None and type(known.value) is kind and is_number:
-                    self.values[sent.name] = known.cut(sent.value)
+                    self._change(sent.name, sent.value)
+
+    def _change(self, name: str, value: Any) -> None:
+        cut = self._table[name].cut(value)
+        if cut != self.values[name]:
+            self.values[name] = cut
+            self._stored.changed(name)
+
+    def _read(self, name: str, value: Any) -> None:
+        """Take a value from the parameter server, where its type is right or makes a right one."""
+        kind = type(self._table[name].value)
+        if kind is float and type(value) is int:
+            value = float(value)
+        if type(value) is kind and value != self.values[name]:
+            self.changes += 1
+            self._change(name, value)
+            self._tell()
 
     def _tell(self) -> None:
         self._updates.send(self._config(self.values))

@@ -57,6 +57,7 @@ def test_values_with_the_client_of_dynamic_reconfigure(ros: Ros) -> None:
         "now 2.0 welder True",
     ]
     assert server.values == {"speed": 2.0, "careful": True, "tool": "welder"}
+    ros.until(lambda: ros.tool("rosparam", "get", "/cell/tool").strip() == "welder")
 
 
 def test_diagnostics_at_rostopic(ros: Ros) -> None:

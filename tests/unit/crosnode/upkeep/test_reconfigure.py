@@ -7,7 +7,7 @@ import pytest
 from crosnode.errors import MessageValueError
 from crosnode.upkeep.reconfigure import Adjustable, Reconfigure
 
-from ..node.world import OTHER_IP, World, drain
+from ..node.world import MASTER_IP, OTHER_IP, World, drain
 
 TABLE = (
     Adjustable("speed", 0.5, 0.0, 2.0, "m/s"),
@@ -97,3 +97,52 @@ def test_the_program_changes_values() -> None:
 def test_a_table_that_cannot_be(table: tuple[Adjustable, ...]) -> None:
     with pytest.raises(MessageValueError):
         Reconfigure(World().node("n"), table)
+
+
+def test_what_the_parameter_server_has_counts_at_the_start_and_what_changes_is_stored() -> None:
+    world = World()
+    assert world.master
+    master = world.master.master
+    found = {"speed": 9, "retries": 2.5, "careful": False, "note": "not of the table"}
+    master.set_param("/launch", "/cell", found)
+    server = Reconfigure(world.node("cell"), TABLE)
+    world.steps.append(server.step)
+    gui = world.node("gui", OTHER_IP)
+    updates = gui.register_subscriber("/cell/parameter_updates", "dynamic_reconfigure/Config")
+    world.run(1_000)
+    values = {"speed": 2.0, "retries": 3, "careful": False, "tool": "gripper"}
+    assert server.values == values
+    assert server.changes == 2
+    assert values_of(drain(updates.pop)[-1]) == values
+    assert master.get_param("/x", "/cell")[2] == found | values
+    server.set("tool", "welder")
+    world.run(100)
+    assert master.get_param("/x", "/cell/tool")[2] == "welder"
+
+
+def test_values_are_stored_when_the_master_comes_and_a_newer_one_is_not_read_over() -> None:
+    world = World(master=False)
+    world.net.host(MASTER_IP)
+    server = Reconfigure(world.node("cell"), TABLE)
+    world.steps.append(server.step)
+    world.run(1_000)
+    server.set("retries", 7)
+    world.restart_master()
+    assert world.master
+    master = world.master.master
+    master.set_param("/launch", "/cell/retries", 5)
+    world.run(3_000)
+    assert server.values["retries"] == 7
+    assert master.get_param("/x", "/cell")[2] == server.values
+
+
+def test_a_value_that_changes_while_the_master_is_away_is_stored_later() -> None:
+    rig = Rig()
+    rig.world.run(500)
+    rig.world.kill_master()
+    rig.server.set("speed", 1.5)
+    rig.world.run(500)
+    rig.world.restart_master()
+    assert rig.world.master
+    rig.world.run(3_000)
+    assert rig.world.master.master.get_param("/x", "/cell/speed")[2] == 1.5
