@@ -15,6 +15,7 @@ from plcsim.library.loops import pid, positions, signals, technology, temperatur
 from plcsim.library.mapp import (
     alarm_blocks,
     alarm_functions,
+    file_blocks,
     history_blocks,
     oee_blocks,
     packml_blocks,
@@ -55,6 +56,7 @@ _ALARMS: Final = "the alarms of its core"
 _HISTORY: Final = "the changes of alarms of all cores"
 _USERS: Final = "any name logs in, with all rights"
 _ACCOUNTS: Final = "users that programs make"
+_FILES: Final = "files on the devices of FileIO"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
 _TEMPERATURE: Final = "heats below the set temperature, and cools above it"
@@ -75,6 +77,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (history_blocks.BLOCKS, _HISTORY),
     (recipe_blocks.BLOCKS, _RECIPES),
     (user_blocks.BLOCKS, _USERS),
+    (file_blocks.BLOCKS, _FILES),
     (account_blocks.BLOCKS, _ACCOUNTS),
     (packml_blocks.BLOCKS, _PACKML),
     (temperature_blocks.BLOCKS, _TEMPERATURE),

@@ -130,6 +130,11 @@ class Volumes:
             raise FileRefusedError(status)
         return text
 
+    @property
+    def device_names(self) -> list[bytes]:
+        """The names of all devices: those of the settings, then those that DevLink made."""
+        return [*self._folders, *(link.name for _, link in self.links)]
+
     def folder(self, device: bytes) -> Path | None:
         """Return the folder of a device, None where there is no such device."""
         for _, link in self.links:

@@ -26,6 +26,17 @@ RECIPE_WITHOUT_UICONNECT: Final = -2137882611
 NOT_DELETED: Final = -1064140780
 """Of MpRecipeErrorEnum; what begins with -2 is a warning: the block goes on."""
 
+FILE_WITHOUT_UICONNECT: Final = -1064165376
+NOTHING_TO_PASTE: Final = -1064165374
+NOTHING_SELECTED: Final = -1064165373
+DIR_ALREADY_EXISTS: Final = -1064165372
+INVALID_FILE_DEVICE: Final = -1064165371
+NAME_EMPTY: Final = -1064165370
+INVALID_NAME: Final = -1064165369
+PASTE_NOT_ALLOWED: Final = -1064165368
+FILE_SYSTEM: Final = -1064165367
+"""Of MpFileErrorEnum."""
+
 
 def is_error(status: int) -> bool:
     """Whether a status is an error, and not a warning or an information."""

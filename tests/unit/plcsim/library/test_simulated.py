@@ -4,7 +4,7 @@ import pytest
 
 from plcsim.core.context import Context
 from plcsim.core.memory import Memory
-from plcsim.library.simulated import Rules, built_in_rules, table_body
+from plcsim.library.simulated import Rules, built_in_rules, result_body, table_body
 from st_types import BOOL, DINT, INT, UDINT, UINT
 from st_types.types.derived import DataBlockType, Member, Section, StructType
 
@@ -281,3 +281,24 @@ def test_a_list_of_certificates_has_no_entry():
     values = [memory.get(BOOL, address + DETAILS.find(name)[1]) for name in ("Done", "Error")]
     assert values == [False, True]
     assert memory.get(DINT, address + DETAILS.find("StatusID")[1]) == -1070585796
+
+
+@pytest.mark.parametrize(
+    ("name", "result"),
+    [("VA_Setup", 1), ("VA_GetActAlarmList", 240), ("VA_wcGetExAlarmList", 240), ("MO_list", 1)],
+)
+def test_a_function_returns_what_the_table_says(name, result):
+    body = result_body(name, built_in_rules().of(name))
+    assert body.bind(Context(Memory(), None))(1, 2, 3) == result
+
+
+def test_the_command_of_a_query_for_more_is_done():
+    query = DataBlockType(
+        "MpAlarmXQuery",
+        [Member(name, BOOL, section=Section.INPUT) for name in ("Enable", "Execute", "Next")]
+        + [Member("CommandDone", BOOL, section=Section.OUTPUT)],
+    )
+    assert (
+        table_body(query, built_in_rules().of(query.name)).text
+        == "CommandDone follows Execute or Next"
+    )
