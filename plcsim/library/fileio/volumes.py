@@ -144,18 +144,23 @@ class Volumes:
 
     def _ready(self, folder: Path | None) -> Path | None:
         """Make the folder of a device that plc.toml does not name."""
-        if folder in self._made and not folder.is_dir():
-            with suppress(OSError):  # what is done there is refused then
-                folder.mkdir(parents=True)
+        if folder in self._made:
+            _make(folder)
         return folder
 
     def linked_folder(self, path: bytes) -> Path | None:
-        """Return the folder that ``/DEVICE=`` names: a known one, or one inside it."""
+        """Return the folder that ``/DEVICE=`` names: a known one, or one inside it.
+
+        Below a device that plc.toml does not name it is made: whoever wrote the program had it on
+        his controller.
+        """
         for name, folder in self._folders.items():
             rest = path[len(name) :]
             if path[: len(name)].upper() == name.upper() and rest[:1] in (b"", b"/", b"\\"):
-                self._ready(folder)
-                return inside(folder, rest)
+                found = inside(folder, rest)
+                if folder in self._made:
+                    _make(found)
+                return found
         return None
 
     def path(self, p_device: int, p_path: int, *, is_optional: bool = False) -> Path:
@@ -189,6 +194,12 @@ class Volumes:
         """Give a file that was changed the controller's date."""
         date_ns = self.context.date_ns
         os.utime(path, ns=(date_ns, date_ns))
+
+
+def _make(folder: Path) -> None:
+    if not folder.is_dir():
+        with suppress(OSError):  # what is done there is refused then
+            folder.mkdir(parents=True)
 
 
 def inside(folder: Path, path: bytes) -> Path:

@@ -61,6 +61,12 @@ def test_devices_that_cannot_be(files, parameter, status):
     assert (made.status, made.handle) == (status, 0)
 
 
+def test_a_folder_of_a_device_that_nobody_names_is_made(files, user):
+    assert link(files, "/DEVICE=G:\\Recipes\\old").status == ERR_OK
+    assert (user.parent / "deep" / "G" / "Recipes" / "old").is_dir()
+    assert files.do(DirInfo, pDevice="STICK").status == ERR_OK
+
+
 def test_names_of_devices(files):
     assert link(files, "/DEVICE=F:", "USER").status == fiERR_DEVICE_ALREADY_EXIST
     assert link(files, "/DEVICE=F:", "").status == fiERR_PARAMETER
