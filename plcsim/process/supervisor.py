@@ -26,6 +26,7 @@ from plcsim.core.system import State
 from plcsim.core.system_area import SystemArea
 from plcsim.core.task import Unit
 from plcsim.host.processors import keep_off
+from plcsim.host.scheduling import processor_ns
 from plcsim.host.signals import held_back
 from plcsim.host.stack_reader import location_in
 from plcsim.process import watchdog
@@ -286,6 +287,7 @@ class Supervisor:
             limit_ns=self._limit_ns(active, now_ns),
             has_result=bool(os.fstat(self._result_fd).st_size),
             waits_for_reader=self._output.waits_for_reader,
+            processor_ns=processor_ns(self._process.pid),
         )
 
     def _limit_ns(self, active: int | None, now_ns: int) -> int:

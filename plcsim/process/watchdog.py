@@ -86,6 +86,8 @@ class Sight(NamedTuple):
         has_started: it has begun to load the programs, or it has loaded them.
         has_result: it has left its result.
         waits_for_reader: it prints, and nobody takes it: that is no fault of the scan.
+        processor_ns: processor time that it has had, where it could go on; None where it waits
+            for something else, or nobody knows.
     """
 
     now_ns: int
@@ -94,6 +96,7 @@ class Sight(NamedTuple):
     has_started: bool
     has_result: bool = False
     waits_for_reader: bool = False
+    processor_ns: int | None = None
 
 
 class Watchdog:
@@ -110,6 +113,7 @@ class Watchdog:
         self._heartbeat = 0
         self._silent_ns = 0
         self._looked_ns: int | None = None
+        self._processor_ns: int | None = None
 
     def look(self, sight: Sight) -> Sign | None:
         """Judge what is seen.
@@ -128,10 +132,15 @@ class Watchdog:
         return self._enter(Sign.GIVEN_UP)
 
     def _count_silence(self, sight: Sight) -> None:
+        """Count the time since the last look, without what the host gave to others."""
         before_ns = sight.now_ns if self._looked_ns is None else self._looked_ns
-        self._looked_ns = sight.now_ns
+        had_ns, has_ns = self._processor_ns, sight.processor_ns
+        self._looked_ns, self._processor_ns = sight.now_ns, has_ns
+        silent_ns = min(sight.now_ns - before_ns, BLIND_NS)
+        if had_ns is not None and has_ns is not None:
+            silent_ns = min(silent_ns, has_ns - had_ns)
         if not sight.waits_for_reader:
-            self._silent_ns += min(sight.now_ns - before_ns, BLIND_NS)
+            self._silent_ns += silent_ns
 
     def _sign(self, sight: Sight) -> Sign | None:
         """Return what the sight means, None where it means nothing new."""

@@ -128,6 +128,26 @@ def test_a_time_in_which_the_watchdog_did_not_look_counts_little(running):
     assert running.silent_until(Sign.OVERDUE) == 520 - BLIND_NS // MS
 
 
+def test_a_program_that_gets_no_processor_is_not_blamed(running):
+    for _ in range(1000):
+        assert running.look(processor_ns=7 * MS) is None
+
+
+def test_a_program_has_its_limit_of_processor_time_on_a_busy_host(running):
+    begin_ns = running.now_ns
+    used_ns = 0
+    while running.look(processor_ns=used_ns) is None:
+        used_ns += LOOK_NS // 4
+    # the first look knows nothing of the time before it
+    assert running.now_ns - begin_ns == 4 * LIMIT_NS - 2 * LOOK_NS
+    assert running.watchdog.watch is Watch.STALLED
+
+
+def test_a_program_that_waits_for_something_else_has_its_limit_of_time(running):
+    assert running.look(processor_ns=3) is None
+    assert running.silent_until(Sign.OVERDUE, processor_ns=None) == 500
+
+
 def test_every_state_has_a_row_and_leads_to_the_end():
     assert set(TRANSITIONS) == set(Watch)
     for watch, row in TRANSITIONS.items():
