@@ -127,6 +127,7 @@ class Life:
         self._move(LifeTrigger.CLEAN)
         if self.is_over:
             self._core.loop.close(now_ns)
+            self._core.api.give_up("the node has ended")
             return
         self._core.master.give_up()
         self._core.loop.end_links(now_ns)

@@ -183,6 +183,11 @@ class ApiCaller:
                 channel.connection = None
                 link.abort("", now_ns)
 
+    def give_up(self, reason: str) -> None:
+        """Fail all calls, for nobody will make them."""
+        for channel in list(self._channels.values()):
+            channel.fail_all(reason)
+
     def step_first(self, now_ns: int, budget: StepBudget) -> None:
         """Go before the connections in every other step, so that these cannot use up all of it."""
         self._is_first = not self._is_first

@@ -2,6 +2,7 @@
 
 from crosnode.node import StatusKind
 from crosnode.node.registration import RegistrationState
+from crosnode.xmlrpc.api_caller import CallState
 
 from .world import MASTER_IP, MS, OTHER_IP, STRING, World, news, words
 
@@ -68,3 +69,16 @@ def test_a_node_whose_master_hangs_returns_all_the_same() -> None:
     node.shut_down("so")
     world.run(40_000, step_ms=5)
     assert publisher.registration.state is RegistrationState.REGISTERED
+
+
+def test_calls_of_a_node_that_has_ended_have_failed() -> None:
+    world = World()
+    node = world.node("n")
+    world.until(lambda: node.is_registered)
+    world.run(50)
+    world.faults.silence(MASTER_IP)
+    calls = [node.get_param("/p") for _ in range(3)]
+    node.close()
+    world.run(4_000)
+    assert node.is_closed
+    assert {call.state for call in calls} == {CallState.FAILED}
