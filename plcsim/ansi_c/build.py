@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from plcsim.ansi_c.conversions import SATURATE, as_gcc_converts, may_convert
-from plcsim.ansi_c.gcc_options import for_language, without_standard
+from plcsim.ansi_c.gcc_options import for_language, of_layout
 from plcsim.ansi_c.loops import may_have_loops, seems_without_loops
 from plcsim.ansi_c.mends import Mends
 from plcsim.ansi_c.plain_words import defined_twice, explained, place_of
@@ -144,11 +144,14 @@ def build(order: BuildOrder, toolchain: Toolchain, cache: CodeCache) -> Built:
     with _WorkFolder() as work:
         objects = _compiled(order.sources, order, toolchain, cache, work)
         read = {file for o in objects for file in o.files}
-        of_language = replace(order, options=without_standard(order.options))
+        of_language = BuildOrder(
+            "the library of C++", (), order.folders[-1:], of_layout(order.options)
+        )
         offered = []
         for those, libraries in ((order, order.libraries), (of_language, toolchain.libraries)):
-            sources = [s for each in libraries if each.is_used(read) for s in each.sources]
-            offered += _compiled(sources, those, toolchain, cache, work)
+            for each in [library for library in libraries if library.is_used(read)]:
+                own = replace(those, options=[*those.options, *each.options])
+                offered += _compiled(each.sources, own, toolchain, cache, work)
         _check_initial_values(order, objects)
         taken = chosen([o.content for o in objects], [o.content for o in offered])
         objects += [offered[number] for number in taken]
@@ -272,9 +275,13 @@ class _Object:
 
     @cached_property
     def _mends(self) -> Mends:
-        is_c, sources, folders = self.is_c, self._sources, self._folders
         return Mends(
-            self.source, is_c=is_c, sources=sources, folders=folders, file=lambda: self.file
+            self.source,
+            is_c=self.is_c,
+            sources=self._sources,
+            folders=self._folders,
+            file=lambda: self.file,
+            throwing=self.toolchain.throwing,
         )
 
     @cached_property
@@ -316,8 +323,13 @@ class _Object:
         """Return what makes an object of the bitcode."""
         has_loops = not self.is_c or _LOOP in self._bitcode.read_bytes()
         passes = self._rounds if has_loops else _NO_PASSES
-        options = [*_OPTIONS, *self._options, *passes, "-Wno-unused-command-line-argument"]
+        options = [*self._later_options(), *passes]
         return [*self.toolchain.c, *options, str(self._bitcode), "-o", str(self.file)]
+
+    def _later_options(self) -> list[str]:
+        """Return the options for what a run of the compiler has written."""
+        mended = self._mends.later_options()
+        return [*_OPTIONS, *self._options, *mended, "-Wno-unused-command-line-argument"]
 
     def command_to_text(self) -> list[str]:
         """Return what writes the source as text of the compiler's intermediate representation."""
@@ -327,7 +339,7 @@ class _Object:
         """Return what compiles that text, as `first_command` does the source."""
         to_object = self.is_made_at_once
         target = [str(self.file)] if to_object else [str(self._bitcode), *_TO_BITCODE]
-        options = [*_OPTIONS, *self._options, "-w"]
+        options = [*self._later_options(), "-w"]
         return [*self.toolchain.c, *options, str(self._text), "-o", *target]
 
     def command_that_tells(self) -> list[str]:

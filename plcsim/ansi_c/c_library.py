@@ -128,11 +128,13 @@ class _Host:
     def __init__(self, machine: Machine) -> None:
         self._memory = machine.memory
         self._make = machine.host_function
+        self._jumps = machine.shared(NonlocalJumps)
         self.files: Files | None = None
         self._functions = {
             "plc_write": self._make(self._write, "III"),
             "plc_fault": self._make(self._fault, "I"),
-            "plc_longjmp": self._make(machine.shared(NonlocalJumps).jump, "I"),
+            "plc_longjmp": self._make(self._jumps.jump, "I"),
+            "plc_throw": self._make(self._throw, "II"),
             "plc_file_open": self._of_files(lambda f, p, flags: f.open(self._path(p), flags), 2),
             "plc_file_close": self._of_files(lambda f, file: f.close(file), 1),
             "plc_file_read": self._of_files(lambda f, *values: f.read(*values), 4),
@@ -196,8 +198,13 @@ class _Host:
         (sys.stderr if file == _STDERR else sys.stdout).write(text)
 
     def _fault(self, address: int) -> NoReturn:
-        reason = self._memory.string(address, _LONGEST_REASON).decode("utf-8", "backslashreplace")
-        raise MachineFault(FaultKind.OTHER, detail=reason)
+        raise MachineFault(FaultKind.OTHER, detail=self._reason(address))
+
+    def _throw(self, address: int, again: int) -> NoReturn:
+        self._jumps.jump(again, self._reason(address))
+
+    def _reason(self, address: int) -> str:
+        return self._memory.string(address, _LONGEST_REASON).decode("utf-8", "backslashreplace")
 
 
 class CLibrary:

@@ -14,6 +14,8 @@ _MEANINGLESS: Final = re.compile(
     r"-m(?!llvm).*|-O.*|-g.*|-flto.*|-f(?:no-)?(?:pic|PIC|pie|PIE|common)|-fvisibility=.*"
     # what needs a library that a controller has not
     r"|-fstack-protector.*|-fprofile.*|-ftest-coverage|--coverage|-pg"
+    # what a source throws tells the compiler
+    r"|-f(?:no-)?(?:exceptions|rtti)"
     # clang warns of more than GCC
     r"|-Werror.*|-pedantic-errors"
     # by these warnings is known what is to be mended
@@ -66,6 +68,9 @@ def for_language(options: Sequence[str], *, is_c: bool) -> list[str]:
     ]
 
 
-def without_standard(options: Sequence[str]) -> list[str]:
-    """Return options for sources that are not the project's: their language is what it is."""
-    return [option for option in options if not _STANDARD.fullmatch(option)]
+def of_layout(options: Sequence[str]) -> list[str]:
+    """Return the options that sources which are not the project's have to share with its own.
+
+    They are compiled once for all projects that have the same ones.
+    """
+    return [option for option in options if option.startswith("-f")]

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Final
 
 from plcsim.ansi_c.case_blind import spelled
 from plcsim.ansi_c.nested_functions import NEEDED, OPTION, as_block
+from plcsim.ansi_c.plain_words import THROWS
 from plcsim.ansi_c.rewriting import Rewriting
+from plcsim.ansi_c.toolchain import THROWING
 from plcsim.ansi_c.undeclared import declarations, undeclared
 
 if TYPE_CHECKING:
@@ -48,6 +50,7 @@ class Mends:
         sources: all of the program, which may define what this one calls.
         folders: where headers are looked for, besides the one of the file that includes them.
         file: gives the name of a file of its own for what is written; its suffix is replaced.
+        throwing: options for C++ that throws exceptions, none where that cannot be compiled.
 
     Attributes:
         told: warnings that do not come again, as what they tell of is mended.
@@ -61,6 +64,7 @@ class Mends:
         sources: Sequence[Path],
         folders: Sequence[Path],
         file: Callable[[], Path],
+        throwing: Sequence[str] = (),
     ) -> None:
         self._rewriting = Rewriting(source, file)
         self._is_c = is_c
@@ -70,6 +74,8 @@ class Mends:
         self._head = ""
         self._given: set[tuple[Path, int]] = set()
         self._standard: tuple[str, ...] = ()
+        self._can_throw = throwing
+        self._throwing: Sequence[str] = ()
         self.told: list[str] = []
 
     @property
@@ -79,11 +85,16 @@ class Mends:
 
     def options(self) -> list[str]:
         """Return the options by which the compiler reads what was changed."""
+        options = [*self._standard, *self._throwing]
         if not self._head:
-            return [*self._standard, *self._rewriting.options()]
+            return [*options, *self._rewriting.options()]
         self.header.write_text(self._head, "utf-8")
         blocks = [OPTION] if NEEDED in self._head else []
-        return [*self._standard, *blocks, "-include", str(self.header), *self._rewriting.options()]
+        return [*options, *blocks, "-include", str(self.header), *self._rewriting.options()]
+
+    def later_options(self) -> list[str]:
+        """Return those that also count where the compiler goes on from what it has written."""
+        return list(self._throwing[: len(THROWING)])
 
     def find(self, errors: Sequence[str], warnings: Sequence[str]) -> bool:
         """Mend what can be mended; return whether the source is to be compiled again.
@@ -93,7 +104,7 @@ class Mends:
             warnings: likewise.
         """
         found = [self._declare(warnings), self._find_headers(errors), self._own_truth(errors)]
-        found += [self._use_blocks(errors), self._use_cpp_14(errors)]
+        found += [self._use_blocks(errors), self._use_cpp_14(errors), self._let_throw(errors)]
         return any([*found, self._without_numbers(errors) or self._give_values(warnings, errors)])
 
     def _declare(self, warnings: Sequence[str]) -> bool:
@@ -127,6 +138,12 @@ class Mends:
         is_new = not (self._is_c or self._standard) and any(map(_NEW_IN_CPP_17.search, errors))
         self._standard = (_CPP_14,) if is_new else self._standard
         return is_new
+
+    def _let_throw(self, errors: Sequence[str]) -> bool:
+        """Have exceptions, and types at run time, in a source that uses them."""
+        is_new = not self._throwing and any(map(THROWS.search, errors))
+        self._throwing = self._can_throw if is_new else self._throwing
+        return bool(is_new and self._throwing)
 
     def _find_headers(self, errors: Sequence[str]) -> bool:
         r"""Give headers that were not found the spelling that they have on the disk.

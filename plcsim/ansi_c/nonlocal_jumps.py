@@ -13,7 +13,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
 from plcsim.machine.encoder import ModuleWriter, Signature, uleb
-from plcsim.machine.errors import FaultKind, MachineFault
+from plcsim.machine.errors import FaultKind, MachineFault, go_on
 from plcsim.machine.machine import STACK_POINTER_NAME, TABLE_NAME
 from plcsim.machine.opcodes import (
     CALL,
@@ -38,13 +38,18 @@ _TYPES: Final = {"i": I32, "j": I64, "f": F32, "d": F64}
 _CODES: Final = str.maketrans("j", "q", "v")
 
 
-class NonlocalJump(MachineFault):
-    """longjmp was called; it is a fault where no function waits for it."""
+_NOBODY: Final = "longjmp to a function that has returned or never called setjmp"
 
-    def __init__(self) -> None:
-        super().__init__(
-            FaultKind.OTHER, detail="longjmp to a function that has returned or never called setjmp"
-        )
+
+class NonlocalJump(MachineFault):
+    """longjmp was called, or C++ throws; it is a fault where no function waits for it.
+
+    Args:
+        detail: what the fault says.
+    """
+
+    def __init__(self, detail: str = _NOBODY) -> None:
+        super().__init__(FaultKind.OTHER, detail=detail)
 
 
 class NonlocalJumps:
@@ -59,13 +64,17 @@ class NonlocalJumps:
         self._externs: dict[str, Extern] = {}
         self._ended = NonlocalJump()
 
-    def jump(self, again: int) -> NoReturn:
+    def jump(self, again: int, detail: str = _NOBODY) -> NoReturn:
         """End the compiled code up to the nearest call by ``invoke_...``.
 
         Args:
             again: not 0 for the jump that has ended such a call last, and is not meant for it.
+            detail: what the fault says that it is where there is no such call.
         """
-        raise self._ended.with_traceback(None) if again else NonlocalJump()
+        jump = NonlocalJump(detail)
+        if again:
+            go_on(jump, self._ended)
+        raise jump
 
     def extern(self, name: str) -> Extern | None:
         """Return one of them for modules to import, None where the name is another one."""

@@ -30,6 +30,8 @@ _IS_BLOCK = (
     "a nested function, an extension of GCC, is a block of clang here, which can neither use an "
     "array of the other function nor change its parameters nor be taken for a pointer: move it out"
 )
+THROWS = re.compile(r" with exceptions disabled$| requires -frtti$")
+_NO_EXCEPTIONS = "exceptions and types at run time need the compiler of plcsim[c]"
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
 _THREADS = "a controller has no threads: a program's units run in its task class"
 _PROCESSES = "a controller has one process, and no system around it"
@@ -62,6 +64,8 @@ def explained(finding: str, folders: Sequence[Path]) -> str:
         return f"{finding}: {_nested_name(nested)}{_IS_NESTED}"
     if _OF_BLOCKS.search(finding):
         return f"{finding} ({_IS_BLOCK})"
+    if THROWS.search(finding):
+        return f"{finding} ({_NO_EXCEPTIONS})"
     return f"{finding} ({_ASSEMBLER})" if " in asm" in finding else finding
 
 

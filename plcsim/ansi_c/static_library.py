@@ -21,10 +21,12 @@ class StaticLibrary(NamedTuple):
         sources: in C and C++.
         headers: a program that reads one of them may use the library: folders without links, or
             names of headers wherever they lie.
+        options: further ones of the compiler, for its sources.
     """
 
     sources: Sequence[Path]
     headers: Sequence[Path]
+    options: Sequence[str] = ()
 
     def is_used(self, read: Iterable[str]) -> bool:
         """Return whether files that a compiler has read belong to the library."""

@@ -46,6 +46,18 @@ _NOT_THERE = (
 
 _CPP_SOURCES = ("hash.cpp",)
 
+_THROWING_SOURCES = (
+    *(f"libcxx/src/{name}.cpp" for name in ("any", "optional", "stdexcept", "variant")),
+    *(f"libcxxabi/src/stdlib_{name}.cpp" for name in ("exception", "stdexcept", "typeinfo")),
+    "libcxxabi/src/private_typeinfo.cpp",
+)
+"""Of what C++'s library throws, and of types at run time."""
+
+THROWING = ("-fexceptions", "-frtti", "-mllvm", "-enable-emscripten-cxx-exceptions")
+"""Options for sources that throw, catch or ask for types (docs/decisions/0046)."""
+
+_READ_BY_THROWING = FOLDER / "plcsim_exceptions.h"
+
 
 class Toolchain(NamedTuple):
     """A compiler and a linker.
@@ -58,6 +70,7 @@ class Toolchain(NamedTuple):
         linker: command that links, with what its version needs.
         cpp_options: by which C++ finds the headers of its library, where the toolchain has it.
         libraries: what these headers need is linked from here.
+        throwing: options for C++ that throws exceptions; () where that cannot be compiled.
         rounds: of a small loop for one jump back: what was fastest (docs/decisions/0034).
     """
 
@@ -68,6 +81,7 @@ class Toolchain(NamedTuple):
     linker: tuple[str, ...]
     cpp_options: tuple[str, ...] = ()
     libraries: tuple[StaticLibrary, ...] = ()
+    throwing: tuple[str, ...] = ()
     rounds: int = 2
 
     def environment(self) -> dict[str, str]:
@@ -109,15 +123,21 @@ def zig() -> Toolchain | None:
         compiler,
         compiler,
         (str(program), "wasm-ld", _DYNAMIC),
-        *_cpp_library(folder / "libcxx"),
+        *_cpp_library(folder),
     )
 
 
-def _cpp_library(folder: Path) -> tuple[tuple[str, ...], tuple[StaticLibrary, ...]]:
-    """Return the options for the headers of a libc++, and what they need of its sources."""
-    headers = folder / "include"
+def _cpp_library(
+    folder: Path,
+) -> tuple[tuple[str, ...], tuple[StaticLibrary, ...], tuple[str, ...]]:
+    """Return the options for the headers of a libc++, what they need of its sources, and THROWING.
+
+    Args:
+        folder: with libcxx and libcxxabi.
+    """
+    headers = folder / "libcxx" / "include"
     if not headers.is_dir():
-        return (), ()
+        return (), (), ()
     settings = {
         "ABI_VERSION": "1",
         "ABI_NAMESPACE": "__1",
@@ -126,9 +146,21 @@ def _cpp_library(folder: Path) -> tuple[tuple[str, ...], tuple[StaticLibrary, ..
         **dict.fromkeys((f"HAS_{name}" for name in _NOT_THERE), "0"),
     }
     defined = (f"-D_LIBCPP_{name}={value}" for name, value in settings.items())
-    sources = (FOLDER / "cpp_library.cpp", *(folder / "src" / name for name in _CPP_SOURCES))
+    more = tuple(folder / "libcxx" / "src" / name for name in _CPP_SOURCES)
     options = ("-nostdinc++", "-I", str(FOLDER / "include"), "-I", str(headers), *defined)
-    return options, (StaticLibrary(sources, (headers,)),)
+    inner = ("libcxxabi/include", "libcxxabi/src", "libcxx/src")
+    found = tuple(part for name in inner for part in ("-I", str(folder / name)))
+    header = (Path(_READ_BY_THROWING.name),)
+    sources = (
+        *(FOLDER / "cpp_throwing_library.cpp", *more),
+        *(folder / name for name in _THROWING_SOURCES),
+    )
+    libraries = (
+        StaticLibrary((FOLDER / "cpp_exceptions.cpp",), header, ("-frtti", "-g0", *found)),
+        StaticLibrary(sources, header, (*THROWING, *found)),
+        StaticLibrary((FOLDER / "cpp_library.cpp", *more), (headers,)),
+    )
+    return options, libraries, (*THROWING, "-include", str(_READ_BY_THROWING))
 
 
 @cache

@@ -76,6 +76,7 @@ class MachineFault(PlcError):  # noqa: N818  # the field's term
 
 
 _FRAMES = "machine_frames"
+_BEFORE = "machine_frames_before"
 
 
 def frames_of(error: BaseException) -> tuple[Frame, ...]:
@@ -86,4 +87,9 @@ def frames_of(error: BaseException) -> tuple[Frame, ...]:
 
 def note_frames(error: BaseException, frames: tuple[Frame, ...]) -> None:
     """Note which compiled functions an exception has passed; those noted first are all of them."""
-    vars(error).setdefault(_FRAMES, frames)
+    vars(error).setdefault(_FRAMES, (*vars(error).get(_BEFORE, ()), *frames))
+
+
+def go_on(error: BaseException, ended: BaseException) -> None:
+    """Note that an exception goes on where another one has ended: it has passed what that has."""
+    vars(error)[_BEFORE] = frames_of(ended)

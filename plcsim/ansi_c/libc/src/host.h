@@ -19,6 +19,9 @@ void plc_fault(const char *reason) __attribute__((noreturn));
  * there and goes on. */
 void plc_longjmp(int again) __attribute__((noreturn));
 
+/* Likewise for an exception of C++; reason for where there is no such call. */
+void plc_throw(const char *reason, int again) __attribute__((noreturn));
+
 /* Files, on the file devices of the controller. All return a number of errno.h, below 0, for what
  * they could not do. Places in a file are counted in bytes from its beginning. */
 

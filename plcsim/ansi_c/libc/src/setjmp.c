@@ -32,6 +32,14 @@ void emscripten_longjmp(uintptr_t target, int value)
 	plc_longjmp(again);
 }
 
+/* An exception of C++: static/cpp_exceptions.cpp keeps it. LLVM takes 1 for it, no jump is there. */
+void plc_exception(const char *reason, int again)
+{
+	__THREW__ = 1;
+	__threwValue = 0;
+	plc_throw(reason, again);
+}
+
 /* Who gets 0 here calls emscripten_longjmp next. */
 static unsigned long found(unsigned long label)
 {

@@ -1,6 +1,6 @@
 import pytest
 
-from plcsim.ansi_c.gcc_options import for_language, of_version, split, without_standard
+from plcsim.ansi_c.gcc_options import for_language, of_layout, of_version, split
 
 
 @pytest.mark.parametrize(
@@ -32,8 +32,12 @@ def test_sources_find_the_version_that_they_were_written_for():
     assert of_version("4.1.2")[-1] == "-fgnu89-inline"
 
 
-def test_sources_of_others_have_a_standard_of_their_own():
-    assert without_standard(["-std=gnu++98", "-DX"]) == ["-DX"]
+def test_sources_of_others_share_what_concerns_the_layout_of_data():
+    assert of_layout(["-std=gnu++98", "-DX", "-fshort-enums"]) == ["-fshort-enums"]
+
+
+def test_what_a_source_throws_it_tells_itself():
+    assert split("-fno-exceptions -frtti -fshort-enums") == ["-fshort-enums"]
 
 
 def test_debug_information_is_not_switched_off_by_a_project():

@@ -6,6 +6,7 @@ from plcsim.ansi_c.nonlocal_jumps import NonlocalJump, NonlocalJumps
 from plcsim.core.memory import PAGE, Memory
 from plcsim.machine import CodeCache, Machine, MachineFault
 from plcsim.machine.encoder import ModuleWriter, Signature
+from plcsim.machine.errors import Frame, note_frames
 from plcsim.machine.opcodes import CALL, F32, F64, I32, I64, LOCAL_GET
 
 TYPES = {"i": I32, "q": I64, "f": F32, "d": F64}
@@ -52,6 +53,7 @@ def test_values_of_every_type_pass(invoke):
 def test_a_jump_ends_the_call_and_all_else_passes(invoke, machine):
     jumps = machine.shared(NonlocalJumps)
     raised = [NonlocalJump(), ZeroDivisionError("x"), KeyboardInterrupt()]
+    note_frames(raised[0], (Frame("inner", "g", 0, 0),))
 
     def end(number):
         if number >= 0:
@@ -66,11 +68,14 @@ def test_a_jump_ends_the_call_and_all_else_passes(invoke, machine):
         call(2)
     with pytest.raises(NonlocalJump) as again:
         jumps.jump(1)
-    assert again.value is raised[0]
+    again.value.with_traceback(None)
+    note_frames(again.value, (Frame("outer", "f", 0, 0),))
+    assert [frame.module for frame in again.value.frames] == ["inner", "outer"]
     assert isinstance(again.value, MachineFault)
-    with pytest.raises(NonlocalJump) as new:
-        jumps.jump(0)
-    assert new.value is not raised[0]
+    with pytest.raises(NonlocalJump, match="its own words") as new:
+        jumps.jump(0, "its own words")
+    note_frames(new.value, (Frame("outer", "f", 0, 0),))
+    assert [frame.module for frame in new.value.frames] == ["outer"]
 
 
 @pytest.mark.parametrize("pointer", [0, 1 << 30])
