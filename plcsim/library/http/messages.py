@@ -12,6 +12,13 @@ WITHOUT_BODY: Final = frozenset([204, 304])
 """Responses that end with their header."""
 
 
+FIRST_FINAL: Final = 200
+"""Responses with a lower code are followed by another."""
+
+LONGEST_LENGTH: Final = 12
+"""Digits of a Content-Length."""
+
+
 class MalformedError(Exception):
     """What came is no response."""
 
@@ -59,23 +66,26 @@ def parse_response(data: bytes, *, is_ended: bool) -> Response | None:
     Raises:
         MalformedError: they hold none, or end within one.
     """
-    head, end, rest = data.partition(CRLF + CRLF)
-    if not end:
-        if is_ended or len(data) > LONGEST_HEADER:
+    code = 100
+    while code < FIRST_FINAL:
+        head, end, data = data.partition(CRLF + CRLF)
+        if not end and (is_ended or len(head) > LONGEST_HEADER):
             raise MalformedError
-        return None
-    first, _, header = head.partition(CRLF)
-    protocol, _, status = first.decode("latin-1").partition(" ")
+        if not end:
+            return None
+        first, _, header = head.partition(CRLF)
+        protocol, code, reason = _status_line(first)
+    fields = _fields(header)
+    body = b"" if code in WITHOUT_BODY else _body(data, fields, is_ended=is_ended)
+    return None if body is None else Response(protocol, code, reason, header, fields, body)
+
+
+def _status_line(line: bytes) -> tuple[str, int, str]:
+    protocol, _, status = line.decode("latin-1").partition(" ")
     code, _, reason = status.partition(" ")
     if not protocol.startswith("HTTP/") or not code.isdecimal() or len(code) != len("200"):
         raise MalformedError
-    if code.startswith("1"):
-        return parse_response(rest, is_ended=is_ended)
-    fields = _fields(header)
-    body = b"" if int(code) in WITHOUT_BODY else _body(rest, fields, is_ended=is_ended)
-    if body is None:
-        return None
-    return Response(protocol, int(code), reason, header, fields, body)
+    return protocol, int(code), reason
 
 
 def _fields(header: bytes) -> dict[str, str]:
@@ -90,7 +100,7 @@ def _body(data: bytes, fields: dict[str, str], *, is_ended: bool) -> bytes | Non
         body = _joined(data)
     elif "content-length" in fields:
         size = fields["content-length"]
-        if not (size.isascii() and size.isdecimal()):
+        if not (size.isascii() and size.isdecimal()) or len(size) > LONGEST_LENGTH:
             raise MalformedError
         body = data[: int(size)] if len(data) >= int(size) else None
     else:

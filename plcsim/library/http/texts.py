@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 LONGEST: Final = 0x10_0000
 """Bytes of a text that are read."""
 
+LONGEST_WIDE: Final = 0x1_0000
+"""Likewise of a WSTRING."""
+
 
 class _Conversion(StatusBlock):
     """A block that makes one text of another.
@@ -206,7 +209,7 @@ class WStringToUtf8(_Conversion):
         """Return the characters before the first that is 0."""
         address, memory = variables.address(self.source), self.context.memory
         size = 0
-        while size < LONGEST and memory.read(address + size, 2) != b"\0\0":
+        while size < LONGEST_WIDE and memory.read(address + size, 2) != b"\0\0":
             size += 2
         return memory.read(address, size)
 

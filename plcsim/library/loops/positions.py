@@ -1,7 +1,7 @@
 """MTProfilePositionGenerator: positions along a trapezoidal profile.
 
-It begins at 0 when it is enabled. The jolt time counts as 0, and with a velocity or a rate that is
-not above 0 no movement begins.
+It begins at 0 when it is enabled. The jolt time counts as 0. No movement begins with a velocity or
+a rate that is not above 0, nor with one or a position that is no number or beyond any machine.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from plcsim.library.loops.technology import TechnologyBlock
 from plcsim.library.members import rises
+from plcsim.library.motion.axis import FARTHEST
 from plcsim.library.motion.profile import MotionLimits, MotionProfile, to_position, to_velocity
 
 if TYPE_CHECKING:
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
     from plcsim.library.members import BlockVariables
 
 _RATES: Final = ("Velocity", "Acceleration", "Deceleration")
+
+SMALLEST_RATE: Final = 1e-6
+LARGEST_RATE: Final = 1e9
+"""Of velocities, units/s, and accelerations, units/s²."""
 
 ACCELERATING: Final = 1
 CRUISING: Final = 2
@@ -74,12 +79,13 @@ class PositionGenerator(TechnologyBlock):
         if "Start" in edges:
             target = variables.number("EndPosition")
             limits = _limits(state, target - position)
-            if limits is None or not math.isfinite(target):
+            if limits is None or not _is_place(target):
                 return None
             segments = to_position(target - position, velocity, limits)
             return MotionProfile(now_ns, position, velocity, segments, target)
         if "SetHomePosition" in edges and velocity == 0:
-            return MotionProfile(now_ns, variables.number("HomePosition"), 0.0)
+            home = variables.number("HomePosition")
+            return MotionProfile(now_ns, home, 0.0) if _is_place(home) else None
         return None
 
     def _show(self, variables: BlockVariables, profile: MotionProfile) -> None:
@@ -97,10 +103,15 @@ class PositionGenerator(TechnologyBlock):
 
 
 def _limits(state: LoopState, direction: float) -> MotionLimits | None:
-    """Return the limits in a direction, None where one of them is not above 0."""
+    """Return the limits in a direction, None where one of them is none."""
     way = "Pos" if direction >= 0 else "Neg"
     limits = MotionLimits(*(state[f"Parameter.{rate}{way}Direction"] for rate in _RATES))
-    return limits if all(0 < each < math.inf for each in limits) else None
+    return limits if all(SMALLEST_RATE <= each <= LARGEST_RATE for each in limits) else None
+
+
+def _is_place(position: float) -> bool:
+    """Whether a position is a number that is not beyond any machine."""
+    return abs(position) <= FARTHEST
 
 
 def _acceleration(profile: MotionProfile, now_ns: int) -> float:

@@ -122,9 +122,9 @@ class FileView:
             FileCommandError: nothing is, or the new name is taken, or none.
         """
         source, target = self._paths(selected)[0], self._named(name)
-        if target.exists():
-            raise FileCommandError(INVALID_NAME)
         with _file_system():
+            if target.exists():
+                raise FileCommandError(INVALID_NAME)
             source.rename(target)
 
     def delete(self, selected: list[DirectoryEntry]) -> None:

@@ -16,6 +16,7 @@ WHOLE = [
     (OK + b"content-length:0\r\n\r\n", b""),
     (OK + b"Transfer-Encoding: Chunked\r\n\r\n2\r\nab\r\n1;x=y\r\nc\r\n0\r\n\r\n", b"abc"),
     (b"HTTP/1.1 100 Continue\r\n\r\n" + OK + b"Content-Length: 1\r\n\r\na", b"a"),
+    (b"HTTP/1.1 103 Early Hints\r\n\r\n" * 1200 + OK + b"Content-Length: 1\r\n\r\nb", b"b"),
     (b"HTTP/1.1 204 No Content\r\n\r\n", b""),
 ]
 
@@ -24,7 +25,8 @@ WHOLE = [
 def test_a_response_is_there_with_its_last_byte(data, body):
     found = parse_response(data, is_ended=False)
     assert (found.protocol, found.body) == ("HTTP/1.1", body)
-    early = [parse_response(data[:end], is_ended=False) for end in range(len(data))]
+    ends = range(max(len(data) - 200, 0), len(data))
+    early = [parse_response(data[:end], is_ended=False) for end in ends]
     assert [each for each in early if each is not None and each.body != body] == []
     with pytest.raises(MalformedError):
         parse_response(data[:10], is_ended=True)
@@ -46,6 +48,7 @@ def test_without_a_length_it_is_there_at_the_end():
         b"HTTP/1.1 20 OK\r\n\r\n",
         b"HTTP/1.1\r\n\r\n",
         OK + b"Content-Length: -1\r\n\r\n",
+        OK + b"Content-Length: " + b"9" * 5000 + b"\r\n\r\n",
         OK + b"Content-Length: 5\r\n\r\nab",
         OK + b"Transfer-Encoding: chunked\r\n\r\nxx\r\n",
         OK + b"Transfer-Encoding: chunked\r\n\r\n-1\r\n",

@@ -1,5 +1,7 @@
 """MTProfilePositionGenerator."""
 
+import math
+
 import pytest
 
 from st_types import BOOL, DINT, REAL, UINT
@@ -91,6 +93,15 @@ def test_parameters_are_taken_over_by_update_and_bad_ones_begin_nothing(run, blo
     run(1, Update=True)
     assert block["UpdateDone"]
     assert run(1, Start=True, EndPosition=9.0) == [5, 0, 0, True]
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, 1e20])
+def test_what_is_no_position_moves_nothing(run, value):
+    assert run(1, SetHomePosition=True, HomePosition=value)[0] == 0
+    assert run(1, Start=True, EndPosition=value) == [0, 0, 0, False]
+    assert run(1, Start=False, Update=True, Parameter__VelocityPosDirection=value)[0] == 0
+    assert run(1, Start=True, EndPosition=5.0) == [0, 0, 0, False]
+    assert run(1000, Stop=True) == [0, 0, 0, False]
 
 
 def test_it_begins_anew_at_enable(run, block):

@@ -235,6 +235,13 @@ def test_names_that_are_none(operator, name, status):
     assert operator.press("Rename", name=name) == status
 
 
+def test_a_name_that_is_too_long_for_the_host(operator):
+    operator.select("a.csv")
+    assert operator.press("Rename", name="\xe4" * 200) == FILE_SYSTEM
+    assert operator.press("CreateFolder", name="\xe4" * 200) == FILE_SYSTEM
+    assert operator.names == ["recipes", "a.csv", "b.BMP"]
+
+
 def test_he_copies_and_moves_to_another_device(operator, folders):
     assert operator.press("Paste") == NOTHING_TO_PASTE
     operator.select("recipes", "a.csv")
