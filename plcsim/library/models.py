@@ -9,6 +9,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
 
 from plcsim.library.accounts import blocks as account_blocks
+from plcsim.library.archives import blocks as archive_blocks
 from plcsim.library.bus import objects
 from plcsim.library.http import client, texts
 from plcsim.library.loops import pid, positions, signals, technology, temperature
@@ -57,6 +58,7 @@ _HISTORY: Final = "the changes of alarms of all cores"
 _USERS: Final = "any name logs in, with all rights"
 _ACCOUNTS: Final = "users that programs make"
 _FILES: Final = "files on the devices of FileIO"
+_ARCHIVES: Final = "archives on the devices of FileIO"
 _RECIPES: Final = "recipes of registered variables in files"
 _PACKML: Final = "the states of PackML"
 _TEMPERATURE: Final = "heats below the set temperature, and cools above it"
@@ -78,6 +80,7 @@ _GROUPS: Final[tuple[tuple[Mapping[str, type[BlockModel]], str], ...]] = (
     (recipe_blocks.BLOCKS, _RECIPES),
     (user_blocks.BLOCKS, _USERS),
     (file_blocks.BLOCKS, _FILES),
+    (archive_blocks.BLOCKS, _ARCHIVES),
     (account_blocks.BLOCKS, _ACCOUNTS),
     (packml_blocks.BLOCKS, _PACKML),
     (temperature_blocks.BLOCKS, _TEMPERATURE),

@@ -1,0 +1,1 @@
+"""AsZip: archives on the devices of FileIO."""
