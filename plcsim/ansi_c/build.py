@@ -359,7 +359,8 @@ class _Object:
         self.warnings += [text for kind, text in found if kind == "warning"]
         if code:
             self._told = [text for kind, text in found if kind == "error"]
-            self.errors = [explained(text, self._folders) for text in self._told]
+            words = (explained(text, self._folders) for text in self._told)
+            self.errors = list(dict.fromkeys(words))
             if not self.errors:
                 self.errors = [f"{self.source}: the compiler ended with {code}: {told.strip()}"]
 

@@ -2,8 +2,9 @@
 
 ``float cut(float x) {...}`` in a function becomes ``float (^cut)(float x) = ^float (float x)
 {...};`` and is called likewise. Variables of the outer function that it uses become ``__block``, so
-that both mean the same one. Lines stay where they are. What a block cannot do, clang tells: use an
-array of the outer function, change its parameters, or be taken for a pointer to a function.
+that both mean the same one; of an array it gets the address. Lines stay where they are. What a
+block cannot do, clang tells: change parameters of the outer function, or be taken for a pointer to
+a function.
 """
 
 from __future__ import annotations
@@ -28,6 +29,14 @@ _HEAD: Final = re.compile(
 )
 _STORAGE: Final = re.compile(rb"\b(?:static|inline|__inline__|__inline|auto)\b")
 _WORD: Final = re.compile(rb"[A-Za-z_]\w*")
+_WORD_USED: Final = re.compile(
+    rb"\bsizeof[\s(]*[A-Za-z_]\w*|(?:->|\.)\s*[A-Za-z_]\w*|([A-Za-z_]\w*)"
+)
+"""A name, but for members, and for what is only asked for its size."""
+
+_ADDRESS: Final = b"plcsim_"
+"""Stands before the name of an array, for a pointer to its first element."""
+
 _STATEMENT: Final = re.compile(rb"[^;{}]+")
 _DECLARATION: Final = re.compile(
     rb"\s*(?P<type>(?!(?:return|goto|else|case|typedef|static|extern|__block)\b)[A-Za-z_][\w\s]*)"
@@ -52,9 +61,13 @@ def as_block(text: bytes, line: int, column: int) -> bytes:
     if head is None or end is None:
         return text
     used = set(_WORD.findall(plain, brace, end))
-    edits = [(start, brace, _block(head, used)), (end, end, b";")]
-    places = _declared(plain, _outer_body(plain, start), start, used)
-    edits += [(place, place, b"__block ") for place in places]
+    outer = _outer_body(plain, start)
+    arrays = _arrays(plain, outer, start, used) - _arrays(plain, brace + 1, end, used)
+    edits = [(start, brace, _addresses(arrays) + _block(head, used)), (end, end, b";")]
+    edits += [(place, place, b"__block ") for place in _declared(plain, outer, start, used)]
+    for found in _WORD_USED.finditer(plain, brace, end):
+        if found[1] in arrays:
+            edits.append((found.start(1), found.start(1), _ADDRESS))
     for first, last, new in sorted(edits, reverse=True):
         text = text[:first] + new + text[last:]
     return text
@@ -79,6 +92,23 @@ def _block(head: re.Match[bytes], used: set[bytes]) -> bytes:
         given,
     )
     return block + (lines or b" ")
+
+
+def _addresses(arrays: set[bytes]) -> bytes:
+    """Return declarations of pointers to arrays."""
+    return b"".join(
+        b" __typeof__(&%s[0]) %s%s = %s;" % (name, _ADDRESS, name, name) for name in sorted(arrays)
+    )
+
+
+def _arrays(plain: bytes, start: int, end: int, used: set[bytes]) -> set[bytes]:
+    """Return the names of the arrays that are declared in a part of a source, and used."""
+    names: set[bytes] = set()
+    for statement in _STATEMENT.finditer(plain, start, end):
+        found = _DECLARATION.fullmatch(statement[0])
+        if found is not None:
+            names.update(re.findall(rb"(?:^|,)[\s*]*([A-Za-z_]\w*)\s*\[", found["names"]))
+    return names & used
 
 
 def _end_of_body(plain: bytes, brace: int) -> int | None:

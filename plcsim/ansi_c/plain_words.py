@@ -21,17 +21,20 @@ _MOST_HEADERS = 5_000
 _ASSEMBLER = "this is assembler of the controller's processor; plcsim compiles for another machine"
 _NESTED = re.compile(r"(.+?):(\d+):(\d+): function definition is not allowed here")
 _HEAD_OF_FUNCTION = re.compile(r"(\w+)\s*\([^()]*\)\s*\Z")
+_HEAD_OF_UNIT = re.compile(r"\b_(?:INIT|CYCLIC|EXIT)\b[^;{}]*\Z")
 _IS_NESTED = (
     "is a nested function, an extension of GCC that clang does not have: move it out of the other "
     "function, and hand it what it uses of that"
 )
 _OF_BLOCKS = re.compile(r"inside block|block pointer|__block type|\(\^\)")
 _IS_BLOCK = (
-    "a nested function, an extension of GCC, is a block of clang here, which can neither use an "
-    "array of the other function nor change its parameters nor be taken for a pointer: move it out"
+    "a nested function, an extension of GCC, is a block of clang here, which can neither change "
+    "parameters of the other function nor be taken for a pointer: move it out"
 )
 THROWS = re.compile(r" with exceptions disabled$| requires -frtti$")
 _NO_EXCEPTIONS = "exceptions and types at run time need the compiler of plcsim[c]"
+_UNIT_INSIDE = re.compile(r"(.+?:\d+):\d+: 'export_name' attribute only applies to functions")
+_NO_BRACE = "this unit stands inside another function: a } is missing somewhere before it"
 _SOCKETS = "a controller has no sockets of POSIX, TCP is the library AsTCP (AsTCP.h)"
 _THREADS = "a controller has no threads: a program's units run in its task class"
 _PROCESSES = "a controller has one process, and no system around it"
@@ -61,23 +64,28 @@ def explained(finding: str, folders: Sequence[Path]) -> str:
         return finding + _about_header(missing[1], folders)
     nested = _NESTED.match(finding)
     if nested:
-        return f"{finding}: {_nested_name(nested)}{_IS_NESTED}"
+        return f"{finding}: {_nested(nested)}"
     if _OF_BLOCKS.search(finding):
         return f"{finding} ({_IS_BLOCK})"
+    if unit := _UNIT_INSIDE.match(finding):
+        return f"{unit[1]}: {_NO_BRACE}"
     if THROWS.search(finding):
         return f"{finding} ({_NO_EXCEPTIONS})"
     return f"{finding} ({_ASSEMBLER})" if " in asm" in finding else finding
 
 
-def _nested_name(found: re.Match[str]) -> str:
-    """Return the name of the function whose body begins at a place of a file, "" if unknown."""
+def _nested(found: re.Match[str]) -> str:
+    """Return what is wrong with a function whose body begins at a place of a file, in another."""
     try:
         lines = Path(found[1]).read_text("utf-8", "replace").splitlines()[: int(found[2])]
     except OSError:
-        return ""
+        lines = []
     lines[-1:] = [line[: int(found[3]) - 1] for line in lines[-1:]]
-    name = _HEAD_OF_FUNCTION.search("\n".join(lines))
-    return f"{name[1]} " if name else ""
+    text = "\n".join(lines)
+    if _HEAD_OF_UNIT.search(text):
+        return _NO_BRACE
+    name = _HEAD_OF_FUNCTION.search(text)
+    return f"{name[1]} {_IS_NESTED}" if name else _IS_NESTED
 
 
 def _about_header(name: str, folders: Sequence[Path]) -> str:

@@ -262,10 +262,34 @@ def test_functions_in_functions_use_the_variables_around_them(results):
     assert results({"Main.c": _with_head(NESTED)}, 2) == [1125, line]
 
 
+def test_functions_in_functions_use_the_arrays_around_them(results):
+    text = _with_head("""
+struct box { int list[4]; };
+static int outer(int n)
+{
+	int list[4] = {1, 2, 3, 4};
+	int sum = 0;
+	char names[2][5] = {"ab", "cde"};
+	struct box here = {{10, 20, 30, 40}};
+	void add(int i)
+	{
+		list[i] += 100; /* list */
+		sum = list[i] + here.list[i] + sizeof(list) + sizeof list;
+	}
+	int length(int which) { int k = 0; while (names[which][k]) k++; return k; }
+	int own(void) { int list[2] = {7, 8}; return list[1]; }
+	add(n);
+	return sum * 1000 + list[n] + length(1) + own();
+}
+void _CYCLIC run(void) { result[0] = outer(2); result[1] = __LINE__; }
+""")
+    expected = (103 + 30 + 32) * 1000 + 103 + 3 + 8
+    assert results({"Main.c": text}, 2) == [expected, text.count("\n")]
+
+
 @pytest.mark.parametrize(
     ("inner", "use"),
     [
-        ("int f(int i) { return list[i]; }", "f(1)"),
         ("int f(int i) { return 1; }", "taken(f)"),
         ("int f(int i) { return n++; }", "f(1)"),
     ],
@@ -340,3 +364,14 @@ void _CYCLIC run(void)
 }
 """)
     assert results({"Main.c": text}, 5) == [275, 625, 31, 78, 3 + 6 + 6]
+
+
+@pytest.mark.parametrize(("name", "line"), [("Main.c", 9), ("Main.cpp", 10)])
+def test_a_missing_brace_before_a_unit_is_told_where_the_unit_begins(run, name, line):
+    text = _with_head("static int f(int x)\n{\n\tif (x) {\n\t\tx++;\n\treturn x;\n}\n")
+    with pytest.raises(ConfigurationError) as refused:
+        run({f"main/{name}": f"{text}void _CYCLIC run(void)\n{{\n\tf(1);\n}}\n"})
+    (told,) = [each for each in refused.value.findings if "inside another function" in each]
+    assert f"/main/{name}:{line}:" in told
+    assert "a } is missing somewhere before it" in told
+    assert not any("export_name" in each for each in refused.value.findings)
