@@ -15,7 +15,11 @@ if TYPE_CHECKING:
 
 MOST_GOALS: Final = 100
 LOST_NS: Final = 5_000_000_000
-"""Nanoseconds without a word of a server after which its goals count as lost."""
+"""Nanoseconds without a word of a server after which its goals count as lost; simulated time that
+stands still does not count."""
+
+MOST_STEP_NS: Final = 1_000_000_000
+"""Nanoseconds that a step counts for at most: a clock may be set, and a controller halted."""
 
 
 class ClientGoal:
@@ -28,16 +32,17 @@ class ClientGoal:
         feedback: newest, None before the first.
         result: None until it is there.
         is_lost: the server has gone, or does not know the goal any more.
+        heard_ns: when the server spoke of it last, by the client's own time.
     """
 
-    def __init__(self, goal_id: str, now_ns: int) -> None:
+    def __init__(self, goal_id: str, heard_ns: int) -> None:
         self.goal_id = goal_id
         self.state = GoalState.PENDING
         self.text = ""
         self.feedback: Message | None = None
         self.result: Message | None = None
         self.is_lost = False
-        self.heard_ns = now_ns
+        self.heard_ns = heard_ns
 
     @property
     def is_over(self) -> bool:
@@ -54,6 +59,8 @@ class ActionClient:
         self._node = node
         self._goals: dict[str, ClientGoal] = {}
         self._numbers = count(1)
+        self._passed_ns = 0  # of ROS time, but for its jumps
+        self._before_ns = node.now_ns
         kinds, name = self.action_type, node.resolve_name(name)
         self._goal_out = node.register_publisher(
             f"{name}/goal", kinds.action_goal.name, queue_size=MOST_GOALS
@@ -93,7 +100,7 @@ class ActionClient:
         message.header.stamp = message.goal_id.stamp = stamp
         message.goal_id.id = goal_id
         self._goal_out.send(message)
-        made = self._goals[goal_id] = ClientGoal(goal_id, now_ns)
+        made = self._goals[goal_id] = ClientGoal(goal_id, self._passed_ns)
         if len(self._goals) > MOST_GOALS:
             del self._goals[next(iter(self._goals))]
         return made
@@ -104,19 +111,24 @@ class ActionClient:
 
     def step(self) -> None:
         """Take what the server says; call it once a cycle, behind the node's step."""
-        now_ns = self._node.now_ns
+        self._pass_time()
         while (message := self._status_in.pop()) is not None:
             for status in message.status_list:
-                self._hear(status, now_ns)
+                self._hear(status)
         while (message := self._feedback_in.pop()) is not None:
-            if goal := self._hear(message.status, now_ns):
+            if goal := self._hear(message.status):
                 goal.feedback = message.feedback
         while (message := self._result_in.pop()) is not None:
-            if goal := self._hear(message.status, now_ns):
+            if goal := self._hear(message.status):
                 goal.result = message.result
-        self._look(now_ns)
+        self._look()
 
-    def _hear(self, status: Message, now_ns: int) -> ClientGoal | None:
+    def _pass_time(self) -> None:
+        now_ns = self._node.now_ns
+        self._passed_ns += max(0, min(now_ns - self._before_ns, MOST_STEP_NS))
+        self._before_ns = now_ns
+
+    def _hear(self, status: Message) -> ClientGoal | None:
         goal = self._goals.get(status.goal_id.id)
         if goal is None or goal.state in TERMINAL:
             return goal
@@ -124,13 +136,13 @@ class ActionClient:
             goal.state = GoalState(status.status)
         except ValueError:
             return goal
-        goal.text, goal.heard_ns = status.text, now_ns
+        goal.text, goal.heard_ns = status.text, self._passed_ns
         return goal
 
-    def _look(self, now_ns: int) -> None:
+    def _look(self) -> None:
         """Forget goals that are over, and give up those that nobody speaks of."""
         for goal in list(self._goals.values()):
-            if now_ns - goal.heard_ns >= LOST_NS:
+            if self._passed_ns - goal.heard_ns >= LOST_NS:
                 goal.is_lost = goal.result is None
             if goal.is_over:
                 del self._goals[goal.goal_id]

@@ -11,7 +11,7 @@ from crosnode.errors import LocalProtocolError
 from crosnode.messages import Time
 from crosnode.node.ros_time import Epoch
 
-from ..node.world import MS, OTHER_IP, PLC_IP, World, drain
+from ..node.world import MS, OTHER_IP, PLC_IP, SECOND, World, drain
 
 TYPE = "control_msgs/FollowJointTrajectory"
 
@@ -22,7 +22,8 @@ class Cell:
     def __init__(self) -> None:
         self.world = world = World()
         self.node = world.node("arm", epoch=Epoch(10**18))
-        self.other = world.node("planner", OTHER_IP, epoch=Epoch(10**18))
+        self.epoch = Epoch(10**18)
+        self.other = world.node("planner", OTHER_IP, epoch=self.epoch)
         self.server = ActionServer(self.node, "/follow", TYPE)
         self.client = ActionClient(self.other, "/follow", TYPE)
         world.steps += [self.server.step, self.client.step]
@@ -193,3 +194,42 @@ def test_a_client_whose_server_has_gone_gives_up() -> None:
     cell.world.run(6_000, step_ms=5)
     assert sent.is_lost
     assert sent.result is None
+
+
+@pytest.mark.parametrize("jump_s", [-3_600, 3_600])
+def test_a_clock_that_is_set_loses_no_goal_and_keeps_none_of_a_server_that_has_gone(
+    jump_s: int,
+) -> None:
+    cell = Cell()
+    sent, goal = cell.send()
+    goal.accept()
+    cell.world.run(5)
+    cell.epoch.ns += jump_s * SECOND
+    cell.world.run(2_000, step_ms=5)
+    assert not sent.is_lost
+    goal.succeed()
+    cell.world.run(5)
+    assert sent.result is not None
+    lost, _ = cell.send()
+    cell.world.steps.remove(cell.server.step)
+    cell.epoch.ns += jump_s * SECOND
+    cell.world.run(3_000, step_ms=5)
+    assert not lost.is_lost
+    cell.world.run(3_000, step_ms=5)
+    assert lost.is_lost
+
+
+def test_a_controller_that_was_halted_loses_no_goal() -> None:
+    cell = Cell()
+    sent, goal = cell.send()
+    goal.accept()
+    cell.world.run(5)
+    steps = [cell.other.do_events_loop, cell.client.step]
+    cell.world.steps = [step for step in cell.world.steps if step not in steps]
+    cell.world.run(20_000, step_ms=5)
+    cell.world.steps += reversed(steps)  # the client first: what has come is not read yet
+    cell.world.run(100)
+    assert not sent.is_lost
+    goal.succeed()
+    cell.world.run(100)
+    assert sent.result is not None
