@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 FOLDER: Final = "file_devices"
 """Name of the folder beside the project."""
 
-DRIVES: Final = ("C:", "D:", "E:", "F:")
-"""What ``/DEVICE=`` of DevLink may begin with."""
+DRIVES: Final = ("C:", "D:", "E:", "F:", "USER_PATH")
+"""What ``/DEVICE=`` of DevLink may begin with; USER_PATH is the partition of the user."""
 
 _STRANGE = re.compile(r"[^\w.\- ]")
 

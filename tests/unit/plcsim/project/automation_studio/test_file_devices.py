@@ -31,4 +31,5 @@ def test_drives_are_there_too_and_what_is_named_counts_more():
     found = file_devices({"F:": "C:\\Data", "": "x"}, HERE)
     assert found["C:"] == HERE / "file_devices" / "C"
     assert found["F:"] == HERE / "file_devices" / "C" / "Data"
-    assert set(found) == {"C:", "D:", "E:", "F:"}
+    assert found["USER_PATH"] == HERE / "file_devices" / "USER_PATH"
+    assert set(found) == {"C:", "D:", "E:", "F:", "USER_PATH"}
