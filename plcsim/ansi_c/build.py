@@ -53,6 +53,7 @@ _OPTIONS = (
     *("-Xclang", "-mlong-double-64"),
     # instructions that the machine does not run, and the saturating conversions of x86
     *("-mno-bulk-memory", "-mno-nontrapping-fptoint", "-mno-reference-types", "-mno-multivalue"),
+    "-Wno-nonportable-include-path",  # headers are found in any case
     *("-nostdlibinc", "-fno-color-diagnostics", "-ferror-limit=0", "-Wno-unknown-warning-option"),
     *("-D_DEFAULT_INCLUDES", "-D_SG4", "-D_REPLACE_CONST"),
     # a jump through a table is one that the processor often takes to the wrong place first: the

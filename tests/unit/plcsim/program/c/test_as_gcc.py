@@ -8,6 +8,8 @@ from plcsim.ansi_c.toolchain import find_toolchain, system_clang, zig
 from plcsim.core.errors import ConfigurationError
 from plcsim.core.system import State
 from plcsim.machine import CodeCache
+from plcsim.project.assembly import load
+from plcsim.project.plc_toml import read_project
 
 VARIABLES = "VAR result : ARRAY[0..9] OF DINT; flag : BOOL; END_VAR"
 
@@ -123,6 +125,18 @@ def test_headers_are_found_as_windows_finds_them(results):
         "../common/more.h": "#define MORE 30\n",
     }
     assert results(files, 3) == [4, 20, 30]
+
+
+def test_a_header_in_another_case_is_nothing_to_warn_of(project):
+    files = {
+        "plc.toml": PLC % "",
+        "main/Main.c": _with_head('#include "MORE.h"\nvoid _CYCLIC run(void) { int x; MORE; }\n'),
+        "main/More.h": "#define MORE x++\n#warning seen\n",
+    }
+    application = load(read_project(project(files)))
+    (warning,) = application.warnings
+    assert "seen" in warning
+    application.unload()
 
 
 def test_a_header_that_is_not_there_is_told_where_it_is_included(run):
