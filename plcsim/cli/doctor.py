@@ -145,6 +145,8 @@ def _facts(host: Host, rights: Rights) -> Iterator[tuple[str, str]]:
         yield "measured on", f"CPU {host.cpu}; cpu = {host.cpu} in plc.toml lets a scan run there"
     yield "governor", ", ".join(host.governors) or "none (frequencies are not scaled here)"
     yield "machine", f"guest of {host.hypervisor}" if host.hypervisor else "real hardware"
+    if host.hypervisor:
+        yield "its standstills", "told apart" if host.tells_standstills else "taken for the program"
     yield "container", "yes" if host.container else "no"
     quota = host.quota_percent
     yield "CPU quota", "none" if quota is None else f"{quota} % of one CPU"

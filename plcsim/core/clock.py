@@ -10,9 +10,12 @@ from __future__ import annotations
 
 import time
 from resource import RUSAGE_THREAD, getrusage
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from plcsim.core.control import AS_FAST_AS_POSSIBLE, REAL_TIME
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 LONGEST_SLEEP_NS = 100_000_000
 """A sleep is cut into pieces of this length, so that a stop request is seen in time."""
@@ -47,13 +50,19 @@ class Clock(Protocol):
 
 
 class MonotonicClock:
-    """CLOCK_MONOTONIC: never set, not in steps when the host's wall clock is."""
+    """CLOCK_MONOTONIC: never set, not in steps when the host's wall clock is.
+
+    Args:
+        cpu_ns: tells the CPU time of the thread that runs the scan.
+    """
 
     is_virtual = False
 
     now_ns = stamp_ns = staticmethod(time.monotonic_ns)
     unix_ns = staticmethod(time.time_ns)
-    cpu_ns = staticmethod(time.thread_time_ns)
+
+    def __init__(self, cpu_ns: Callable[[], int] = time.thread_time_ns) -> None:
+        self.cpu_ns = cpu_ns
 
     def sleep_until_ns(self, until_ns: int) -> None:
         """Sleep until ``until_ns``, at most `LONGEST_SLEEP_NS`.

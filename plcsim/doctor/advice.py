@@ -60,6 +60,11 @@ def _about_rights(host: Host, rights: Rights) -> Iterator[str]:
         yield "ulimit: 'memlock unlimited' in /etc/security/limits.conf lets memory be locked"
     if "no deep sleep" in refused:
         yield "deep sleep: let your account write /dev/cpu_dma_latency (a udev rule)"
+    if host.hypervisor and not host.tells_standstills:
+        yield (
+            "standstills: time for which this virtual machine stands still is taken for the "
+            "program's; sudo sysctl kernel.perf_event_paranoid=1 lets it be told apart"
+        )
 
 
 def _about_disturbers(host: Host, *, stolen: bool) -> Iterator[str]:

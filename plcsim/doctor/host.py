@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from plcsim.host import processors
+from plcsim.host.running_time import tells_standstills
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -43,6 +44,7 @@ class Host:
         fifo_share_is_0: a cgroup of version 1 gives no time to SCHED_FIFO, whoever asks.
         rtprio_limit: RLIMIT_RTPRIO, the highest SCHED_FIFO priority without privilege, -1 for any.
         memlock_limit: RLIMIT_MEMLOCK in bytes, -1 for no limit.
+        tells_standstills: time for which the machine stands still is not taken for the program's.
         load: programs that want to run, mean of the last minute.
     """
 
@@ -61,6 +63,7 @@ class Host:
     fifo_share_is_0: bool
     rtprio_limit: int
     memlock_limit: int
+    tells_standstills: bool
     load: float
 
 
@@ -95,6 +98,7 @@ def read_host(root: Path = ROOT) -> Host:
         fifo_share_is_0=fifo_share_is_0(root),
         rtprio_limit=resource.getrlimit(resource.RLIMIT_RTPRIO)[0],
         memlock_limit=resource.getrlimit(resource.RLIMIT_MEMLOCK)[0],
+        tells_standstills=tells_standstills(),
         load=read_load(root),
     )
 

@@ -21,7 +21,7 @@ from plcsim.core.clock import MonotonicClock, VirtualClock
 from plcsim.core.errors import ConfigurationError, ExtensionError, PlcError
 from plcsim.core.logbook import Severity
 from plcsim.core.system_area import REASONS, STOPPED
-from plcsim.host import realtime
+from plcsim.host import realtime, running_time
 from plcsim.network import OsNetwork, VirtualNetwork
 from plcsim.process import printing
 from plcsim.process.operation import Operation
@@ -155,7 +155,7 @@ def main() -> int:
 
 def _run(order: RunOrder, page: _PageHeartbeat) -> dict[str, Any]:
     project = project_of(order.project_fd)
-    clock: Clock = VirtualClock() if order.virtual else MonotonicClock()
+    clock: Clock = VirtualClock() if order.virtual else MonotonicClock(running_time.cpu_time())
     network: Network = (
         VirtualNetwork(clock.now_ns).host(VIRTUAL_IP) if order.virtual else OsNetwork()
     )

@@ -57,5 +57,6 @@ def host():
         fifo_share_is_0=False,
         rtprio_limit=98,
         memlock_limit=-1,
+        tells_standstills=True,
         load=0.1,
     )

@@ -32,6 +32,13 @@ def test_without_sched_fifo_there_are_two_ways_to_it(host, punctual):
     assert "setcap cap_sys_nice=ep" in lines[1]
 
 
+def test_a_virtual_machine_whose_standstills_look_like_work_is_told(host, punctual):
+    blind = replace(host, tells_standstills=False)
+    assert advise(blind, ALL, [punctual]) == []
+    guest = replace(blind, hypervisor="KVM")
+    assert subjects(advise(guest, ALL, [punctual])) == ["standstills"]
+
+
 def test_in_a_container_the_way_through_its_runtime_comes_first(host, punctual):
     lines = advise(replace(host, container=True), NONE, [punctual])
     assert subjects(lines) == ["container", "ulimit", "setcap"]
