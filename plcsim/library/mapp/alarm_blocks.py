@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from plcsim.core.context import Context
     from plcsim.library.mapp.alarms import AlarmCore, PendingAlarm
+    from plcsim.library.mapp.configuration import AlarmConfiguration
     from plcsim.library.members import FindType
     from st_types.types.derived import StructType
 
@@ -189,18 +190,29 @@ class ListUI(AlarmBlock):
     @staticmethod
     def _show(screen: BlockVariables, index: int, pending: PendingAlarm | None) -> None:
         alarm = None if pending is None else pending.alarm
-        line: dict[str, float | str] = {
-            "Severity": 0 if alarm is None else alarm.severity,
-            "Code": 0 if alarm is None else alarm.code,
-            "Message": "" if alarm is None else alarm.message,
-            "Name": "" if alarm is None else alarm.name,
-            "InstanceID": 0 if pending is None else pending.ident,
-            "StateActive": pending is not None and pending.is_active,
-            "StateAcknowledged": pending is not None and not pending.waits_for_acknowledgement,
-            "Timestamp": "" if pending is None else date_text(pending.set_ns),
-        }
-        for name, value in line.items():
-            screen.set_element(f"AlarmList.{name}", index, value)
+        show_line(
+            screen,
+            index,
+            alarm,
+            InstanceID=0 if pending is None else pending.ident,
+            StateActive=pending is not None and pending.is_active,
+            StateAcknowledged=pending is not None and not pending.waits_for_acknowledgement,
+            Timestamp="" if pending is None else date_text(pending.set_ns),
+        )
+
+
+def show_line(
+    screen: BlockVariables, index: int, alarm: AlarmConfiguration | None, **more: float | str
+) -> None:
+    """Fill a line of an AlarmList, or empty it; ``more`` are the fields that not all lists have."""
+    line: dict[str, float | str] = {
+        "Severity": 0 if alarm is None else alarm.severity,
+        "Code": 0 if alarm is None else alarm.code,
+        "Message": "" if alarm is None else alarm.message,
+        "Name": "" if alarm is None else alarm.name,
+    }
+    for name, value in (line | more).items():
+        screen.set_element(f"AlarmList.{name}", index, value)
 
 
 def date_text(date_ns: int) -> str:

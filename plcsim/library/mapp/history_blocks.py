@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from plcsim.library.mapp.alarm_blocks import date_text
+from plcsim.library.mapp.alarm_blocks import date_text, show_line
 from plcsim.library.mapp.block import MappBlock
 from plcsim.library.mapp.errors import MISSING_UICONNECT, NO_ERROR
 from plcsim.library.mapp.links import links_of
@@ -75,17 +75,14 @@ class HistoryUI(HistoryBlock):
     @staticmethod
     def _show(screen: BlockVariables, index: int, change: StateChange | None) -> None:
         alarm = None if change is None else change.alarm
-        line: dict[str, float | str] = {
-            "Severity": 0 if alarm is None else alarm.severity,
-            "Code": 0 if alarm is None else alarm.code,
-            "Message": "" if alarm is None else alarm.message,
-            "Name": "" if alarm is None else alarm.name,
-            "OldState": 0 if change is None else change.old,
-            "NewState": 0 if change is None else change.new,
-            "Timestamp": "" if change is None else date_text(change.date_ns),
-        }
-        for name, value in line.items():
-            screen.set_element(f"AlarmList.{name}", index, value)
+        show_line(
+            screen,
+            index,
+            alarm,
+            OldState=0 if change is None else change.old,
+            NewState=0 if change is None else change.new,
+            Timestamp="" if change is None else date_text(change.date_ns),
+        )
 
 
 BLOCKS: Final[Mapping[str, type[MappBlock]]] = {
