@@ -13,6 +13,7 @@ from plcsim.core.errors import ConfigurationError
 from plcsim.core.suggestion import did_you_mean
 from plcsim.library.document import DocumentError, read_document
 from plcsim.library.library import CBuild
+from plcsim.project.automation_studio.assumed_links import assumed_links
 from plcsim.project.automation_studio.configuration import (
     IO_MAP,
     PERMANENT,
@@ -124,7 +125,9 @@ def read_automation_studio(folder: Path, configuration: str = "") -> AutomationS
     chosen = _configuration(folder, configurations, configuration, view.root)
     findings += (*view.findings, *configurations.findings)
     tasks = _tasks(chosen, view.root, findings)
-    mapp_variables, found = read_mapp_variables(chosen.folder, names) if chosen.name else ([], [])
+    mapp_variables, found = (
+        read_mapp_variables(chosen.folder, names) if chosen.name else assumed_links(logical)
+    )
     findings += found
     lines = chosen.software.data_objects
     objects, found = read_data_objects(chosen.software_file, lines, view.root, names)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from plcsim.program.structured_text.check.calls import CallChecker, Parameter
 from plcsim.program.structured_text.check.kinds import (
@@ -31,7 +31,7 @@ from plcsim.program.structured_text.check.typed import (
 )
 from plcsim.program.structured_text.codes import FindingCode
 from st_types.syntax import expressions as syntax
-from st_types.types.derived import DataBlockType, ReferenceType, Section
+from st_types.types.derived import DataBlockType, ReferenceType, Section, StructType
 
 if TYPE_CHECKING:
     from plcsim.program.structured_text.check.findings import FileFindings
@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from plcsim.program.structured_text.check.typed import Statement, Value
     from plcsim.program.structured_text.syntax.tree import BlockCall
     from st_types.syntax.expressions import Expression
+
+
+LINKS: Final = frozenset(("MpComIdentType", "McAxisType", "McAxesGroupType"))
+"""Types of what mapp's configuration makes: its blocks know it by its address, nobody by value."""
 
 
 class BlockChecker(CallChecker):
@@ -279,17 +283,30 @@ class BlockChecker(CallChecker):
         """Return ``target := value``; ``node`` is the value.
 
         An address goes into a reference itself, unless that refers to an integer of 32 bits: then
-        it goes there, as any other value does. So does 0, which is no address.
+        it goes there, as any other value does. So does 0, which is no address. A link of mapp
+        has no value that a program could copy, so one reference to a link takes what another has.
         """
         value = self.address_of_text(node, value, target.type)
         value = self.as_implementation(value, target.type)
         self._check_pointer(node, target, value)
         if isinstance(target, Target) and isinstance(target.pointer.type, ReferenceType):
+            if _is_link(target) and _is_link(value) and isinstance(value, Target):
+                return SetAddress(line, target.pointer, value.pointer)
             is_address = isinstance(value, Address) or value.type is UDINT or _is_nil(value)
             if is_address and _takes_address(target.type, value):
                 return SetAddress(line, target.pointer, value)
         self.check_fit(node, value, target.type)
         return Assign(line, target, value)
+
+
+def _is_link(value: Value) -> bool:
+    """Return whether a value is what a reference to a link of mapp leads to."""
+    return (
+        isinstance(value, Target)
+        and isinstance(value.pointer.type, ReferenceType)
+        and isinstance(value.type, StructType)
+        and value.type.name in LINKS
+    )
 
 
 def _led_to(target: Value) -> object:

@@ -84,6 +84,38 @@ def test_without_a_configuration_all_programs_run(write):
         read_automation_studio(folder, "Real")
 
 
+def test_links_that_nothing_declares_are_assumed_where_there_is_no_configuration(write):
+    files = {
+        "Logical/Package.pkg": '<P><Object Type="Program">Main</Object></P>',
+        "Logical/Main/IEC.prg": "<P/>",
+        "Logical/Main/Main.st": USES,
+        "Logical/Main/Main.var": "VAR declared : INT; END_VAR",
+    }
+    found = read_automation_studio(write(files))
+    assert [(each.name, each.data_type, each.line) for each in found.mapp_variables] == [
+        ("gCore", "MpComIdentType", 2),
+        ("gRecipe", "MpComIdentType", 3),
+        ("gAlarms", "MpComIdentType", 4),
+    ]
+    _, told = found.findings
+    assert (told.file.name, told.line, told.severity) == ("Main.st", 2, "warning")
+    assert told.message.startswith("gCore and 2 more are declared nowhere")
+
+
+def test_where_a_configuration_is_nothing_is_assumed(bottling):
+    (bottling / "Logical" / "more.st").write_text(USES)
+    found = read_automation_studio(bottling)
+    assert [each.name for each in found.mapp_variables] == ["gAlarmCore"]
+
+
+USES = """(* gComment := ADR(gComment); *)
+a.MpLink := ADR( gCore ); b.MpLink := ADR(gcore); c := ADR(declared);
+d := MpAlarmXCheckReaction(MpLink := gRecipe, Name := 'Stop'); // ADR(gLine)
+MpAlarmXSet(gAlarms, 'Hot'); e := ADR(gRead); f := gRead; g := ADR(gMember); gMember.x := 1;
+h.MpLink := other.link; i := ADR(gArray[1]);
+"""
+
+
 def test_all_that_is_wrong_is_found_in_one_go(write):
     sw = '<Sw><TaskClass Name="Cyclic#1">\n<Task Name="a" Source="A.prg"/></TaskClass></Sw>'
     folder = write(

@@ -78,6 +78,23 @@ END_PROGRAM"""
     assert running["after"] == 0
 
 
+def test_a_reference_to_a_link_of_mapp_takes_what_another_has() -> None:
+    running = run(
+        """
+TYPE MpComIdentType : STRUCT Internal : ARRAY[0..1] OF UDINT; END_STRUCT; END_TYPE
+FUNCTION_BLOCK Component
+VAR_INPUT MpLink : REFERENCE TO MpComIdentType; END_VAR
+END_FUNCTION_BLOCK
+PROGRAM _CYCLIC
+VAR gLink : MpComIdentType; a, b : Component; same : BOOL; END_VAR
+a.MpLink := ADR(gLink);
+b.MpLink := a.MpLink;
+same := ADR(b.MpLink) = ADR(gLink);
+END_PROGRAM"""
+    )
+    assert running["same"] == 1
+
+
 FUNCTIONS = """
 FUNCTION sum : DINT
 VAR_INPUT list : ARRAY[1..3] OF INT; factor : INT := 10; END_VAR
