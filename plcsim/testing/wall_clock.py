@@ -6,6 +6,7 @@ import time
 from typing import TYPE_CHECKING
 
 from plcsim.core.clock import MonotonicClock
+from plcsim.host.running_time import cpu_time
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -19,6 +20,7 @@ class WallClock(MonotonicClock):
     """
 
     def __init__(self) -> None:
+        super().__init__(cpu_time())
         self._shift_ns = 0
         self._stopped_ns: int | None = time.monotonic_ns()
 
