@@ -14,7 +14,6 @@ from plcsim.campaign.search import Falsify
 from plcsim.campaign.single_run import fresh_plc, project_of
 from plcsim.campaign.store import About, ResultStore
 from plcsim.core.errors import PlcError
-from plcsim.host.signals import remembered_interrupts
 from plcsim.project.plc_toml import read_project
 
 if TYPE_CHECKING:
@@ -108,15 +107,13 @@ def _kept(
     """Store results as they come; kill -9 loses those of `FLUSH_PERIOD_S` at most."""
     flushed_s = time.monotonic()
     try:
-        with remembered_interrupts() as check_interrupt:
-            for result in results:
-                store.add(result)
-                if time.monotonic() - flushed_s > FLUSH_PERIOD_S:
-                    store.flush()
-                    flushed_s = time.monotonic()
-                tell(result)
-                check_interrupt()  # Dask's futures have destructors, and so has pyarrow
-                yield result
+        for result in results:
+            store.add(result)
+            if time.monotonic() - flushed_s > FLUSH_PERIOD_S:
+                store.flush()
+                flushed_s = time.monotonic()
+            tell(result)
+            yield result
     finally:
         store.flush()
 

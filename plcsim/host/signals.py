@@ -10,13 +10,11 @@ from __future__ import annotations
 import ctypes
 import os
 import signal
-import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
-    from types import FrameType
+    from collections.abc import Iterable, Iterator
 
 _SIGSET_BYTES = 128
 """Size of the C library's sigset_t on Linux; signal n is bit n - 1."""
@@ -35,39 +33,6 @@ def held_back(numbers: Iterable[int]) -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-@contextmanager
-def remembered_interrupts() -> Iterator[Callable[[], None]]:
-    """Remember in the block that Ctrl-C was pressed: a KeyboardInterrupt may be lost.
-
-    It is raised wherever the main thread is, and Python drops what is raised in a destructor or in
-    a callback of the collector. Where somebody else handles the signal, or in another thread,
-    nothing is remembered.
-
-    Yields:
-        what raises KeyboardInterrupt where one should have ended the block.
-    """
-    has_come = False
-
-    def handle(_number: int, _frame: FrameType | None) -> None:
-        nonlocal has_come
-        has_come = True
-        raise KeyboardInterrupt
-
-    def check() -> None:
-        if has_come:
-            raise KeyboardInterrupt
-
-    is_main = threading.current_thread() is threading.main_thread()
-    if not is_main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        yield check
-        return
-    signal.signal(signal.SIGINT, handle)
-    try:
-        yield check
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 class HeldSignals:

@@ -59,37 +59,3 @@ def test_a_host_without_a_descriptor_left_is_an_error(monkeypatch: pytest.Monkey
     monkeypatch.setattr(signals, "_libc", Full)
     with pytest.raises(OSError, match="Too many open files"):
         signals.HeldSignals([])
-
-
-def test_an_interrupt_that_a_destructor_loses_is_remembered(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    class Result:
-        def __del__(self) -> None:
-            signal.raise_signal(signal.SIGINT)
-
-    monkeypatch.setattr(sys, "unraisablehook", lambda _lost: None)
-    with signals.remembered_interrupts() as check:
-        check()
-        Result()  # its KeyboardInterrupt is lost
-        with pytest.raises(KeyboardInterrupt):
-            check()
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
-def test_an_interrupt_anywhere_else_is_one() -> None:
-    with pytest.raises(KeyboardInterrupt), signals.remembered_interrupts():
-        signal.raise_signal(signal.SIGINT)
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
-def test_who_handles_interrupts_himself_is_left_alone() -> None:
-    came = []
-    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
-    try:
-        with signals.remembered_interrupts() as check:
-            signal.raise_signal(signal.SIGINT)
-            check()
-    finally:
-        signal.signal(signal.SIGINT, before)
-    assert came == [signal.SIGINT]
