@@ -1,3 +1,5 @@
+import shutil
+
 import pytest
 
 from plcsim.core.errors import ConfigurationError
@@ -102,9 +104,10 @@ def test_links_that_nothing_declares_are_assumed_where_there_is_no_configuration
     assert told.message.startswith("gCore and 2 more are declared nowhere")
 
 
-def test_where_a_configuration_is_nothing_is_assumed(bottling):
-    (bottling / "Logical" / "more.st").write_text(USES)
-    found = read_automation_studio(bottling)
+def test_where_a_configuration_is_nothing_is_assumed(bottling, tmp_path):
+    copy = shutil.copytree(bottling, tmp_path / "Bottling")
+    (copy / "Logical" / "more.st").write_text(USES)
+    found = read_automation_studio(copy)
     assert [each.name for each in found.mapp_variables] == ["gAlarmCore"]
 
 
