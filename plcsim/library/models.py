@@ -6,7 +6,7 @@ They find the members of a data block by name, for versions of a library differ 
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from plcsim.library.accounts import blocks as account_blocks
 from plcsim.library.archives import blocks as archive_blocks
@@ -30,22 +30,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from plcsim.core.context import Context
+    from plcsim.library.block_model import BlockModel
     from plcsim.library.members import FindType
     from st_types.types.derived import DataBlockType
 
 LANGUAGE: Final = "model"
-
-
-class BlockModel(Protocol):
-    """Runs the blocks of one type on one controller."""
-
-    def __init__(
-        self, data_type: DataBlockType[Any], context: Context, find_type: FindType, /
-    ) -> None:
-        """Make it, of the data block of the blocks; ``find_type`` finds types of the library."""
-
-    def run(self, address: int, /) -> None:
-        """Run the block whose data block lies at an address."""
 
 
 _AXIS: Final = "an axis with trapezoidal profile"

@@ -5,14 +5,13 @@ Programs call all their blocks in each cycle, and most have nothing to do.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, TypeVar
 
-from plcsim.library.members import BlockVariables, StructMembers
+from plcsim.library.block_model import BlockModel
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
-    from st_types.types.derived import StructType
+    from plcsim.library.members import BlockVariables
 
 Subject = TypeVar("Subject")
 """What the blocks of a library are about, such as an axis."""
@@ -39,27 +38,15 @@ class _SettledBlocks:
         self.by_address: dict[int, _Settled] = {}
 
 
-class SettlingBlock(Generic[Subject]):
+class SettlingBlock(BlockModel, Generic[Subject]):
     """Runs the blocks of one type on one controller.
 
-    Args:
-        data_type: their data block.
-        context: of the controller.
-        _find_type: finds the types of the library.
-
     Attributes:
-        data_type: as above.
-        context: as above.
         settles: whether a call depends on nothing but the data block and what `look` gives, and
             changes nothing else.
     """
 
     settles: ClassVar[bool] = True
-
-    def __init__(self, data_type: StructType[Any], context: Context, _find_type: FindType) -> None:
-        self.data_type = data_type
-        self.context = context
-        self._members = StructMembers(data_type)
 
     def run(self, address: int) -> None:
         """Run the block whose data block lies at an address.
@@ -86,10 +73,6 @@ class SettlingBlock(Generic[Subject]):
             settled[address] = _Settled(data, place, before)
         else:
             settled.pop(address, None)
-
-    def variables(self, address: int) -> BlockVariables:
-        """Return the values of the data block at an address."""
-        return BlockVariables(self.context.memory, self._members, address)
 
     def place(self, variables: BlockVariables) -> int:
         """Return the address that the data block names its subject with, 0 for none."""

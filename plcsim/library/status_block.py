@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from plcsim.library.members import BlockVariables, StructMembers
+from plcsim.library.block import StatusError
+from plcsim.library.block_model import BlockModel
 from plcsim.library.runtime import ERR_FUB_BUSY, ERR_FUB_ENABLE_FALSE
 
 if TYPE_CHECKING:
-    from plcsim.core.context import Context
-    from plcsim.library.members import FindType
-    from st_types.types.derived import StructType
+    from plcsim.library.members import BlockVariables
 
 
-class StatusBlock:
-    """Runs the blocks of one type on one controller: each is done in its call.
-
-    Args:
-        data_type: their data block.
-        context: of the controller.
-        find_type: finds the types of the library.
-
-    Attributes:
-        context: as above.
-    """
-
-    def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
-        self.context = context
-        self._find_type = find_type
-        self._members = StructMembers(data_type)
+class StatusBlock(BlockModel):
+    """Runs the blocks of one type on one controller: each is done in its call."""
 
     def run(self, address: int) -> None:
         """Run the block whose data block lies at an address.
@@ -36,17 +21,22 @@ class StatusBlock:
         Raises:
             PageFault: an address in it is wild.
         """
-        variables = BlockVariables(self.context.memory, self._members, address)
+        variables = self.variables(address)
         if variables.is_true("enable"):
-            variables.set(status=self.step(variables))
+            try:
+                status = self.step(variables)
+            except StatusError as refused:
+                status = refused.status
         else:
             self.rest(variables)
-            variables.set(status=ERR_FUB_ENABLE_FALSE)
+            status = ERR_FUB_ENABLE_FALSE
+        variables.set(status=status)
 
     def step(self, variables: BlockVariables) -> int:
         """Run one call with enable TRUE; return the status.
 
         Raises:
+            StatusError: it cannot; with the status.
             PageFault: an address in the data block is wild.
         """
         raise NotImplementedError(type(self).__name__)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.block import StatusError
+
 if TYPE_CHECKING:
     from plcsim.core.context import Context
 
@@ -34,18 +36,6 @@ MOST: Final = 1_000
 
 MOST_LISTS: Final = 64
 """Lists that are kept; older ones make room."""
-
-
-class AccountError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        error_id: why.
-    """
-
-    def __init__(self, error_id: int) -> None:
-        super().__init__(error_id)
-        self.error_id = error_id
 
 
 @dataclass(slots=True)
@@ -78,7 +68,7 @@ class NameList:
         """Return the first name.
 
         Raises:
-            AccountError: it is empty.
+            StatusError: it is empty.
         """
         self._next = 0
         return self.next()
@@ -87,10 +77,10 @@ class NameList:
         """Return the next name.
 
         Raises:
-            AccountError: there is none.
+            StatusError: there is none.
         """
         if self._next >= len(self._names):
-            raise AccountError(END_OF_LIST)
+            raise StatusError(END_OF_LIST)
         self._next += 1
         return self._names[self._next - 1]
 
@@ -108,34 +98,34 @@ class Accounts:
         """Make a user or a role.
 
         Raises:
-            AccountError: there is one of this name, or there are too many.
+            StatusError: there is one of this name, or there are too many.
         """
         if not name:
-            raise AccountError(PARAMETER)
+            raise StatusError(PARAMETER)
         if name in accounts:
-            raise AccountError(ALREADY_EXISTS)
+            raise StatusError(ALREADY_EXISTS)
         if len(accounts) >= MOST:
-            raise AccountError(INTERNAL)
+            raise StatusError(INTERNAL)
         accounts[name] = Account()
 
     def of(self, kind: int, name: str) -> Account:
         """Return a user or a role by its kind and name.
 
         Raises:
-            AccountError: there is none.
+            StatusError: there is none.
         """
         accounts = {USERS: self.users, ROLES: self.roles}.get(kind)
         if accounts is None:
-            raise AccountError(PARAMETER)
+            raise StatusError(PARAMETER)
         if name not in accounts:
-            raise AccountError(DOES_NOT_EXIST)
+            raise StatusError(DOES_NOT_EXIST)
         return accounts[name]
 
     def begin_list(self, kind: int, name: str) -> int:
         """Return the handle of a list of what there is now.
 
         Raises:
-            AccountError: there is no such list, or nothing of this name.
+            StatusError: there is no such list, or nothing of this name.
         """
         names = self._names(kind, name)
         self._last += 1
@@ -155,8 +145,8 @@ class Accounts:
         """Return the list that a handle stands for.
 
         Raises:
-            AccountError: it stands for none.
+            StatusError: it stands for none.
         """
         if handle not in self._lists:
-            raise AccountError(PARAMETER)
+            raise StatusError(PARAMETER)
         return self._lists[handle]

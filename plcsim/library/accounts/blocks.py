@@ -12,10 +12,11 @@ from plcsim.library.accounts.accounts import (
     INTERNAL,
     MOST,
     USERS,
-    AccountError,
     Accounts,
 )
-from plcsim.library.members import BlockVariables, StructMembers, rises
+from plcsim.library.block import StatusError
+from plcsim.library.block_model import BlockModel
+from plcsim.library.members import BlockVariables, rises
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,26 +33,20 @@ class _Running:
         self.blocks: set[int] = set()
 
 
-class AccountBlock:
+class AccountBlock(BlockModel):
     """Runs the blocks of one type on one controller.
 
     One with an output Busy is so in the call with the rising edge of Execute, and done in the next
     one; one without is done at once. Done and Error stay while Execute is TRUE.
-
-    Args:
-        data_type: their data block.
-        context: of the controller.
-        _find_type: finds the types of the library.
     """
 
-    def __init__(self, data_type: StructType[Any], context: Context, _find_type: FindType) -> None:
-        self.context = context
-        self._members = StructMembers(data_type)
+    def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
+        super().__init__(data_type, context, find_type)
         self._is_delayed = self._members.find("Busy") is not None
 
     def run(self, address: int) -> None:
         """Run the block whose data block lies at an address."""
-        variables = BlockVariables(self.context.memory, self._members, address)
+        variables = self.variables(address)
         running = self.context.library(_Running).blocks
         is_edge = rises(self.context, address, variables, "Execute")
         if is_edge and self._is_delayed:
@@ -67,15 +62,15 @@ class AccountBlock:
         error_id = 0
         try:
             self.act(variables, self.context.library(Accounts))
-        except AccountError as refused:
-            error_id = refused.error_id
+        except StatusError as refused:
+            error_id = refused.status
         variables.set(Busy=False, Done=not error_id, Error=error_id != 0, ErrorID=error_id)
 
     def act(self, variables: BlockVariables, accounts: Accounts) -> None:
         """Do what the block is for.
 
         Raises:
-            AccountError: it cannot.
+            StatusError: it cannot.
         """
         raise NotImplementedError(type(self).__name__)
 
@@ -142,7 +137,7 @@ class ReleaseRole(AccountBlock):
         """Release it."""
         user, role = accounts.of(USERS, variables.own_text("UserName")), _role(variables)
         if role not in user.roles:
-            raise AccountError(DOES_NOT_EXIST)
+            raise StatusError(DOES_NOT_EXIST)
         del user.roles[role]
 
 
@@ -194,7 +189,7 @@ class SetProperty(AccountBlock):
         properties = _properties(variables, accounts)
         name = variables.own_text("PropertyName")
         if name not in properties and len(properties) >= MOST:
-            raise AccountError(INTERNAL)
+            raise StatusError(INTERNAL)
         properties[name] = variables.own_text("PropertyValue")
 
 
@@ -205,7 +200,7 @@ class GetProperty(AccountBlock):
         """Give it."""
         found = _properties(variables, accounts).get(variables.own_text("PropertyName"))
         if found is None:
-            raise AccountError(DOES_NOT_EXIST)
+            raise StatusError(DOES_NOT_EXIST)
         variables.set(PropertyValue=found)
 
 

@@ -13,6 +13,7 @@ import zlib
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.block import StatusError
 from plcsim.library.fileio.interface import fiERR_FILE_DEVICE
 from plcsim.library.fileio.volumes import FileRefusedError, Volumes
 from plcsim.library.runtime import ERR_OK
@@ -37,48 +38,33 @@ FILE_WRITE_ERROR: Final = 38066
 _FULL: Final = frozenset([errno.ENOSPC, errno.EDQUOT])
 
 
-class ArchiveError(Exception):
-    """A block cannot do what it is asked for.
-
-    Attributes:
-        status: why.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
-
-
 class _ArchiveBlock(DelayedBlock):
     """A block with an archive, and a file or a folder."""
 
     def act(self, variables: BlockVariables) -> int:
         """Do it; return the status."""
-        try:
-            archive = self._path(variables, "pArchiveDevice", "pArchiveFile")
-            with _host():
-                self.work(variables, archive)
-        except ArchiveError as refused:
-            return refused.status
+        archive = self._path(variables, "pArchiveDevice", "pArchiveFile")
+        with _host():
+            self.work(variables, archive)
         return ERR_OK
 
     def work(self, variables: BlockVariables, archive: Path) -> None:
         """Make or read the archive.
 
         Raises:
-            ArchiveError: it cannot be.
+            StatusError: it cannot be.
         """
         raise NotImplementedError(type(self).__name__)
 
     def _path(self, variables: BlockVariables, device: str, file: str) -> Path:
         p_device, p_file = variables.address(device), variables.address(file)
         if not (p_device and p_file):
-            raise ArchiveError(NULLPOINTER)
+            raise StatusError(NULLPOINTER)
         try:
             return self.context.library(Volumes).path(p_device, p_file)
         except FileRefusedError as refused:
             is_device = refused.status == fiERR_FILE_DEVICE
-            raise ArchiveError(INVALID_DEVICE if is_device else FILE_NOT_FOUND) from None
+            raise StatusError(INVALID_DEVICE if is_device else FILE_NOT_FOUND) from None
 
 
 class Archive(_ArchiveBlock):
@@ -88,12 +74,12 @@ class Archive(_ArchiveBlock):
         """Pack a file, or a folder with what is in it."""
         source = self._path(variables, "pSrcDevice", "pSrcFile")
         if not source.exists():
-            raise ArchiveError(FILE_NOT_FOUND)
+            raise StatusError(FILE_NOT_FOUND)
         if _is_tar(archive):
             with tarfile.open(archive, "w:gz" if _is_packed(archive) else "w") as made:
                 made.add(source, source.name)
         elif not _is_packed(archive) or source.is_dir():
-            raise ArchiveError(UNSUPPORTED_EXTENSION)
+            raise StatusError(UNSUPPORTED_EXTENSION)
         else:
             with source.open("rb") as data, gzip.open(archive, "wb") as packed:
                 shutil.copyfileobj(data, packed)
@@ -107,7 +93,7 @@ class Extract(_ArchiveBlock):
         """Unpack it; the folder is made where it is not there."""
         folder = self._path(variables, "pOutDevice", "pOutFolder")
         if not archive.is_file():
-            raise ArchiveError(FILE_NOT_FOUND)
+            raise StatusError(FILE_NOT_FOUND)
         folder.mkdir(parents=True, exist_ok=True)
         if _is_tar(archive):
             with tarfile.open(archive) as found:
@@ -116,7 +102,7 @@ class Extract(_ArchiveBlock):
             with gzip.open(archive) as data, (folder / archive.stem).open("wb") as made:
                 shutil.copyfileobj(data, made)
         else:
-            raise ArchiveError(UNSUPPORTED_EXTENSION)
+            raise StatusError(UNSUPPORTED_EXTENSION)
 
 
 def _is_packed(archive: Path) -> bool:
@@ -129,13 +115,13 @@ def _is_tar(archive: Path) -> bool:
 
 @contextmanager
 def _host() -> Iterator[None]:
-    """Raise what the host refuses as an `ArchiveError`."""
+    """Raise what the host refuses as a `StatusError`."""
     try:
         yield
     except (tarfile.TarError, gzip.BadGzipFile, zlib.error, EOFError):
-        raise ArchiveError(INTERNAL_ERROR) from None
+        raise StatusError(INTERNAL_ERROR) from None
     except OSError as err:
-        raise ArchiveError(SPACE if err.errno in _FULL else FILE_WRITE_ERROR) from None
+        raise StatusError(SPACE if err.errno in _FULL else FILE_WRITE_ERROR) from None
 
 
 BLOCKS: Final[Mapping[str, type[StatusBlock]]] = {"zipArchive": Archive, "zipExtract": Extract}

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from plcsim.library.astime.structures import NS_PER_SECOND
-from plcsim.library.members import BlockVariables, StructMembers
+from plcsim.library.block_model import BlockModel
 from plcsim.library.runtime import ERR_FUB_ENABLE_FALSE, ERR_OK
 
 if TYPE_CHECKING:
     from plcsim.core.context import Context
-    from plcsim.library.members import FindType
-    from st_types.types.derived import StructType
+    from plcsim.library.members import BlockVariables
 
 LCR_ERR_LCRPID_PAR_KP: Final = 12026
 LCR_ERR_LCRPID_PAR_TF: Final = 12028
@@ -67,28 +66,17 @@ class LoopStates:
         self.by_block: dict[int, LoopState] = {}
 
 
-class LoopBlock:
+class LoopBlock(BlockModel):
     """Runs the blocks of one type on one controller.
 
     With enable FALSE a block forgets what it kept, its outputs are 0 and its status is
     ERR_FUB_ENABLE_FALSE.
 
-    Args:
-        data_type: their data block.
-        context: of the controller.
-        find_type: finds the types of the library.
-
     Attributes:
-        context: as above.
         outputs: that are 0 with enable FALSE.
     """
 
     outputs: ClassVar[tuple[str, ...]] = ("y",)
-
-    def __init__(self, data_type: StructType[Any], context: Context, find_type: FindType) -> None:
-        self.context = context
-        self._find_type = find_type
-        self._members = StructMembers(data_type)
 
     def run(self, address: int) -> None:
         """Run the block whose data block lies at an address.
@@ -96,7 +84,7 @@ class LoopBlock:
         Raises:
             PageFault: an address in it is wild.
         """
-        variables = BlockVariables(self.context.memory, self._members, address)
+        variables = self.variables(address)
         states = self.context.library(LoopStates).by_block
         if not self.is_enabled(variables):
             states.pop(address, None)

@@ -11,10 +11,11 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from plcsim.library.block import StatusError
 from plcsim.library.fileio.volumes import Volumes
 from plcsim.library.mapp.block import MappBlock
 from plcsim.library.mapp.errors import FILE_WITHOUT_UICONNECT
-from plcsim.library.mapp.file_view import FileCommandError, FileView
+from plcsim.library.mapp.file_view import FileView
 from plcsim.library.members import BlockVariables, ReferredStructure, StructMembers, rises
 from st_types.types.derived import StructType
 
@@ -135,7 +136,7 @@ class FileManagerUI(MappBlock):
         try:
             _do(command, view, selected, connect.own_text("File.NewName"))
             view.refresh()
-        except FileCommandError as refused:
+        except StatusError as refused:
             screen.status = refused.status
         screen.turn(command, size)
         self._show(screen, connect, size)
@@ -185,7 +186,7 @@ def _do(command: str, view: FileView, selected: list[DirectoryEntry], name: str)
     """Do a command.
 
     Raises:
-        FileCommandError: it cannot be done.
+        StatusError: it cannot be done.
     """
     match command.rpartition(".")[2]:
         case "EnterFolder":

@@ -7,6 +7,7 @@ import shutil
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
+from plcsim.library.block import StatusError
 from plcsim.library.fileio.directories import entries_of
 from plcsim.library.fileio.volumes import FileRefusedError, Volumes, inside
 from plcsim.library.mapp.errors import (
@@ -25,18 +26,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from plcsim.library.fileio.volumes import DirectoryEntry
-
-
-class FileCommandError(Exception):
-    """A command of the operator cannot be done.
-
-    Attributes:
-        status: why.
-    """
-
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = status
 
 
 class FileView:
@@ -67,20 +56,20 @@ class FileView:
         """Return the host's path of the folder.
 
         Raises:
-            FileCommandError: there is no such device.
+            StatusError: there is no such device.
             FileRefusedError: it leads out of the device.
         """
         names = self._volumes.device_names
         root = None if self.device >= len(names) else self._volumes.folder(names[self.device])
         if root is None:
-            raise FileCommandError(INVALID_FILE_DEVICE)
+            raise StatusError(INVALID_FILE_DEVICE)
         return inside(root, b"/".join(self._parts))
 
     def refresh(self) -> None:
         """Read the entries.
 
         Raises:
-            FileCommandError: they cannot be read.
+            StatusError: they cannot be read.
         """
         self.entries = []
         with _file_system():
@@ -95,11 +84,11 @@ class FileView:
         """Show the first folder that is selected.
 
         Raises:
-            FileCommandError: none is.
+            StatusError: none is.
         """
         name = next((each.name for each in selected if each.is_directory), None)
         if name is None:
-            raise FileCommandError(NOTHING_SELECTED)
+            raise StatusError(NOTHING_SELECTED)
         self._parts.append(name)
 
     def leave(self) -> None:
@@ -110,7 +99,7 @@ class FileView:
         """Make a folder.
 
         Raises:
-            FileCommandError: it is there, or cannot be made.
+            StatusError: it is there, or cannot be made.
         """
         with _file_system():
             self._named(name).mkdir()
@@ -119,19 +108,19 @@ class FileView:
         """Rename what is selected first.
 
         Raises:
-            FileCommandError: nothing is, or the new name is taken, or none.
+            StatusError: nothing is, or the new name is taken, or none.
         """
         source, target = self._paths(selected)[0], self._named(name)
         with _file_system():
             if target.exists():
-                raise FileCommandError(INVALID_NAME)
+                raise StatusError(INVALID_NAME)
             source.rename(target)
 
     def delete(self, selected: list[DirectoryEntry]) -> None:
         """Delete what is selected.
 
         Raises:
-            FileCommandError: nothing is, or it cannot be.
+            StatusError: nothing is, or it cannot be.
         """
         for path in self._paths(selected):
             with _file_system():
@@ -144,7 +133,7 @@ class FileView:
         """Keep what is selected for `paste`, which deletes what is cut here.
 
         Raises:
-            FileCommandError: nothing is selected.
+            StatusError: nothing is selected.
         """
         self._clipboard, self._is_cut = self._paths(selected), is_cut
 
@@ -152,10 +141,10 @@ class FileView:
         """Put what was taken into this folder; files of the same names are overwritten.
 
         Raises:
-            FileCommandError: nothing was taken, or it cannot be put here.
+            StatusError: nothing was taken, or it cannot be put here.
         """
         if not self._clipboard:
-            raise FileCommandError(NOTHING_TO_PASTE)
+            raise StatusError(NOTHING_TO_PASTE)
         for source in self._clipboard:
             with _file_system():
                 self._put(source, self._folder() / source.name)
@@ -164,9 +153,9 @@ class FileView:
 
     def _put(self, source: Path, target: Path) -> None:
         if target.is_relative_to(source):
-            raise FileCommandError(PASTE_NOT_ALLOWED)
+            raise StatusError(PASTE_NOT_ALLOWED)
         if target.is_dir():
-            raise FileCommandError(DIR_ALREADY_EXISTS)
+            raise StatusError(DIR_ALREADY_EXISTS)
         if self._is_cut:
             shutil.move(source, target)
         elif source.is_dir():
@@ -178,7 +167,7 @@ class FileView:
     def _paths(self, selected: list[DirectoryEntry]) -> list[Path]:
         """Return where what is selected lies; it is not empty."""
         if not selected:
-            raise FileCommandError(NOTHING_SELECTED)
+            raise StatusError(NOTHING_SELECTED)
         with _file_system():
             folder = self._folder()
             return [inside(folder, each.name) for each in selected]
@@ -186,9 +175,9 @@ class FileView:
     def _named(self, name: str) -> Path:
         """Return where something of a new name lies."""
         if not name:
-            raise FileCommandError(NAME_EMPTY)
+            raise StatusError(NAME_EMPTY)
         if name in _NO_NAMES or set(name) & _SEPARATORS:
-            raise FileCommandError(INVALID_NAME)
+            raise StatusError(INVALID_NAME)
         with _file_system():
             return inside(self._folder(), os.fsencode(name))
 
@@ -199,10 +188,10 @@ _SEPARATORS: Final = frozenset("/\\")
 
 @contextmanager
 def _file_system() -> Iterator[None]:
-    """Raise what the host refuses as a `FileCommandError`."""
+    """Raise what the host refuses as a `StatusError`."""
     try:
         yield
     except FileExistsError:
-        raise FileCommandError(DIR_ALREADY_EXISTS) from None
+        raise StatusError(DIR_ALREADY_EXISTS) from None
     except (OSError, shutil.Error, FileRefusedError):
-        raise FileCommandError(FILE_SYSTEM) from None
+        raise StatusError(FILE_SYSTEM) from None

@@ -63,10 +63,10 @@ def test_a_standstill_counts_for_two_beats_at_most(machine, told):
 
 def test_a_thread_that_computes_hears_beats_and_one_that_sleeps_does_not():
     beats = running_time._beats_of_this_thread()
-    if beats is None:
+    if beats is None:  # an ordinary user, or a container: there is no timer to be heard
         pytest.skip("the kernel does not let its timer be watched")
     first = beats()
-    time.sleep(0.02)
+    time.sleep(0.02)  # what is tested: the timer must not run meanwhile
     assert beats() - first <= 2  # what is left of a beat before and behind the sleep
     until_ns = time.thread_time_ns() + 5_000 * MS
     while beats() < first + 20:
